@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include "qwsm/geometry/angle.hpp"
+
+namespace qwsm {
+
+/// A rigid motion of the plane, SE(2). `T_a_b` is the pose of frame b in frame a; it maps
+/// coordinates in b to coordinates in a: `p_a = T_a_b * p_b`.
+struct Pose2 {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double theta_rad = 0.0;  ///< Counter-clockwise, in (-pi, pi].
+
+  Eigen::Vector2d translation_m() const { return {x_m, y_m}; }
+  Eigen::Matrix2d Rotation() const;
+  Pose2 Inverse() const;
+
+  friend bool operator==(const Pose2&, const Pose2&) = default;
+};
+
+/// T_a_c = T_a_b * T_b_c.
+Pose2 operator*(const Pose2& T_a_b, const Pose2& T_b_c);
+
+/// p_a = T_a_b * p_b, in metres.
+Eigen::Vector2d operator*(const Pose2& T_a_b, const Eigen::Vector2d& p_b_m);
+
+/// Whether all three numbers are finite.
+bool IsFinite(const Pose2& pose);
+
+/// A pose and how far it may be from the truth.
+///
+/// `covariance` is of (x, y, theta) in m^2, m rad and rad^2, the translation along the axes of the
+/// parent frame a, the rotation about the origin of b.
+struct UncertainPose2 {
+  Pose2 T_a_b;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+};
+
+/// Composes two poses with independent errors, to first order (Smith & Cheeseman 1986).
+UncertainPose2 operator*(const UncertainPose2& a_b, const UncertainPose2& b_c);
+
+}  // namespace qwsm

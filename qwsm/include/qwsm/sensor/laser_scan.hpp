@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <vector>
+
+#include "qwsm/geometry/pose2.hpp"
+
+namespace qwsm {
+
+/// Time since the epoch of whoever measured. Nanoseconds hold a log's microseconds exactly.
+using Timestamp = std::chrono::nanoseconds;
+
+/// Where the beams of a scan point. Single precision, as sensors and sensor_msgs/LaserScan have it,
+/// so that a scan survives the wire bit for bit.
+struct LaserGeometry {
+  float first_bearing_rad = 0.0F;  ///< Of beam 0 in the laser frame.
+  float bearing_step_rad = 0.0F;   ///< Between beams; negative for a scanner that turns clockwise.
+  float range_min_m = 0.0F;        ///< Readings below are too near to be trusted.
+  float range_max_m = 0.0F;        ///< Readings near it and beyond mean "no echo"; see StateOf().
+  Pose2 T_robot_laser;
+
+  double Bearing(std::size_t beam) const {
+    return static_cast<double>(first_bearing_rad) +
+           static_cast<double>(beam) * static_cast<double>(bearing_step_rad);
+  }
+
+  friend bool operator==(const LaserGeometry&, const LaserGeometry&) = default;
+};
+
+/// What one reading says.
+enum class BeamState {
+  kHit,      ///< A surface was measured.
+  kMiss,     ///< No echo within the range: the way is free, how far is not known.
+  kTooNear,  ///< Below the range minimum: dust, the robot itself, or a failed reading.
+  kInvalid,  ///< Not a number.
+};
+
+/// One sweep of a planar laser.
+struct LaserScan {
+  Timestamp stamp{};
+  LaserGeometry geometry;
+  std::vector<float> ranges_m;  ///< One reading per beam, in the order of the bearings.
+
+  std::size_t size() const { return ranges_m.size(); }
+};
+
+/// A reading at this share of the maximum range or above is a miss: scanners report "no echo" as a
+/// value near their maximum, not as the maximum itself.
+inline constexpr float kMissShareOfMaximum = 0.97F;
+
+BeamState StateOf(float range_m, const LaserGeometry& geometry);
+
+}  // namespace qwsm

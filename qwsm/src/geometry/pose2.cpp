@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "qwsm/geometry/pose2.hpp"
+
+#include <cmath>
+
+namespace qwsm {
+
+Eigen::Matrix2d Pose2::Rotation() const {
+  const double c = std::cos(theta_rad);
+  const double s = std::sin(theta_rad);
+  return Eigen::Matrix2d{{c, -s}, {s, c}};
+}
+
+Pose2 Pose2::Inverse() const {
+  const double c = std::cos(theta_rad);
+  const double s = std::sin(theta_rad);
+  return {-c * x_m - s * y_m, s * x_m - c * y_m, NormalizeAngle(-theta_rad)};
+}
+
+Pose2 operator*(const Pose2& T_a_b, const Pose2& T_b_c) {
+  const Eigen::Vector2d p_a_c = T_a_b * T_b_c.translation_m();
+  return {p_a_c.x(), p_a_c.y(), NormalizeAngle(T_a_b.theta_rad + T_b_c.theta_rad)};
+}
+
+Eigen::Vector2d operator*(const Pose2& T_a_b, const Eigen::Vector2d& p_b_m) {
+  const double c = std::cos(T_a_b.theta_rad);
+  const double s = std::sin(T_a_b.theta_rad);
+  return {T_a_b.x_m + c * p_b_m.x() - s * p_b_m.y(), T_a_b.y_m + s * p_b_m.x() + c * p_b_m.y()};
+}
+
+bool IsFinite(const Pose2& pose) {
+  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.theta_rad);
+}
+
+UncertainPose2 operator*(const UncertainPose2& a_b, const UncertainPose2& b_c) {
+  const Eigen::Matrix2d R_a_b = a_b.T_a_b.Rotation();
+  const Eigen::Vector2d arm_a = R_a_b * b_c.T_a_b.translation_m();
+  Eigen::Matrix3d J_ab = Eigen::Matrix3d::Identity();
+  J_ab(0, 2) = -arm_a.y();
+  J_ab(1, 2) = arm_a.x();
+  Eigen::Matrix3d J_bc = Eigen::Matrix3d::Identity();
+  J_bc.topLeftCorner<2, 2>() = R_a_b;
+  return {.T_a_b = a_b.T_a_b * b_c.T_a_b,
+          .covariance = J_ab * a_b.covariance * J_ab.transpose() +
+                        J_bc * b_c.covariance * J_bc.transpose()};
+}
+
+}  // namespace qwsm
