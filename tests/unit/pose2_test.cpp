@@ -36,7 +36,9 @@ TEST(Pose2, ObeysTheGroupLaws) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> position_m(-1e3, 1e3);
   std::uniform_real_distribution<double> heading_rad(-kPi, kPi);
-  const auto draw = [&] { return Pose2{position_m(random), position_m(random), heading_rad(random)}; };
+  const auto draw = [&] {
+    return Pose2{position_m(random), position_m(random), heading_rad(random)};
+  };
   for (int seed = 0; seed < 100; ++seed) {
     SCOPED_TRACE(seed);
     const Pose2 a = draw();

@@ -42,8 +42,8 @@ UncertainPose2 operator*(const UncertainPose2& a_b, const UncertainPose2& b_c) {
   Eigen::Matrix3d J_bc = Eigen::Matrix3d::Identity();
   J_bc.topLeftCorner<2, 2>() = R_a_b;
   return {.T_a_b = a_b.T_a_b * b_c.T_a_b,
-          .covariance = J_ab * a_b.covariance * J_ab.transpose() +
-                        J_bc * b_c.covariance * J_bc.transpose()};
+          .covariance =
+              J_ab * a_b.covariance * J_ab.transpose() + J_bc * b_c.covariance * J_bc.transpose()};
 }
 
 }  // namespace qwsm

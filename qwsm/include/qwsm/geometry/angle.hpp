@@ -7,7 +7,8 @@
 
 namespace qwsm {
 
-/// The angle in (-pi, pi] that points where `angle_rad` points. Differences of angles go through here.
+/// The angle in (-pi, pi] that points where `angle_rad` points. Differences of angles go through
+/// here.
 inline double NormalizeAngle(double angle_rad) {
   if (angle_rad > -std::numbers::pi && angle_rad <= std::numbers::pi) return angle_rad;
   const double wrapped_rad = std::remainder(angle_rad, 2.0 * std::numbers::pi);
