@@ -1,0 +1,52 @@
+# SPDX-FileCopyrightText: 2026 the Q-WSM developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every header compiles alone.
+
+A header that some source includes first is proven by the build. The others are compiled here.
+"""
+
+import json
+import pathlib
+import shlex
+import subprocess
+
+from layers import INCLUDE
+from tree import Finding
+
+
+def check_standalone_headers(tree, build):
+    """Every header compiles without anything included before it."""
+    commands = json.loads((pathlib.Path(build) / "compile_commands.json").read_text())
+    proven = {first_include(tree, path) for path in tree.with_suffix(".cpp")}
+    for path in tree.with_suffix(".hpp"):
+        if path.split("/include/")[-1] in proven:
+            continue
+        command = syntax_check(commands, tree.root / path)
+        run = subprocess.run(command, cwd=build, capture_output=True, text=True)
+        if run.returncode != 0:
+            yield Finding(path, 1, "does not compile alone:\n" + run.stderr.strip())
+
+
+def first_include(tree, path):
+    includes = (INCLUDE.match(line) for line in tree.lines(path))
+    return next((include[1] for include in includes if include), None)
+
+
+def syntax_check(commands, header):
+    """The command of the source nearest to `header`, changed to parse the header only."""
+    nearest = max(commands, key=lambda entry: len(common(pathlib.Path(entry["file"]), header)))
+    words = shlex.split(nearest["command"])
+    kept = [word for word in words if word.startswith(("-I", "-D", "-std", "-W"))]
+    systems = [word for flag in zip(words, words[1:]) if flag[0] == "-isystem" for word in flag]
+    includer = ["-include", str(header), "-x", "c++", "/dev/null"]
+    return [compiler(words), *kept, *systems, "-fsyntax-only", *includer]
+
+
+def compiler(words):
+    """The compiler of a command line, which may begin with a launcher such as ccache."""
+    return next(word for word in words[:2] if not word.endswith("ccache"))
+
+
+def common(a, b):
+    parts = zip(a.parts, b.parts)
+    return [left for left, right in parts if left == right]
