@@ -7,6 +7,7 @@ import argparse
 import pathlib
 import sys
 
+import documents
 import headers
 import layers
 import sources
@@ -20,6 +21,7 @@ CHECKS = {
     "paths": sources.check_paths,
     "scripts": sources.check_scripts,
     "build": sources.check_build,
+    "links": documents.check_links,
     "standalone_headers": headers.check_standalone_headers,
 }
 NEEDS_BUILD = {"standalone_headers"}

@@ -6,6 +6,7 @@ import pathlib
 import tempfile
 import unittest
 
+import documents
 import layers
 import sources
 from tree import Tree
@@ -93,6 +94,10 @@ class Files(unittest.TestCase):
         files = {"x/CMakeLists.txt": "add_library(x a.cpp)\n", "x/a.cpp": "", "x/b.cpp": ""}
         self.assertEqual(findings(sources.check_build, files),
                          ["x/b.cpp:1: stands in no CMakeLists.txt above it"])
+
+    def test_a_link_to_nowhere_is_found(self):
+        files = {"a.md": "[b](b.md#the-end) [c](c.md) [d](#d)\n", "b.md": "# Start\n## The end\n"}
+        self.assertEqual(len(findings(documents.check_links, files)), 2)
 
 
 if __name__ == "__main__":
