@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "qwsm/geometry/pose2.hpp"
+#include "qwsm/sensor/laser_scan.hpp"
+
+namespace qwsm::io {
+
+/// More readings than this in one sweep are a mistake of the file.
+inline constexpr std::size_t kMaxReadings = 100'000;
+
+/// What is wrong with a line of text.
+enum class FieldFault {
+  kEndsEarly,
+  kNotANumber,
+  kNotFinite,
+  kBadCount,
+  kBadStamp,
+  kBadGeometry,
+  kSurplus,
+  kTooLong,
+  kNotText,
+  kOddReadings,  ///< The only one that leaves the line usable.
+};
+
+/// The cause and its remedy, to follow "FLASER: ".
+std::string_view Explain(FieldFault fault);
+
+/// Reads the fields of one line from left to right.
+///
+/// Like a stream it remembers its first failure: what is read after that is zero, so that a parser
+/// reads straight on and asks for `fault()` once, at the end.
+class FieldReader {
+ public:
+  explicit FieldReader(std::string_view text) : text_(text) {}
+
+  /// The next field; empty at the end, which is no failure.
+  std::string_view Word();
+  /// The next field as a finite number.
+  double Number();
+  /// The next field as a whole number from `least` to kMaxReadings.
+  std::size_t Count(std::size_t least);
+  /// The next three fields as x, y (metres) and theta (radians).
+  Pose2 Pose();
+  /// The next field as seconds since the epoch, exact to the nanosecond.
+  Timestamp Stamp();
+  /// The next `count` fields as ranges in metres; `others` fields follow each and are read over.
+  std::vector<float> Ranges(std::size_t count, std::size_t others = 0);
+  void Skip(std::size_t words);
+  /// Fails where fields are left.
+  void ExpectEnd();
+  /// Fails for a reason the caller knows.
+  void Fail(FieldFault fault);
+
+  bool AtEnd();
+  std::size_t WordsLeft() const;
+  const std::optional<FieldFault>& fault() const { return fault_; }
+  /// Whether a range was negative or not finite.
+  bool odd_readings() const { return odd_readings_; }
+
+ private:
+  template <class Value>
+  Value Parse();
+
+  std::string_view text_;
+  std::optional<FieldFault> fault_;
+  bool odd_readings_ = false;
+};
+
+/// Decimal seconds, without rounding through a double; nothing where that is no time since an
+/// epoch.
+std::optional<Timestamp> ParseStamp(std::string_view seconds);
+
+/// A number and nothing else; a leading plus is allowed.
+std::optional<double> ParseNumber(std::string_view text);
+
+}  // namespace qwsm::io

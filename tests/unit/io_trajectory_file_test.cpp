@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <sstream>
+#include <string>
+
+#include "service/io/trajectory_file.hpp"
+
+namespace qwsm::io {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(TumTrajectory, IsWrittenWithNineDecimalsOfTime) {
+  std::ostringstream stream;
+  WriteTumLine(stream, {.stamp = 976052857337531001ns, .T_map_robot = {1.5, -0.1, 0.0}});
+  EXPECT_EQ(stream.str(), "976052857.337531001 1.5 -0.1 0 0 0 0 1\n");
+}
+
+TEST(TumTrajectory, ReadsBackWhatItWrote) {
+  const StampedPose2 pose{.stamp = 1000000000000000007ns,
+                          .T_map_robot = {1.0 / 3.0, -2e-17, -3.0001}};
+  std::stringstream stream;
+  WriteTumLine(stream, pose);
+  const Trajectory trajectory = ReadTum(stream, "test.tum");
+  ASSERT_EQ(trajectory.size(), 1U);
+  EXPECT_EQ(trajectory[0].stamp, pose.stamp);
+  EXPECT_EQ(trajectory[0].T_map_robot.x_m, pose.T_map_robot.x_m);
+  EXPECT_EQ(trajectory[0].T_map_robot.y_m, pose.T_map_robot.y_m);
+  EXPECT_NEAR(trajectory[0].T_map_robot.theta_rad, pose.T_map_robot.theta_rad, 1e-15);
+}
+
+TEST(TumTrajectory, TakesTheYawOfAPoseInSpace) {
+  // Yaw of 90 degrees, then a roll of 90 degrees.
+  std::istringstream stream("1 0 0 5 0.5 0.5 0.5 0.5\n");
+  EXPECT_NEAR(ReadTum(stream, "test.tum").at(0).T_map_robot.theta_rad, 1.5707963, 1e-6);
+}
+
+TEST(TumTrajectory, NamesTheLineThatIsNoPose) {
+  std::istringstream stream("# t x y z qx qy qz qw\n\n1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0\n");
+  try {
+    ReadTum(stream, "test.tum");
+    FAIL() << "did not throw";
+  } catch (const std::runtime_error& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("test.tum:4: the line ends early"));
+  }
+}
+
+}  // namespace
+}  // namespace qwsm::io
