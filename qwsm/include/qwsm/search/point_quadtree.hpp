@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "qwsm/search/cell_quadtree.hpp"
+#include "qwsm/search/merge_ledger.hpp"
+#include "qwsm/search/quadtree_traversal.hpp"
+#include "qwsm/search/search_cursor.hpp"
+
+namespace qwsm {
+
+struct PointQuadtreeOptions {
+  double cell_size_m = 0.001;
+};
+
+template <class Visitor>
+void Describe(Visitor& visit, PointQuadtreeOptions& o) {
+  visit(
+      "cell_size_m",
+      o.cell_size_m,
+      {.help = "side of the smallest cell; points in one cell are merged", .min = 1e-5, .max = 1});
+}
+
+using ScanId = std::uint32_t;
+
+/// Answer to a search.
+struct Neighbor {
+  PointId id = 0;
+  double distance_m2 = 0.0;  ///< Squared.
+  Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
+};
+
+struct PointQuadtreeStatistics {
+  std::size_t points = 0;
+  std::size_t merged_points = 0;  ///< Points that stand for more than one insertion.
+  std::size_t nodes = 0;          ///< Inner nodes and leaves.
+  std::size_t leaves = 0;
+  int depth = 0;          ///< Nodes from the root to the deepest leaf, both counted.
+  std::size_t bytes = 0;  ///< All memory held.
+};
+
+/// Points of the plane, found by place: the map that Visser et al. (2009, section 3) match scans
+/// to. A point-region quadtree (Samet 1984) over cells of a millimetre.
+///
+/// Points of one cell are merged to their mean. Positions are kept to 1/1024 cell however far from
+/// the origin, unlike in floats. The root is no larger than the points need, and doubles when one
+/// falls outside. Leaves hold up to 20 points in four cache lines (quadtree_layout.hpp).
+///
+/// Cost: insertion and search O(depth), and depth grows with the logarithm of extent over spacing.
+/// Insertion never moves what is stored, so there are no pauses. 50 - 60 bytes per point;
+/// measured by point_quadtree_bench. Const members may run on several threads at once.
+class PointQuadtree {
+ public:
+  struct Insertion {
+    PointId id = 0;
+    bool merged = false;  ///< The point was added to one already stored in its cell.
+  };
+
+  /// @throws std::invalid_argument if the cell size is not positive and finite.
+  explicit PointQuadtree(const PointQuadtreeOptions& options = {});
+
+  /// Adds a point. Refused with nothing returned and nothing changed: a point that is not finite,
+  /// or not within 1.4e9 cells (1431 km at a millimetre), by x and by y, of the first point stored.
+  std::optional<Insertion> Insert(const Eigen::Vector2d& p_m, ScanId scan);
+
+  /// Takes out what a scan contributed: its own points, and its share of merged ones.
+  /// @return how many insertions were undone. Cost: one pass over all points, for they are not
+  /// listed by scan.
+  std::size_t RemoveScan(ScanId scan);
+
+  bool Contains(PointId id) const;
+  /// The mean of the merged points. @pre Contains(id), here and below.
+  Eigen::Vector2d Position(PointId id) const;
+  /// How many points were merged.
+  std::uint32_t Count(PointId id) const;
+  /// The oldest contributor.
+  ScanId Scan(PointId id) const;
+
+  /// The nearest point not farther than `max_distance_m`; exact.
+  std::optional<Neighbor> Nearest(const Eigen::Vector2d& query_m, double max_distance_m) const;
+
+  /// The same, with the same distance, but quicker if the cursor comes from a search nearby. A
+  /// cursor from another tree, or from before a change of this one, is noticed and starts afresh.
+  std::optional<Neighbor> Nearest(const Eigen::Vector2d& query_m,
+                                  double max_distance_m,
+                                  SearchCursor& cursor) const;
+
+  /// The `k` nearest points not farther than `max_distance_m`, nearest first, replacing `out`.
+  void KNearest(const Eigen::Vector2d& query_m,
+                std::size_t k,
+                double max_distance_m,
+                std::vector<Neighbor>& out) const;
+
+  /// Calls visit(PointId, Eigen::Vector2d position_m) for the points not farther than `radius_m`,
+  /// in no particular order.
+  template <class Visit>
+  void ForEachInRadius(const Eigen::Vector2d& center_m, double radius_m, Visit visit) const;
+
+  /// Calls visit(PointId, Eigen::Vector2d position_m) for the points in the box, border included,
+  /// in no particular order.
+  template <class Visit>
+  void ForEachInBox(const Eigen::AlignedBox2d& box_m, Visit visit) const;
+
+  std::size_t size() const { return points_.size(); }
+  bool empty() const { return size() == 0; }
+  /// One more than the largest id ever given: the size of arrays indexed by id.
+  PointId id_end() const { return points_.end(); }
+  const PointQuadtreeOptions& options() const { return options_; }
+  /// Cost: linear in the nodes.
+  PointQuadtreeStatistics Statistics() const;
+
+ private:
+  /// A stored point by its id: what searches do not need.
+  struct Record {
+    quadtree::FixedPoint position;
+    ScanId scan = 0;
+    std::uint32_t account = kNotStored;  ///< In the ledger; quadtree::kNoIndex for a single point.
+  };
+  static constexpr std::uint32_t kNotStored = quadtree::kNoIndex - 1;
+
+  // Positions: metres outside, units from the corner of the largest square inside.
+  quadtree::UnitPoint ToUnits(const Eigen::Vector2d& p_m) const;
+  double ToUnits(double distance_m) const;
+  Eigen::Vector2d ToMetres(const quadtree::UnitPoint& p) const;
+  std::optional<quadtree::FixedPoint> Locate(const Eigen::Vector2d& p_m) const;
+  bool CenterOn(const Eigen::Vector2d& p_m);
+  Neighbor ToNeighbor(PointId id, double distance2, const quadtree::UnitPoint& p) const;
+
+  void Merge(PointId id, const quadtree::FixedPoint& p, ScanId scan);
+  void MoveToMean(Record& record);
+  std::size_t Withdraw(PointId id, ScanId scan);
+  void Remove(PointId id);
+
+  PointQuadtreeOptions options_;
+  double cells_per_metre_;
+  double origin_x_cells_ = 0.0;  ///< Corner of the largest square; whole numbers.
+  double origin_y_cells_ = 0.0;
+  quadtree::CellQuadtree tree_;
+  PagedPool<Record, 10> points_;
+  quadtree::MergeLedger ledger_;
+  quadtree::Revision revision_;
+};
+
+template <class Visit>
+void PointQuadtree::ForEachInRadius(const Eigen::Vector2d& center_m,
+                                    double radius_m,
+                                    Visit visit) const {
+  const quadtree::UnitPoint center = ToUnits(center_m);
+  const double radius = ToUnits(radius_m);
+  if (!(radius >= 0.0) || !quadtree::IsFinite(center)) return;
+  const auto visit_point = [&](PointId id, const quadtree::UnitPoint& p) {
+    visit(id, ToMetres(p));
+  };
+  quadtree::Disk disk(tree_, center, radius, visit_point);
+  quadtree::Traversal(tree_, center, disk).Run(tree_.root());
+}
+
+template <class Visit>
+void PointQuadtree::ForEachInBox(const Eigen::AlignedBox2d& box_m, Visit visit) const {
+  if (box_m.isEmpty()) return;
+  const quadtree::UnitPoint low = ToUnits(Eigen::Vector2d(box_m.min()));
+  const quadtree::UnitPoint high = ToUnits(Eigen::Vector2d(box_m.max()));
+  const auto visit_point = [&](PointId id, const quadtree::UnitPoint& p) {
+    visit(id, ToMetres(p));
+  };
+  quadtree::VisitBox(tree_, tree_.root(), low, high, visit_point);
+}
+
+}  // namespace qwsm

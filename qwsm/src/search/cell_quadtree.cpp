@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "qwsm/search/cell_quadtree.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace qwsm::quadtree {
+namespace {
+
+constexpr std::int32_t Offset(std::uint32_t cell, std::uint16_t fraction, std::uint32_t corner) {
+  return static_cast<std::int32_t>(((cell - corner) << kFractionBits) + fraction);
+}
+
+constexpr Cell CellOf(const Leaf& leaf, int i) {
+  const auto slot = static_cast<std::size_t>(i);
+  return {leaf.corner.x + (static_cast<std::uint32_t>(leaf.x[slot]) >> kFractionBits),
+          leaf.corner.y + (static_cast<std::uint32_t>(leaf.y[slot]) >> kFractionBits)};
+}
+
+int IndexOf(const Leaf& leaf, Cell cell) {
+  int i = 0;
+  while (i < leaf.count && CellOf(leaf, i) != cell) ++i;
+  return i;
+}
+
+void Append(Leaf& leaf, const FixedPoint& p, std::uint32_t id) {
+  assert(leaf.count < kBucketSize && leaf.square().Contains(p.cell));
+  leaf.x[leaf.count] = Offset(p.cell.x, p.fraction_x, leaf.corner.x);
+  leaf.y[leaf.count] = Offset(p.cell.y, p.fraction_y, leaf.corner.y);
+  leaf.id[leaf.count] = id;
+  ++leaf.count;
+}
+
+FixedPoint PointAt(const Leaf& leaf, int i) {
+  constexpr std::int32_t kFractionMask = (1 << kFractionBits) - 1;
+  const auto slot = static_cast<std::size_t>(i);
+  return {CellOf(leaf, i),
+          static_cast<std::uint16_t>(leaf.x[slot] & kFractionMask),
+          static_cast<std::uint16_t>(leaf.y[slot] & kFractionMask)};
+}
+
+}  // namespace
+
+std::uint32_t CellQuadtree::FindOrInsert(const FixedPoint& p, std::uint32_t id) {
+  GrowTo(p.cell);
+  std::uint32_t target = LeafFor(p.cell);
+  const Leaf& found = leaves_[target];
+  if (const int i = IndexOf(found, p.cell); i < found.count) {
+    return found.id[static_cast<std::size_t>(i)];
+  }
+  // Ends because a cell holds one point: more than kBucketSize are not in one smallest cell.
+  while (leaves_[target].count == kBucketSize) {
+    Split(target);
+    target = LeafFor(p.cell);
+  }
+  Append(leaves_[target], p, id);
+  return id;
+}
+
+void CellQuadtree::Move(const FixedPoint& p) {
+  const Slot slot = Find(p.cell);
+  Leaf& leaf = leaves_[slot.leaf];
+  leaf.x[static_cast<std::size_t>(slot.index)] = Offset(p.cell.x, p.fraction_x, leaf.corner.x);
+  leaf.y[static_cast<std::size_t>(slot.index)] = Offset(p.cell.y, p.fraction_y, leaf.corner.y);
+}
+
+void CellQuadtree::Remove(Cell cell) {
+  const Slot slot = Find(cell);
+  Leaf& leaf = leaves_[slot.leaf];
+  const auto hole = static_cast<std::size_t>(slot.index);
+  const std::size_t last = --leaf.count;
+  leaf.x[hole] = leaf.x[last];
+  leaf.y[hole] = leaf.y[last];
+  leaf.id[hole] = leaf.id[last];
+  if (leaf.count == 0) RemoveLeaf(slot.leaf);
+}
+
+std::uint32_t CellQuadtree::LeafAt(Cell cell) const {
+  if (!root_ || !root_square_.Contains(cell)) return kNoIndex;
+  NodeRef node = root_;
+  for (Square at = {cell, root_square_.level}; node && !node.is_leaf(); --at.level) {
+    node = inner_[node.index()].children[at.QuarterOf(cell)];
+  }
+  return node ? node.index() : kNoIndex;
+}
+
+CellQuadtree::Subtree CellQuadtree::Ancestor(std::uint32_t leaf, int level) const {
+  const Leaf& start = leaves_[leaf];
+  if (level >= root_square_.level) return root();
+  if (level <= start.level) return {NodeRef::Leaf(leaf), start.square()};
+  std::uint32_t node = start.parent;
+  for (int at = start.level + 1; at < level; ++at) node = inner_[node].parent;
+  return {NodeRef::Inner(node), start.square().AtLevel(level)};
+}
+
+int CellQuadtree::Depth() const { return DepthOf(root_); }
+
+int CellQuadtree::DepthOf(NodeRef node) const {
+  if (!node) return 0;
+  int below = 0;
+  if (!node.is_leaf()) {
+    for (const NodeRef child : inner_[node.index()].children) {
+      below = std::max(below, DepthOf(child));
+    }
+  }
+  return 1 + below;
+}
+
+CellQuadtree::Slot CellQuadtree::Find(Cell cell) const {
+  const std::uint32_t leaf = LeafAt(cell);
+  assert(leaf != kNoIndex);
+  const int i = IndexOf(leaves_[leaf], cell);
+  assert(i < leaves_[leaf].count);
+  return {leaf, i};
+}
+
+/// Doubles the root until it contains the cell. The first root is the first cell.
+void CellQuadtree::GrowTo(Cell cell) {
+  if (!root_) {
+    root_square_ = {cell, 0};
+    root_ = MakeNode(root_square_, kNoIndex);
+  }
+  while (!root_square_.Contains(cell)) {
+    if (root_.is_leaf() && root_square_.level < kMaxLeafLevel) {
+      EnlargeRootLeaf();
+      continue;
+    }
+    const Square old_square = root_square_;
+    const NodeRef old_root = root_;
+    root_square_ = old_square.AtLevel(old_square.level + 1);
+    root_ = NodeRef::Inner(inner_.Add({}));
+    inner_[root_.index()].children[root_square_.QuarterOf(old_square.corner)] = old_root;
+    if (old_root.is_leaf()) {
+      leaves_[old_root.index()].parent = root_.index();
+    } else {
+      inner_[old_root.index()].parent = root_.index();
+    }
+  }
+}
+
+/// A root that is a leaf needs no inner nodes above it to grow.
+void CellQuadtree::EnlargeRootLeaf() {
+  Leaf old = leaves_[root_.index()];
+  root_square_ = root_square_.AtLevel(root_square_.level + 1);
+  Leaf& enlarged = leaves_[root_.index()];
+  enlarged.corner = root_square_.corner;
+  enlarged.level = static_cast<std::uint16_t>(root_square_.level);
+  enlarged.count = 0;
+  for (int i = 0; i < old.count; ++i) {
+    Append(enlarged, PointAt(old, i), old.id[static_cast<std::size_t>(i)]);
+  }
+}
+
+NodeRef CellQuadtree::MakeNode(const Square& square, std::uint32_t parent) {
+  if (square.level > kMaxLeafLevel)
+    return NodeRef::Inner(inner_.Add({.children = {}, .parent = parent}));
+  return NodeRef::Leaf(leaves_.Add({.corner = square.corner,
+                                    .parent = parent,
+                                    .level = static_cast<std::uint16_t>(square.level)}));
+}
+
+/// The leaf whose square holds the cell, made if there is none. @pre the root contains the cell
+std::uint32_t CellQuadtree::LeafFor(Cell cell) {
+  NodeRef node = root_;
+  Square square = root_square_;
+  while (!node.is_leaf()) {
+    const std::uint32_t parent = node.index();
+    const unsigned quarter = square.QuarterOf(cell);
+    square = square.Quarter(quarter);
+    node = inner_[parent].children[quarter];
+    if (!node) {
+      node = MakeNode(square, parent);
+      inner_[parent].children[quarter] = node;
+    }
+  }
+  return node.index();
+}
+
+/// Puts an inner node with up to four leaves in the place of a leaf.
+void CellQuadtree::Split(std::uint32_t leaf) {
+  const Leaf old = leaves_[leaf];
+  assert(old.level > 0);
+  leaves_.Free(leaf);
+  const std::uint32_t node = inner_.Add({.children = {}, .parent = old.parent});
+  LinkTo(old.parent, old.corner, old.level) = NodeRef::Inner(node);
+  for (int i = 0; i < old.count; ++i) {
+    const FixedPoint p = PointAt(old, i);
+    const unsigned quarter = old.square().QuarterOf(p.cell);
+    NodeRef& child = inner_[node].children[quarter];
+    if (!child) child = MakeNode(old.square().Quarter(quarter), node);
+    Append(leaves_[child.index()], p, old.id[static_cast<std::size_t>(i)]);
+  }
+}
+
+void CellQuadtree::RemoveLeaf(std::uint32_t leaf) {
+  const Cell corner = leaves_[leaf].corner;
+  int level = leaves_[leaf].level;
+  std::uint32_t parent = leaves_[leaf].parent;
+  leaves_.Free(leaf);
+  LinkTo(parent, corner, level) = NodeRef();
+  const auto has_child = [](NodeRef child) { return static_cast<bool>(child); };
+  while (parent != kNoIndex && std::ranges::none_of(inner_[parent].children, has_child)) {
+    ++level;
+    const std::uint32_t childless = parent;
+    parent = inner_[childless].parent;
+    inner_.Free(childless);
+    LinkTo(parent, corner, level) = NodeRef();
+  }
+}
+
+/// What refers to the node of `level` that holds `cell`: its parent's link, or the root.
+NodeRef& CellQuadtree::LinkTo(std::uint32_t parent, Cell cell, int level) {
+  if (parent == kNoIndex) return root_;
+  return inner_[parent].children[Square{cell, level + 1}.QuarterOf(cell)];
+}
+
+}  // namespace qwsm::quadtree

@@ -1,0 +1,252 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "qwsm/search/point_quadtree.hpp"
+
+namespace qwsm {
+
+using quadtree::Cell;
+using quadtree::CellQuadtree;
+using quadtree::kNoIndex;
+using quadtree::kUnitsPerCell;
+using quadtree::Leaf;
+using quadtree::Square;
+using quadtree::Traversal;
+using quadtree::UnitPoint;
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double Distance2(const UnitPoint& a, const UnitPoint& b) {
+  const double dx = a.x - b.x;
+  const double dy = a.y - b.y;
+  return dx * dx + dy * dy;
+}
+
+/// The smallest cell of a position; the one at the edge for positions outside the largest square.
+Cell CellAt(const UnitPoint& p) {
+  const auto clamp = [](double units) {
+    return static_cast<std::uint32_t>(std::clamp(units / kUnitsPerCell, 0.0, 4294967295.0));
+  };
+  return {clamp(p.x), clamp(p.y)};
+}
+
+/// The ball about the query that shrinks to the nearest point, and what is known about all others.
+class NearestBall {
+ public:
+  NearestBall(const CellQuadtree& tree, const UnitPoint& center, double radius)
+      : tree_(tree), center_(center), radius2_(std::nextafter(radius * radius, kInfinity)) {}
+
+  bool Reaches(double distance2) {
+    if (distance2 < radius2_) return true;
+    NoteOtherLeafAt(distance2);
+    return false;
+  }
+
+  void Visit(std::uint32_t leaf_index) {
+    if (leaf_index == first_leaf_) return;
+    if (first_leaf_ == kNoIndex) first_leaf_ = leaf_index;
+    const Leaf& leaf = tree_.leaf(leaf_index);
+    double nearest2 = kInfinity;
+    double second2 = kInfinity;
+    int nearest = 0;
+    for (int i = 0; i < leaf.count; ++i) {
+      const double distance2 = Distance2(quadtree::PositionAt(leaf, i), center_);
+      second2 = std::min(second2, std::max(nearest2, distance2));
+      if (distance2 < nearest2) nearest = i;
+      nearest2 = std::min(nearest2, distance2);
+    }
+    if (nearest2 >= radius2_) return NoteOtherLeafAt(nearest2);
+    if (found()) NoteOtherLeafAt(radius2_);
+    radius2_ = nearest2;
+    second2_ = second2;
+    leaf_ = leaf_index;
+    slot_ = nearest;
+  }
+
+  /// No point of a leaf other than that of the nearest point is nearer.
+  void NoteOtherLeafAt(double distance2) { other_leaf2_ = std::min(other_leaf2_, distance2); }
+
+  bool found() const { return leaf_ != kNoIndex; }
+  double radius2() const { return radius2_; }
+  const UnitPoint& center() const { return center_; }
+  std::uint32_t leaf() const { return leaf_; }
+  PointId id() const { return tree_.leaf(leaf_).id[static_cast<std::size_t>(slot_)]; }
+  UnitPoint position() const { return quadtree::PositionAt(tree_.leaf(leaf_), slot_); }
+  double clearance_of_leaf() const { return std::sqrt(other_leaf2_); }
+  double clearance_of_point() const { return std::sqrt(std::min(other_leaf2_, second2_)); }
+
+ private:
+  const CellQuadtree& tree_;
+  const UnitPoint center_;
+  double radius2_;  ///< Only points nearer than this count.
+  double second2_ = kInfinity;
+  double other_leaf2_ = kInfinity;
+  std::uint32_t first_leaf_ = kNoIndex;
+  std::uint32_t leaf_ = kNoIndex;
+  int slot_ = 0;
+};
+
+/// The ball about the query that shrinks to the k-th nearest point. The points found are kept as a
+/// heap, the farthest in front, in units rather than metres.
+class KNearestBall {
+ public:
+  KNearestBall(const CellQuadtree& tree,
+               const UnitPoint& center,
+               double radius,
+               std::size_t k,
+               std::vector<Neighbor>& heap)
+      : tree_(tree),
+        center_(center),
+        radius2_(std::nextafter(radius * radius, kInfinity)),
+        k_(k),
+        heap_(heap) {}
+
+  bool Reaches(double distance2) const { return distance2 < radius2_; }
+
+  void Visit(std::uint32_t leaf_index) {
+    const Leaf& leaf = tree_.leaf(leaf_index);
+    for (int i = 0; i < leaf.count; ++i) {
+      const UnitPoint p = quadtree::PositionAt(leaf, i);
+      const double distance2 = Distance2(p, center_);
+      if (distance2 < radius2_) {
+        Add({.id = leaf.id[static_cast<std::size_t>(i)],
+             .distance_m2 = distance2,
+             .position_m = {p.x, p.y}});
+      }
+    }
+  }
+
+ private:
+  void Add(const Neighbor& neighbor) {
+    if (heap_.size() == k_) {
+      std::ranges::pop_heap(heap_, {}, &Neighbor::distance_m2);
+      heap_.pop_back();
+    }
+    heap_.push_back(neighbor);
+    std::ranges::push_heap(heap_, {}, &Neighbor::distance_m2);
+    if (heap_.size() == k_) radius2_ = heap_.front().distance_m2;
+  }
+
+  const CellQuadtree& tree_;
+  const UnitPoint center_;
+  double radius2_;
+  const std::size_t k_;
+  std::vector<Neighbor>& heap_;
+};
+
+/// The smallest node around a leaf and a ball, or else the root: the ball-within-bounds test of
+/// Nuechter et al. (2007, section 4.1), for all levels at once. Squares are aligned to their size,
+/// so the bits in which the corners of the ball's box differ tell the level.
+CellQuadtree::Subtree SmallestAround(const CellQuadtree& tree,
+                                     std::uint32_t leaf,
+                                     const NearestBall& ball) {
+  const double radius = std::sqrt(ball.radius2());
+  const Cell low = CellAt({ball.center().x - radius, ball.center().y - radius});
+  const Cell high = CellAt({ball.center().x + radius, ball.center().y + radius});
+  const Cell inside = tree.leaf(leaf).corner;
+  const std::uint32_t differing =
+      (low.x ^ inside.x) | (high.x ^ inside.x) | (low.y ^ inside.y) | (high.y ^ inside.y);
+  return tree.Ancestor(leaf, std::bit_width(differing));
+}
+
+double DistanceToBorder(const Square& square, const UnitPoint& p) {
+  const double side = static_cast<double>(square.side()) * kUnitsPerCell;
+  const double x = p.x - square.corner.x * kUnitsPerCell;
+  const double y = p.y - square.corner.y * kUnitsPerCell;
+  return std::max(0.0, std::min({x, side - x, y, side - y}));
+}
+
+/// Bottom-up search: `leaf` makes the ball small, then the smallest node around it is searched.
+void SearchUpFrom(const CellQuadtree& tree, std::uint32_t leaf, NearestBall& ball) {
+  CellQuadtree::Subtree around = tree.root();
+  if (leaf != kNoIndex) {
+    ball.Visit(leaf);
+    around = SmallestAround(tree, leaf, ball);
+    if (around.square.level < tree.root().square.level) {
+      const double border = DistanceToBorder(around.square, ball.center());
+      ball.NoteOtherLeafAt(border * border);
+    }
+  }
+  Traversal(tree, ball.center(), ball).Run(around);
+}
+
+/// Triangle inequality: all other points were at least `clearance` away from where the query was,
+/// so they are at least `clearance - moved` away now. Whether a point at `distance2` is nearer.
+bool IsNearerThanOthers(double distance2, double moved2, double clearance) {
+  // sqrt(distance2) + sqrt(moved2) <= clearance, without the roots and safe against rounding.
+  const double slack = clearance * clearance * (1.0 - 1e-12) - distance2 - moved2;
+  return slack >= 0.0 && slack * slack >= 4.0 * distance2 * moved2;
+}
+
+}  // namespace
+
+std::optional<Neighbor> PointQuadtree::Nearest(const Eigen::Vector2d& query_m,
+                                               double max_distance_m) const {
+  const UnitPoint query = ToUnits(query_m);
+  if (!(max_distance_m >= 0.0) || !quadtree::IsFinite(query)) return std::nullopt;
+  NearestBall ball(tree_, query, ToUnits(max_distance_m));
+  SearchUpFrom(tree_, tree_.LeafAt(CellAt(query)), ball);
+  if (!ball.found()) return std::nullopt;
+  return ToNeighbor(ball.id(), ball.radius2(), ball.position());
+}
+
+std::optional<Neighbor> PointQuadtree::Nearest(const Eigen::Vector2d& query_m,
+                                               double max_distance_m,
+                                               SearchCursor& cursor) const {
+  const UnitPoint query = ToUnits(query_m);
+  if (!(max_distance_m >= 0.0) || !quadtree::IsFinite(query)) return std::nullopt;
+  const double max_distance = ToUnits(max_distance_m);
+  if (cursor.revision != revision_.value()) cursor = SearchCursor();
+
+  if (cursor.leaf != kNoIndex) {
+    const double distance2 = Distance2(cursor.neighbor, query);
+    const double moved2 = Distance2(cursor.query, query);
+    if (IsNearerThanOthers(distance2, moved2, cursor.clearance_of_point)) {
+      if (distance2 > max_distance * max_distance) return std::nullopt;
+      return ToNeighbor(cursor.id, distance2, cursor.neighbor);
+    }
+  }
+  NearestBall ball(tree_, query, max_distance);
+  SearchUpFrom(tree_, cursor.leaf != kNoIndex ? cursor.leaf : tree_.LeafAt(CellAt(query)), ball);
+  cursor.revision = revision_.value();
+  cursor.leaf = ball.leaf();
+  cursor.query = query;
+  cursor.clearance_of_leaf = ball.clearance_of_leaf();
+  cursor.clearance_of_point = ball.clearance_of_point();
+  if (!ball.found()) return std::nullopt;
+  cursor.id = ball.id();
+  cursor.neighbor = ball.position();
+  return ToNeighbor(cursor.id, ball.radius2(), cursor.neighbor);
+}
+
+void PointQuadtree::KNearest(const Eigen::Vector2d& query_m,
+                             std::size_t k,
+                             double max_distance_m,
+                             std::vector<Neighbor>& out) const {
+  out.clear();
+  const UnitPoint query = ToUnits(query_m);
+  if (k == 0 || !(max_distance_m >= 0.0) || !quadtree::IsFinite(query)) return;
+  KNearestBall ball(tree_, query, ToUnits(max_distance_m), k, out);
+  Traversal(tree_, query, ball).Run(tree_.root());
+  std::ranges::sort_heap(out, {}, &Neighbor::distance_m2);
+  for (Neighbor& neighbor : out) {
+    neighbor = ToNeighbor(
+        neighbor.id, neighbor.distance_m2, {neighbor.position_m.x(), neighbor.position_m.y()});
+  }
+}
+
+Neighbor PointQuadtree::ToNeighbor(PointId id, double distance2, const UnitPoint& p) const {
+  const double metres_per_unit = options_.cell_size_m / kUnitsPerCell;
+  return {.id = id,
+          .distance_m2 = distance2 * metres_per_unit * metres_per_unit,
+          .position_m = ToMetres(p)};
+}
+
+}  // namespace qwsm
