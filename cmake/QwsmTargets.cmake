@@ -10,6 +10,8 @@ function(qwsm_target_defaults target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
   target_compile_options(${target} PRIVATE
     $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Wold-style-cast>
+    # Notes that a calling convention changed with GCC 4.6 help nobody.
+    -Wno-psabi
     # Fused multiply-adds would make results depend on the machine: a replay has to be bit-exact.
     -ffp-contract=off
     $<$<BOOL:${QWSM_WARNINGS_AS_ERRORS}>:-Werror>)
