@@ -12,6 +12,8 @@ function(qwsm_target_defaults target)
     $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Wold-style-cast>
     # Notes that a calling convention changed with GCC 4.6 help nobody.
     -Wno-psabi
+    # GCC 12 warns wrongly of `"text" + std::string` (its bug 105651).
+    $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>
     # Fused multiply-adds would make results depend on the machine: a replay has to be bit-exact.
     -ffp-contract=off
     $<$<BOOL:${QWSM_WARNINGS_AS_ERRORS}>:-Werror>)
