@@ -1,0 +1,235 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/config/loader.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include "service/config/suggestion.hpp"
+#include "service/config/value_reader.hpp"
+
+namespace qwsm::config {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kBaseKey = "base";
+constexpr std::size_t kMaxFileBytes = std::size_t{1} << 20;
+constexpr std::size_t kMaxIncludes = 16;
+
+struct FileText {
+  std::string text;
+  std::string error;  ///< Why there is no text.
+};
+
+FileText ReadWhole(const fs::path& file) {
+  std::error_code ignored;
+  if (fs::is_directory(file, ignored))
+    return {.text = {}, .error = "is a directory, not a YAML file"};
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream)
+    return {.text = {}, .error = "cannot be opened: " + std::generic_category().message(errno)};
+  std::string text(kMaxFileBytes + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (stream.bad()) return {.text = {}, .error = "cannot be read"};
+  if (text.size() > kMaxFileBytes)
+    return {.text = {}, .error = "is larger than 1 MiB; is it a YAML file?"};
+  return {.text = std::move(text), .error = {}};
+}
+
+/// The full names of all options of this name, wherever they are.
+void CollectNamesakes(const OptionGroup& group,
+                      const std::string& prefix,
+                      const std::string& name,
+                      std::vector<std::string>& keys) {
+  for (const Field& field : group.fields) {
+    if (field.name == name) keys.push_back(prefix + field.name);
+    if (const auto* nested = std::get_if<OptionGroup>(&field.value)) {
+      CollectNamesakes(*nested, prefix + field.name + ".", name, keys);
+    }
+  }
+}
+
+std::string UnknownOption(const std::string& name,
+                          const OptionGroup& group,
+                          const OptionGroup& root) {
+  const std::string suggestion = DidYouMean(name, group.Names());
+  if (!suggestion.empty()) return "unknown option" + suggestion;
+  std::vector<std::string> namesakes;
+  CollectNamesakes(root, "", name, namesakes);
+  if (namesakes.empty()) return "unknown option";
+  return "unknown option here; did you mean '" + namesakes.front() + "'?";
+}
+
+}  // namespace
+
+void Loader::ReadFile(const fs::path& file) { Include(file, {.source = file.string()}); }
+
+void Loader::Include(const fs::path& file, const Location& from) {
+  const bool is_included = !open_files_.empty();
+  const std::string who = is_included ? "'" + file.string() + "' " : std::string();
+  const fs::path canonical = fs::weakly_canonical(file);
+  const bool is_open = std::ranges::any_of(
+      open_files_, [&](const fs::path& open) { return fs::weakly_canonical(open) == canonical; });
+  if (is_open) return Report(from, std::string(kBaseKey), who + "includes itself");
+  if (open_files_.size() >= kMaxIncludes) {
+    return Report(from, std::string(kBaseKey), "more than 16 files include each other");
+  }
+  const FileText content = ReadWhole(file);
+  if (!content.error.empty()) {
+    return Report(from, is_included ? std::string(kBaseKey) : std::string(), who + content.error);
+  }
+  ReadText(content.text, file);
+}
+
+void Loader::ReadText(const std::string& text, const fs::path& name) {
+  open_files_.push_back(name);
+  sources_.push_back(name.string());
+  try {
+    ReadRoot(ParseYaml(text));
+  } catch (const YamlError& error) {
+    Report({name.string(), error.line(), error.column()}, "", error.what());
+  }
+  open_files_.pop_back();
+}
+
+void Loader::Set(const std::string& setting) {
+  const std::size_t equals = setting.find('=');
+  const std::string key = setting.substr(0, equals);
+  const Location at{.source = "--set " + key};
+  sources_.push_back(at.source);
+  if (equals == std::string::npos) return Report(at, "", "expected key=value");
+
+  OptionGroup* group = &root_;
+  std::size_t begin = 0;
+  while (true) {
+    const std::size_t dot = key.find('.', begin);
+    const std::string name = key.substr(begin, dot == std::string::npos ? dot : dot - begin);
+    Field* field = group->Find(name);
+    if (field == nullptr) return Report(at, "", UnknownOption(name, *group, root_));
+    auto* nested = std::get_if<OptionGroup>(&field->value);
+    if (dot == std::string::npos) {
+      YamlNode value;
+      value.text = setting.substr(equals + 1);
+      if (!value.text.empty()) value.kind = YamlNode::Kind::kPlain;
+      return Assign({*field, key}, value, at);
+    }
+    if (nested == nullptr)
+      return Report(at, "", "'" + key.substr(0, dot) + "' is no group of options");
+    group = nested;
+    begin = dot + 1;
+  }
+}
+
+void Loader::Finish() {
+  Check(root_, "");
+  if (problems_.empty()) return;
+  const auto rank = [this](const Problem& problem) {
+    return std::ranges::find(sources_, problem.location.source) - sources_.begin();
+  };
+  std::ranges::stable_sort(problems_, {}, [&](const Problem& problem) {
+    return std::tuple(rank(problem), problem.location.line, problem.location.column);
+  });
+  throw ConfigError(std::move(problems_));
+}
+
+void Loader::ReadRoot(const YamlNode& document) {
+  for (const YamlEntry& entry : document.entries) {
+    if (entry.key.text != kBaseKey) continue;
+    if (entry.value.text.empty()) {
+      Report(At(entry.value), std::string(kBaseKey), "expected the name of a file");
+      continue;
+    }
+    Include(open_files_.back().parent_path() / entry.value.text, At(entry.value));
+  }
+  ReadMap(document, root_, "");
+}
+
+void Loader::ReadMap(const YamlNode& map, OptionGroup& group, const std::string& prefix) {
+  if (map.kind == YamlNode::Kind::kNothing) return;
+  const std::string key = prefix.substr(0, prefix.empty() ? 0 : prefix.size() - 1);
+  if (map.kind != YamlNode::Kind::kMap) {
+    return Report(At(map), key, "expected a group of options (key: value, indented below)");
+  }
+  std::map<std::string, int> line_of;
+  for (const YamlEntry& entry : map.entries) {
+    const auto [first, is_new] = line_of.emplace(entry.key.text, entry.key.line);
+    if (is_new) {
+      ReadEntry(entry, group, prefix);
+    } else {
+      Report(At(entry.key),
+             prefix + entry.key.text,
+             "given twice; first in line " + std::to_string(first->second));
+    }
+  }
+}
+
+void Loader::ReadEntry(const YamlEntry& entry, OptionGroup& group, const std::string& prefix) {
+  const std::string& name = entry.key.text;
+  if (prefix.empty() && name == kBaseKey) return;  // Read first, in ReadRoot().
+  Field* field = group.Find(name);
+  if (field == nullptr) {
+    return Report(At(entry.key), prefix + name, UnknownOption(name, group, root_));
+  }
+  if (auto* nested = std::get_if<OptionGroup>(&field->value)) {
+    return ReadMap(entry.value, *nested, prefix + name + ".");
+  }
+  const bool has_value = entry.value.kind != YamlNode::Kind::kNothing;
+  Assign({*field, prefix + name}, entry.value, At(has_value ? entry.value : entry.key));
+}
+
+void Loader::Assign(const Slot& slot, const YamlNode& value, const Location& at) {
+  // --set names the key already.
+  const std::string shown_key = at.line > 0 ? slot.key : std::string();
+  if (std::holds_alternative<OptionGroup>(slot.field.value)) {
+    return Report(at, shown_key, "is a group of options; set one of them");
+  }
+  given_[slot.key] = at;
+  if (const std::optional<std::string> wrong = AssignValue(slot.field, value)) {
+    Report(at, shown_key, *wrong);
+  }
+}
+
+void Loader::Check(const OptionGroup& group, const std::string& prefix) {
+  for (const Field& field : group.fields) {
+    if (const auto* nested = std::get_if<OptionGroup>(&field.value)) {
+      Check(*nested, prefix + field.name + ".");
+    }
+  }
+  // Values already refused would only be refused a second time.
+  if (!group.validate || HasProblemsIn(prefix)) return;
+  group.validate([&](std::string_view field, const std::string& what) {
+    const std::string key = prefix + YamlName(field);
+    Report(WhereGiven(prefix, key), key, what);
+  });
+}
+
+bool Loader::HasProblemsIn(const std::string& prefix) const {
+  return std::ranges::any_of(problems_, [&](const Problem& problem) {
+    return problem.key.starts_with(prefix) || problem.location.line == 0;
+  });
+}
+
+Location Loader::WhereGiven(const std::string& prefix, const std::string& key) const {
+  if (const auto found = given_.find(key); found != given_.end()) return found->second;
+  // The other side of the comparison was given then.
+  const auto near = given_.lower_bound(prefix);
+  if (near != given_.end() && near->first.starts_with(prefix)) return near->second;
+  return {.source = sources_.empty() ? "defaults" : sources_.back()};
+}
+
+Location Loader::At(const YamlNode& node) const {
+  return {open_files_.back().string(), node.line, node.column};
+}
+
+void Loader::Report(const Location& at, const std::string& key, const std::string& what) {
+  problems_.push_back({at, key, what});
+}
+
+}  // namespace qwsm::config

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "service/config/option_group.hpp"
+#include "service/config/problem.hpp"
+#include "service/config/yaml_document.hpp"
+
+namespace qwsm::config {
+
+/// Fills a group from files and settings, later ones over earlier ones, collecting everything that
+/// is wrong. Nothing is thrown before Finish().
+class Loader {
+ public:
+  /// @pre `root` outlives the loader.
+  explicit Loader(OptionGroup& root) : root_(root) {}
+
+  /// A YAML file; one that begins with `base: other.yaml` is laid over that one, whose name is
+  /// relative to the file that includes it.
+  void ReadFile(const std::filesystem::path& file);
+
+  /// The same from memory; `name` stands for the file in messages.
+  void ReadText(const std::string& text, const std::filesystem::path& name);
+
+  /// `mapper.noise.range_m=0.01`, as given after --set.
+  void Set(const std::string& setting);
+
+  /// Runs the cross-field checks. @throws ConfigError naming all problems met, if any.
+  void Finish();
+
+ private:
+  struct Slot {
+    Field& field;
+    std::string key;
+  };
+
+  void Include(const std::filesystem::path& file, const Location& from);
+  void ReadRoot(const YamlNode& document);
+  void ReadMap(const YamlNode& map, OptionGroup& group, const std::string& prefix);
+  void ReadEntry(const YamlEntry& entry, OptionGroup& group, const std::string& prefix);
+  void Assign(const Slot& slot, const YamlNode& value, const Location& at);
+  void Check(const OptionGroup& group, const std::string& prefix);
+  bool HasProblemsIn(const std::string& prefix) const;
+  Location WhereGiven(const std::string& prefix, const std::string& key) const;
+  Location At(const YamlNode& node) const;
+  void Report(const Location& at, const std::string& key, const std::string& what);
+
+  OptionGroup& root_;
+  std::vector<std::filesystem::path> open_files_;  ///< The one being read is the last.
+  std::vector<std::string> sources_;               ///< In the order in which they were opened.
+  std::vector<Problem> problems_;
+  std::map<std::string, Location> given_;  ///< Where each key got its value last.
+};
+
+}  // namespace qwsm::config
