@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include "qwsm/geometry/pose2.hpp"
+
+namespace qwsm {
+
+/// Covariance of a small motion (x, y, theta) of a whole frame about its origin.
+///
+/// Poses that were displaced together, as by the drift of the map around them, share it wherever
+/// they are, whereas the covariance of each pose depends on its place.
+struct FrameCovariance {
+  Eigen::Matrix3d about_origin = Eigen::Matrix3d::Zero();
+
+  static FrameCovariance Of(const UncertainPose2& map_robot);
+  /// Covariance of (x, y, theta) of a pose at the place.
+  Eigen::Matrix3d At(const Eigen::Vector2d& p_m) const;
+  /// Variance of the position of a point at the place, in m^2: the mean over both axes.
+  double PositionVariance(const Eigen::Vector2d& p_m) const;
+};
+
+}  // namespace qwsm

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "qwsm/geometry/frame_covariance.hpp"
+#include "qwsm/mapping/relevant_scan.hpp"
+#include "qwsm/matching/surface_map.hpp"
+#include "qwsm/sensor/scan_points.hpp"
+
+namespace qwsm {
+
+/// Which points of a relevant scan are stored.
+enum class InsertionRule {
+  kEveryPoint,  ///< All of them, as in Visser et al. (2009).
+  kNewSurface,  ///< Those where older scans have not yet put enough points.
+};
+
+inline std::span<const std::pair<std::string_view, InsertionRule>> Names(InsertionRule) {
+  static constexpr std::array<std::pair<std::string_view, InsertionRule>, 2> kNames = {{
+      {"every-point", InsertionRule::kEveryPoint},
+      {"new-surface", InsertionRule::kNewSurface},
+  }};
+  return kNames;
+}
+
+struct ScanMapOptions {
+  SurfaceMapOptions surfaces;
+  InsertionRule insertion = InsertionRule::kNewSurface;
+  double crowd_radius_m = 0.05;
+  int crowd_points = 3;
+};
+
+template <class Visitor>
+void Describe(Visitor& visit, ScanMapOptions& o) {
+  visit("surfaces", o.surfaces, {.help = "the stored points and what they say about surfaces"});
+  visit("insertion", o.insertion, {.help = "which points of a relevant scan are stored"});
+  visit("crowd_radius_m",
+        o.crowd_radius_m,
+        {.help = "new-surface: a point is not stored if this near to it", .min = 0, .max = 5});
+  visit("crowd_points",
+        o.crowd_points,
+        {.help = "new-surface: ... lie this many older points", .min = 1, .max = 1000});
+}
+
+/// The union of all relevant scans: their points, searchable, and the scans themselves.
+class ScanMap {
+ public:
+  explicit ScanMap(const ScanMapOptions& options = {});
+
+  bool empty() const { return scans_.empty(); }
+  const SurfaceMap& surfaces() const { return surfaces_; }
+  std::span<const RelevantScan> scans() const { return scans_; }
+  const ScanMapOptions& options() const { return options_; }
+
+  /// Adds a relevant scan. @param points the scan's points, as ToPoints() gives them.
+  ScanId Insert(const LaserScan& scan,
+                std::span<const ScanPoint> points,
+                const UncertainPose2& map_robot);
+  /// Forgets all points, but not the scans: what follows is matched to what is inserted next.
+  void ForgetPoints();
+
+  /// How uncertain that part of the map is which the points lie on: the mean over the scans that
+  /// stored the points nearest to them. Those of the last scan if none is near.
+  FrameCovariance CovarianceAround(std::span<const Eigen::Vector2d> points_map_m,
+                                   double max_distance_m) const;
+
+ private:
+  bool IsNewSurface(const Eigen::Vector2d& p_map_m) const;
+
+  ScanMapOptions options_;
+  SurfaceMap surfaces_;
+  std::vector<RelevantScan> scans_;           // By ScanId.
+  std::vector<FrameCovariance> covariances_;  // By ScanId.
+};
+
+}  // namespace qwsm

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "qwsm/geometry/pose2.hpp"
+#include "qwsm/search/likelihood_pyramid.hpp"
+
+namespace qwsm {
+
+struct CorrelativeSearchOptions {
+  double prior_weight = 0.004;
+  double lever_m = 15.0;
+};
+
+template <class Visitor>
+void Describe(Visitor& visit, CorrelativeSearchOptions& o) {
+  visit("prior_weight",
+        o.prior_weight,
+        {.help = "share of the score that one squared sigma away from the prediction costs",
+         .min = 0,
+         .max = 1});
+  visit("lever_m",
+        o.lever_m,
+        {.help = "points further than this move by more than a cell per heading step",
+         .min = 1,
+         .max = 100});
+}
+
+/// Where to look for a pose.
+struct SearchWindow {
+  UncertainPose2 predicted;    ///< The prediction; its covariance prices the way from there.
+  double translation_m = 0.0;  ///< Half the side of the square of positions.
+  double rotation_rad = 0.0;   ///< Half the range of headings.
+  double min_score = 0.0;      ///< Poses that score no better are not found.
+  std::uint8_t max_drift_code =
+      LikelihoodPyramid::kUnmapped;  ///< Only what drifted no more counts.
+};
+
+struct FoundPose {
+  Pose2 T_map_robot;
+  double score = 0.0;  ///< Mean likelihood of the beam ends, 0..1, less the price of the way.
+};
+
+/// The best pose of a window, by branch and bound over the pyramid's levels (Olson 2009; Hess et
+/// al. 2016): exhaustive, to within a cell and the heading that moves a far point by a cell.
+///
+/// @param points_robot_m the scan's points in the robot's frame, thinned out: cost is linear in
+/// them, and crowded near surfaces would outvote the rest.
+/// @return nothing if no pose of the window scores above `window.min_score`.
+std::optional<FoundPose> SearchPose(const LikelihoodPyramid& map,
+                                    std::span<const Eigen::Vector2d> points_robot_m,
+                                    const SearchWindow& window,
+                                    const CorrelativeSearchOptions& options);
+
+}  // namespace qwsm

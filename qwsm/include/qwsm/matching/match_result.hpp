@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <string_view>
+#include <vector>
+
+#include "qwsm/geometry/pose2.hpp"
+
+namespace qwsm {
+
+/// Why a match ended.
+enum class MatchStatus {
+  kConverged,
+  kIterationLimit,  ///< The steps were still longer than the tolerance.
+  kTooFewPairs,     ///< The scan and the reference have next to nothing in common.
+  kDegenerate,      ///< Neither the pairs nor the prior tell the pose in some direction.
+  kInconsistent,    ///< The best pose contradicts the prior, or too few points agree with it.
+};
+
+std::string_view Name(MatchStatus status);
+
+/// What a match found. `T_ref_cur` is the best pose so far, whatever the status.
+struct [[nodiscard]] MatchResult {
+  MatchStatus status = MatchStatus::kTooFewPairs;
+  Pose2 T_ref_cur;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Of (x, y, theta), prior included.
+  Eigen::Matrix3d information =
+      Eigen::Matrix3d::Zero();  ///< Of the pairs alone, as if independent.
+  int iterations = 0;
+  int pairs = 0;
+  double mean_residual_m = 0.0;  ///< Mean distance of a point to its nearest stored point.
+  double overlap = 0.0;          ///< Share of the scan's points that agree with the reference.
+};
+
+/// One line per iteration, for whoever wants to watch a match.
+struct MatchIteration {
+  Pose2 T_ref_cur;
+  int pairs = 0;
+  double mean_residual_m = 0.0;
+  double max_pair_distance_m = 0.0;
+};
+using MatchTrace = std::vector<MatchIteration>;
+
+}  // namespace qwsm

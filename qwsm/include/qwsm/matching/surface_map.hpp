@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "qwsm/search/likelihood_pyramid.hpp"
+#include "qwsm/search/point_quadtree.hpp"
+
+namespace qwsm {
+
+struct SurfaceMapOptions {
+  PointQuadtreeOptions quadtree;
+  LikelihoodPyramidOptions likelihood;
+  double neighborhood_radius_m = 0.15;
+  int min_neighbors = 4;
+  double max_line_aspect = 0.3;
+};
+
+template <class Visitor>
+void Describe(Visitor& visit, SurfaceMapOptions& o) {
+  visit("quadtree", o.quadtree, {.help = "the index of all stored points"});
+  visit("likelihood", o.likelihood, {.help = "the coarse levels that wide searches use"});
+  visit("neighborhood_radius_m",
+        o.neighborhood_radius_m,
+        {.help = "stored points this near describe the surface at a point", .min = 0.01, .max = 5});
+  visit("min_neighbors",
+        o.min_neighbors,
+        {.help = "with fewer points around, the scan's own normal is used", .min = 2, .max = 1000});
+  visit(
+      "max_line_aspect",
+      o.max_line_aspect,
+      {.help = "a neighbourhood is a line below this ratio of its variances", .min = 0, .max = 1});
+}
+
+/// A point to be stored.
+struct MapPoint {
+  Eigen::Vector2d p_map_m = Eigen::Vector2d::Zero();
+  Eigen::Vector2d normal_map = Eigen::Vector2d::Zero();  ///< Zero where the scan shows no line.
+  double drift_m2 = 0.0;  ///< Variance of its position owing to the pose it was seen from.
+};
+
+/// The local distribution of stored points around one of them.
+///
+/// A new point is compared with this distribution rather than with the single nearest sample:
+/// along a line the nearest sample says nothing, across it the mean is better than any one of them.
+struct Surface {
+  Eigen::Vector2d mean_m = Eigen::Vector2d::Zero();
+  Eigen::Vector2d normal = Eigen::Vector2d::Zero();  ///< Unit vector; meaningful for a line only.
+  double across_m2 = 0.0;  ///< Variance along the normal; for no line, the mean of both variances.
+  bool is_line = false;
+};
+
+/// What scans are matched against: points in a quadtree, each with the moments of its
+/// neighbourhood, kept up to date as points come and go.
+///
+/// Const members may be called from several threads at once.
+class SurfaceMap {
+ public:
+  explicit SurfaceMap(const SurfaceMapOptions& options = {});
+
+  /// Stores a point. Complexity: logarithmic, plus linear in the points of the neighbourhood.
+  /// @return false if the quadtree refused it, being not finite or too far away.
+  bool Insert(const MapPoint& point, ScanId scan);
+  /// Takes out what a scan contributed. Complexity: linear in the map.
+  void RemoveScan(ScanId scan);
+
+  bool empty() const { return quadtree_.empty(); }
+  const PointQuadtree& quadtree() const { return quadtree_; }
+  const LikelihoodPyramid& likelihood() const { return likelihood_; }
+  /// @pre quadtree().Contains(id), here and below.
+  Surface SurfaceAt(PointId id) const;
+  double Drift_m2(PointId id) const { return static_cast<double>(neighborhoods_[id].drift_m2); }
+  /// The normal a point was stored with; zero if none.
+  Eigen::Vector2d OwnNormal(PointId id) const;
+
+ private:
+  // Moments of the stored points within the neighbourhood radius, relative to the point itself.
+  struct Neighborhood {
+    float sum_x = 0.0F;
+    float sum_y = 0.0F;
+    float sum_xx = 0.0F;
+    float sum_xy = 0.0F;
+    float sum_yy = 0.0F;
+    std::uint32_t count = 1;
+    float own_normal_rad = 0.0F;  // NaN where the scan showed no line.
+    float drift_m2 = 0.0F;
+
+    void Add(const Eigen::Vector2d& offset_m);
+  };
+
+  void GatherNeighbors(PointId id);
+
+  SurfaceMapOptions options_;
+  PointQuadtree quadtree_;
+  LikelihoodPyramid likelihood_;
+  std::vector<Neighborhood> neighborhoods_;  // By PointId.
+};
+
+}  // namespace qwsm

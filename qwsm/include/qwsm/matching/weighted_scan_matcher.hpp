@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <limits>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "qwsm/matching/match_result.hpp"
+#include "qwsm/matching/surface_map.hpp"
+#include "qwsm/sensor/range_noise.hpp"
+#include "qwsm/sensor/scan_points.hpp"
+
+namespace qwsm {
+
+/// How much a pair counts.
+enum class PairWeighting {
+  kModelled,  ///< By the inverse of its modelled errors (Pfister et al. 2002).
+  kIdentity,  ///< All the same: plain point-to-point ICP.
+};
+
+struct WeightedScanMatcherOptions {
+  RangeNoise noise;
+  PairWeighting weighting = PairWeighting::kModelled;
+  int max_iterations = 30;
+  double translation_tolerance_m = 3e-4;
+  double rotation_tolerance_rad = 1e-4;
+  double pair_distance_m = 0.1;
+  double annealing_factor = 0.6;
+  double outlier_sigmas = 4.0;
+  double small_object_m = 0.05;
+  double correlated_points = 3.0;
+  int min_pairs = 10;
+  double max_sigma_m = 2.0;
+};
+
+template <class Visitor>
+void Describe(Visitor& visit, WeightedScanMatcherOptions& o) {
+  visit("noise", o.noise, {.help = "the laser's errors"});
+  visit("max_iterations",
+        o.max_iterations,
+        {.help = "upper bound on iterations", .min = 1, .max = 1000});
+  visit("translation_tolerance_m",
+        o.translation_tolerance_m,
+        {.help = "converged when a step is shorter", .min = 1e-9, .max = 0.1});
+  visit("rotation_tolerance_rad",
+        o.rotation_tolerance_rad,
+        {.help = "converged when a step turns less", .min = 1e-9, .max = 0.1});
+  visit("pair_distance_m",
+        o.pair_distance_m,
+        {.help = "in the end, points further apart are no pair", .min = 0.005, .max = 10});
+  visit("annealing_factor",
+        o.annealing_factor,
+        {.help = "per iteration, what is left of the doubt about the first guess",
+         .min = 0.05,
+         .max = 0.95});
+  visit("outlier_sigmas",
+        o.outlier_sigmas,
+        {.help = "a pair this far off counts a quarter", .min = 0.5, .max = 100});
+  visit("small_object_m",
+        o.small_object_m,
+        {.help = "extent of what is no line: a leg, a trunk, a corner", .min = 0, .max = 1});
+  visit(
+      "correlated_points",
+      o.correlated_points,
+      {.help = "how many pairs say as much as one with independent errors", .min = 1, .max = 1000});
+  visit("min_pairs", o.min_pairs, {.help = "fewer pairs are no match", .min = 3, .max = 10000});
+  visit("max_sigma_m",
+        o.max_sigma_m,
+        {.help = "a position less certain than this is no match", .min = 0.01, .max = 100});
+}
+
+/// Where a match starts from.
+struct MatchPrior {
+  UncertainPose2 predicted;    ///< Prediction of T_ref_cur; it is fused into the answer.
+  Pose2 start;                 ///< First guess: the prediction, or what a search found near it.
+  double start_error_m = 0.1;  ///< How far the start may be off: pairs are sought up to five times.
+  double max_drift_m2 = std::numeric_limits<double>::infinity();  ///< Points that drifted more are
+                                                                  ///< not paired.
+};
+
+/// Weighted scan matching (Pfister et al. 2002; Visser et al. 2009) of a scan against a map of
+/// surfaces: that of all relevant scans makes it Q-WSM, that of the last one WSM.
+///
+/// Departing from the papers, (x, y, theta) are solved for together, with a prior; a pair counts
+/// less the worse it fits; and along a line a pair says nothing. There the papers' nearest sample
+/// is never further than half a sample spacing, so that a corridor would look well determined.
+class WeightedScanMatcher {
+ public:
+  explicit WeightedScanMatcher(const WeightedScanMatcherOptions& options = {})
+      : options_(options) {}
+
+  /// @param trace if given, gets one entry per iteration.
+  MatchResult Match(const SurfaceMap& reference,
+                    std::span<const ScanPoint> points,
+                    const MatchPrior& prior,
+                    MatchTrace* trace = nullptr) const;
+
+  const WeightedScanMatcherOptions& options() const { return options_; }
+
+ private:
+  WeightedScanMatcherOptions options_;
+};
+
+}  // namespace qwsm

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "qwsm/sensor/laser_scan.hpp"
+
+namespace qwsm {
+
+/// A surface point that a scan measured, in the robot's frame.
+struct ScanPoint {
+  Eigen::Vector2d p_robot_m;
+  Eigen::Vector2d beam_robot;  ///< Unit vector from the laser to the point.
+  double range_m = 0.0;
+  double spacing_m = 0.0;  ///< Arc from this beam to the next one at this range.
+  std::size_t beam = 0;    ///< Index of the beam in its scan.
+};
+
+/// The points of all beams that hit something.
+std::vector<ScanPoint> ToPoints(const LaserScan& scan);
+
+/// Points at least `spacing_m` apart, walking along the scan: near surfaces, on which beams crowd,
+/// count no more than far ones.
+std::vector<Eigen::Vector2d> ThinOut(std::span<const ScanPoint> points, double spacing_m);
+
+/// Unit normals of the surfaces that the scan itself shows, by a line through each point's
+/// neighbouring beams; zero where the neighbourhood is no line (a corner, an edge, a lone point).
+std::vector<Eigen::Vector2d> EstimateNormals(std::span<const ScanPoint> points);
+
+}  // namespace qwsm

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "qwsm/geometry/frame_covariance.hpp"
+
+namespace qwsm {
+namespace {
+
+// How a pose at a place moves with a small motion (x, y, theta) of its frame about the origin.
+Eigen::Matrix3d LeverOf(const Eigen::Vector2d& p_m) {
+  Eigen::Matrix3d lever = Eigen::Matrix3d::Identity();
+  lever(0, 2) = -p_m.y();
+  lever(1, 2) = p_m.x();
+  return lever;
+}
+
+}  // namespace
+
+FrameCovariance FrameCovariance::Of(const UncertainPose2& map_robot) {
+  const Eigen::Matrix3d lever = LeverOf(-map_robot.T_a_b.translation_m());
+  return {lever * map_robot.covariance * lever.transpose()};
+}
+
+Eigen::Matrix3d FrameCovariance::At(const Eigen::Vector2d& p_m) const {
+  const Eigen::Matrix3d lever = LeverOf(p_m);
+  return lever * about_origin * lever.transpose();
+}
+
+double FrameCovariance::PositionVariance(const Eigen::Vector2d& p_m) const {
+  return 0.5 * At(p_m).topLeftCorner<2, 2>().trace();
+}
+
+}  // namespace qwsm

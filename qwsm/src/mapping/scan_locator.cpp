@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "qwsm/mapping/scan_locator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace qwsm {
+namespace {
+
+constexpr std::size_t kMinSearchPoints = 6;   // Fewer prove nothing.
+constexpr std::size_t kMinReturnPoints = 20;  // A return needs more evidence.
+
+double SigmaXY(const Eigen::Matrix3d& covariance) {
+  return std::sqrt(0.5 * (covariance(0, 0) + covariance(1, 1)));
+}
+double SigmaTheta(const Eigen::Matrix3d& covariance) { return std::sqrt(covariance(2, 2)); }
+
+// What of the map around a scan was mapped with little drift.
+struct KnownSurroundings {
+  double share = 0.0;          // Of the points that end near such surfaces.
+  double mean_drift_m2 = 0.0;  // Of these surfaces.
+};
+
+KnownSurroundings SurroundingsOf(const LikelihoodPyramid& map,
+                                 std::span<const Eigen::Vector2d> points_robot_m,
+                                 const Pose2& T_map_robot,
+                                 double max_drift_m2) {
+  constexpr int kLevel = LikelihoodPyramid::kLevels - 1;
+  constexpr int kStride = 1 << kLevel;
+  const std::uint8_t max_code = LikelihoodPyramid::DriftCode(max_drift_m2);
+  KnownSurroundings known;
+  int count = 0;
+  for (const Eigen::Vector2d& p_robot : points_robot_m) {
+    const Eigen::Vector2d p_map = T_map_robot * p_robot;
+    std::uint8_t code = LikelihoodPyramid::kUnmapped;
+    for (const int dy : {-kStride, 0, kStride}) {
+      for (const int dx : {-kStride, 0, kStride}) {
+        code = std::min(code,
+                        map.At(kLevel, map.CellIndex(p_map.x()) + dx, map.CellIndex(p_map.y()) + dy)
+                            .drift_code);
+      }
+    }
+    if (code > max_code) continue;
+    ++count;
+    known.mean_drift_m2 += LikelihoodPyramid::DriftOf(code);
+  }
+  if (count > 0) known.mean_drift_m2 /= count;
+  known.share = static_cast<double>(count) / static_cast<double>(points_robot_m.size());
+  return known;
+}
+
+UncertainPose2 Widened(const UncertainPose2& pose, double factor) {
+  return {.T_a_b = pose.T_a_b, .covariance = factor * factor * pose.covariance};
+}
+
+}  // namespace
+
+MatchResult ScanLocator::Locate(const ScanMap& map,
+                                std::span<const ScanPoint> points,
+                                const UncertainPose2& predicted,
+                                MatchTrace* trace) const {
+  const MatchResult near = SearchAndMatch(map, points, predicted, trace);
+  if (near.overlap >= options_.widen_below_overlap) return near;
+  const MatchResult far =
+      SearchAndMatch(map, points, Widened(predicted, options_.widen_factor), trace);
+  return far.overlap > near.overlap + options_.widen_gain ? far : near;
+}
+
+MatchResult ScanLocator::SearchAndMatch(const ScanMap& map,
+                                        std::span<const ScanPoint> points,
+                                        const UncertainPose2& predicted,
+                                        MatchTrace* trace) const {
+  MatchPrior prior{.predicted = predicted, .start = predicted.T_a_b};
+  const std::vector<Eigen::Vector2d> thinned = ThinOut(points, options_.search_spacing_m);
+  if (thinned.size() >= kMinSearchPoints) {
+    const SearchWindow window{
+        .predicted = predicted,
+        .translation_m =
+            std::min(options_.max_window_m, options_.window_sigmas * SigmaXY(predicted.covariance)),
+        .rotation_rad = std::min(options_.max_window_rad,
+                                 options_.window_sigmas * SigmaTheta(predicted.covariance))};
+    const auto found = SearchPose(map.surfaces().likelihood(), thinned, window, options_.search);
+    if (found) {
+      prior.start = found->T_map_robot;
+      prior.start_error_m = options_.search_error_m;
+    }
+  }
+  return matcher_.Match(map.surfaces(), points, prior, trace);
+}
+
+std::optional<MatchResult> ScanLocator::FindReturn(const ScanMap& map,
+                                                   std::span<const ScanPoint> points,
+                                                   const UncertainPose2& estimated) const {
+  const std::vector<Eigen::Vector2d> thinned = ThinOut(points, options_.search_spacing_m);
+  if (thinned.size() < kMinReturnPoints) return std::nullopt;
+  const LikelihoodPyramid& likelihood = map.surfaces().likelihood();
+  const double drift_m2 = std::pow(SigmaXY(estimated.covariance), 2);
+  const double max_drift_m2 = options_.return_drift_share * drift_m2;
+  const KnownSurroundings known =
+      SurroundingsOf(likelihood, thinned, estimated.T_a_b, max_drift_m2);
+  const double drift_since_m = std::sqrt(std::max(0.0, drift_m2 - known.mean_drift_m2));
+  if (known.share < options_.return_min_known || drift_since_m < options_.return_drift_m) {
+    return std::nullopt;
+  }
+  SearchWindow window{
+      .predicted = estimated,
+      .translation_m =
+          std::min(options_.return_max_window_m, options_.return_sigmas * drift_since_m),
+      .rotation_rad = std::min(options_.return_max_window_rad,
+                               options_.return_sigmas * SigmaTheta(estimated.covariance)),
+      .min_score = options_.return_min_score,
+      .max_drift_code = LikelihoodPyramid::DriftCode(max_drift_m2)};
+  const auto there = SearchPose(likelihood, thinned, window, options_.search);
+  if (!there) return std::nullopt;
+  window.translation_m = likelihood.cell_size_m();
+  window.rotation_rad = 0.02;
+  window.min_score = 0.0;
+  const auto here = SearchPose(likelihood, thinned, window, options_.search);
+  if (here && there->score < here->score + options_.return_gain) return std::nullopt;
+  MatchResult match = matcher_.Match(map.surfaces(),
+                                     points,
+                                     {.predicted = estimated,
+                                      .start = there->T_map_robot,
+                                      .start_error_m = options_.search_error_m,
+                                      .max_drift_m2 = max_drift_m2});
+  if (match.status != MatchStatus::kConverged || match.overlap < options_.return_min_score) {
+    return std::nullopt;
+  }
+  return match;
+}
+
+}  // namespace qwsm

@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "qwsm/matching/correlative_search.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace qwsm {
+namespace {
+
+constexpr int kCoarsestLevel = LikelihoodPyramid::kLevels - 1;
+
+// A square block of 2^level x 2^level cell offsets at one heading.
+struct Block {
+  double bound = 0.0;
+  int heading = 0;
+  int x = 0;
+  int y = 0;
+  int level = 0;
+
+  bool operator<(const Block& other) const { return bound < other.bound; }
+};
+
+struct CellOffset {
+  int x = 0;
+  int y = 0;
+};
+
+// The offset nearest to 0 among first .. first + count - 1.
+int NearestToZero(int first, int count) {
+  if (first > 0) return first;
+  return std::min(0, first + count - 1);
+}
+
+class BranchAndBound {
+ public:
+  BranchAndBound(const LikelihoodPyramid& map,
+                 std::span<const Eigen::Vector2d> points_robot_m,
+                 const SearchWindow& window,
+                 const CorrelativeSearchOptions& options)
+      : map_(map), points_robot_m_(points_robot_m), window_(window), options_(options) {
+    double lever_m = 1.0;
+    for (const Eigen::Vector2d& p : points_robot_m) lever_m = std::max(lever_m, p.norm());
+    heading_step_rad_ = map.cell_size_m() / std::min(lever_m, options.lever_m);
+    headings_ = static_cast<int>(std::ceil(window.rotation_rad / heading_step_rad_));
+    reach_ = static_cast<int>(std::ceil(window.translation_m / map.cell_size_m()));
+    level_ = 0;
+    while (level_ < kCoarsestLevel && (1 << level_) < 2 * reach_ + 1) ++level_;
+    PricePriors();
+    RotatePoints();
+  }
+
+  std::optional<FoundPose> Run() {
+    for (int heading = -headings_; heading <= headings_; ++heading) {
+      for (int x = -reach_; x <= reach_; x += 1 << level_) {
+        for (int y = -reach_; y <= reach_; y += 1 << level_) Push({0.0, heading, x, y, level_});
+      }
+    }
+    while (!queue_.empty()) {
+      std::pop_heap(queue_.begin(), queue_.end());
+      const Block best = queue_.back();
+      queue_.pop_back();
+      if (best.level == 0) return FoundPose{PoseOf(best), best.bound};
+      PushChildren(best);
+    }
+    return std::nullopt;
+  }
+
+ private:
+  void PricePriors() {
+    information_ = window_.predicted.covariance.inverse();
+    // What is left of the price of an offset when the heading is free: a lower bound at any
+    // heading.
+    const Eigen::Vector2d cross = information_.topRightCorner<2, 1>();
+    const Eigen::Matrix2d at_best_heading =
+        information_.topLeftCorner<2, 2>() - cross * cross.transpose() / information_(2, 2);
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
+    axes.computeDirect(at_best_heading, Eigen::EigenvaluesOnly);
+    cheapest_per_m2_ = std::max(0.0, axes.eigenvalues()(0));
+  }
+
+  void RotatePoints() {
+    const Pose2& center = window_.predicted.T_a_b;
+    cells_.reserve(points_robot_m_.size() * static_cast<std::size_t>(2 * headings_ + 1));
+    for (int heading = -headings_; heading <= headings_; ++heading) {
+      const Pose2 turned{center.x_m, center.y_m, center.theta_rad + heading * heading_step_rad_};
+      const Eigen::Matrix2d R = turned.Rotation();
+      for (const Eigen::Vector2d& p_robot : points_robot_m_) {
+        const Eigen::Vector2d p_map = R * p_robot + turned.translation_m();
+        cells_.push_back({map_.CellIndex(p_map.x()), map_.CellIndex(p_map.y())});
+      }
+    }
+  }
+
+  std::span<const CellOffset> CellsAt(int heading) const {
+    const std::size_t count = points_robot_m_.size();
+    return std::span(cells_).subspan(static_cast<std::size_t>(heading + headings_) * count, count);
+  }
+
+  double Score(const Block& block) const {
+    int sum = 0;
+    for (const CellOffset& end : CellsAt(block.heading)) {
+      const LikelihoodPyramid::Cell cell = map_.At(block.level, end.x + block.x, end.y + block.y);
+      if (cell.drift_code <= window_.max_drift_code) sum += cell.likelihood;
+    }
+    return sum / (255.0 * static_cast<double>(points_robot_m_.size()));
+  }
+
+  double Price(const Block& block) const {
+    const double cell_m = map_.cell_size_m();
+    if (block.level == 0) {
+      const Eigen::Vector3d way(
+          block.x * cell_m, block.y * cell_m, block.heading * heading_step_rad_);
+      return options_.prior_weight * way.dot(information_ * way);
+    }
+    const int side = 1 << block.level;
+    const double x_m = cell_m * NearestToZero(block.x, side);
+    const double y_m = cell_m * NearestToZero(block.y, side);
+    return options_.prior_weight * cheapest_per_m2_ * (x_m * x_m + y_m * y_m);
+  }
+
+  void Push(Block block) {
+    block.bound = Score(block) - Price(block);
+    if (block.bound <= window_.min_score) return;
+    queue_.push_back(block);
+    std::push_heap(queue_.begin(), queue_.end());
+  }
+
+  void PushChildren(const Block& block) {
+    const int level = block.level - 1;
+    for (const int x : {block.x, block.x + (1 << level)}) {
+      for (const int y : {block.y, block.y + (1 << level)}) {
+        if (x <= reach_ && y <= reach_) Push({0.0, block.heading, x, y, level});
+      }
+    }
+  }
+
+  Pose2 PoseOf(const Block& block) const {
+    const Pose2& center = window_.predicted.T_a_b;
+    return {center.x_m + block.x * map_.cell_size_m(),
+            center.y_m + block.y * map_.cell_size_m(),
+            NormalizeAngle(center.theta_rad + block.heading * heading_step_rad_)};
+  }
+
+  const LikelihoodPyramid& map_;
+  std::span<const Eigen::Vector2d> points_robot_m_;
+  const SearchWindow& window_;
+  const CorrelativeSearchOptions& options_;
+  double heading_step_rad_ = 0.0;
+  int headings_ = 0;  // Headings -headings_ .. headings_ are searched,
+  int reach_ = 0;     // and offsets -reach_ .. reach_ in x and y.
+  int level_ = 0;     // Where the search begins.
+  Eigen::Matrix3d information_;
+  double cheapest_per_m2_ = 0.0;
+  std::vector<CellOffset> cells_;  // Beam ends of all headings, one heading after the other.
+  std::vector<Block> queue_;       // A heap, the highest bound first.
+};
+
+}  // namespace
+
+std::optional<FoundPose> SearchPose(const LikelihoodPyramid& map,
+                                    std::span<const Eigen::Vector2d> points_robot_m,
+                                    const SearchWindow& window,
+                                    const CorrelativeSearchOptions& options) {
+  if (points_robot_m.empty()) return std::nullopt;
+  return BranchAndBound(map, points_robot_m, window, options).Run();
+}
+
+}  // namespace qwsm

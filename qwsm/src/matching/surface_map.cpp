@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "qwsm/matching/surface_map.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "qwsm/geometry/moments.hpp"
+
+namespace qwsm {
+namespace {
+
+// A neighbourhood shorter than this shows no direction, only noise.
+constexpr double kMinLineVariance_m2 = 4e-4;
+
+}  // namespace
+
+SurfaceMap::SurfaceMap(const SurfaceMapOptions& options)
+    : options_(options), quadtree_(options.quadtree), likelihood_(options.likelihood) {}
+
+void SurfaceMap::Neighborhood::Add(const Eigen::Vector2d& offset_m) {
+  const Eigen::Vector2f d = offset_m.cast<float>();
+  sum_x += d.x();
+  sum_y += d.y();
+  sum_xx += d.x() * d.x();
+  sum_xy += d.x() * d.y();
+  sum_yy += d.y() * d.y();
+  ++count;
+}
+
+bool SurfaceMap::Insert(const MapPoint& point, ScanId scan) {
+  const auto insertion = quadtree_.Insert(point.p_map_m, scan);
+  if (!insertion) return false;
+  if (insertion->merged) return true;
+  neighborhoods_.resize(quadtree_.id_end());
+  neighborhoods_[insertion->id] = {
+      .own_normal_rad =
+          point.normal_map.isZero()
+              ? std::numeric_limits<float>::quiet_NaN()
+              : static_cast<float>(std::atan2(point.normal_map.y(), point.normal_map.x())),
+      .drift_m2 = static_cast<float>(point.drift_m2)};
+  GatherNeighbors(insertion->id);
+  likelihood_.Insert(point.p_map_m, point.drift_m2);
+  return true;
+}
+
+void SurfaceMap::GatherNeighbors(PointId id) {
+  Neighborhood& own = neighborhoods_[id];
+  const Eigen::Vector2d p_m = quadtree_.Position(id);
+  quadtree_.ForEachInRadius(
+      p_m, options_.neighborhood_radius_m, [&](PointId other, const Eigen::Vector2d& other_m) {
+        if (other == id) return;
+        own.Add(other_m - p_m);
+        neighborhoods_[other].Add(p_m - other_m);
+      });
+}
+
+void SurfaceMap::RemoveScan(ScanId scan) {
+  if (quadtree_.RemoveScan(scan) == 0) return;
+  likelihood_.Clear();
+  for (PointId id = 0; id < quadtree_.id_end(); ++id) {
+    if (!quadtree_.Contains(id)) continue;
+    Neighborhood& own = neighborhoods_[id];
+    own = {.own_normal_rad = own.own_normal_rad, .drift_m2 = own.drift_m2};
+    const Eigen::Vector2d p_m = quadtree_.Position(id);
+    quadtree_.ForEachInRadius(
+        p_m, options_.neighborhood_radius_m, [&](PointId other, const Eigen::Vector2d& other_m) {
+          if (other != id) own.Add(other_m - p_m);
+        });
+    likelihood_.Insert(p_m, static_cast<double>(own.drift_m2));
+  }
+}
+
+Eigen::Vector2d SurfaceMap::OwnNormal(PointId id) const {
+  const double angle_rad = static_cast<double>(neighborhoods_[id].own_normal_rad);
+  if (std::isnan(angle_rad)) return Eigen::Vector2d::Zero();
+  return {std::cos(angle_rad), std::sin(angle_rad)};
+}
+
+Surface SurfaceMap::SurfaceAt(PointId id) const {
+  const Neighborhood& n = neighborhoods_[id];
+  const Eigen::Vector2d p_m = quadtree_.Position(id);
+  const bool is_crowded = n.count >= static_cast<std::uint32_t>(options_.min_neighbors);
+  if (!is_crowded && !std::isnan(n.own_normal_rad)) {
+    return {.mean_m = p_m, .normal = OwnNormal(id), .across_m2 = 0.0, .is_line = true};
+  }
+  const double scale = 1.0 / static_cast<double>(n.count);
+  const double x = static_cast<double>(n.sum_x) * scale;
+  const double y = static_cast<double>(n.sum_y) * scale;
+  const PrincipalAxes axes = PrincipalAxesOf(static_cast<double>(n.sum_xx) * scale - x * x,
+                                             static_cast<double>(n.sum_xy) * scale - x * y,
+                                             static_cast<double>(n.sum_yy) * scale - y * y);
+  const bool is_line = is_crowded && axes.major_m2 > kMinLineVariance_m2 &&
+                       axes.minor_m2 < options_.max_line_aspect * axes.major_m2;
+  return {.mean_m = p_m + Eigen::Vector2d(x, y),
+          .normal = axes.minor_axis,
+          .across_m2 = is_line ? axes.minor_m2 : 0.5 * (axes.minor_m2 + axes.major_m2),
+          .is_line = is_line};
+}
+
+}  // namespace qwsm

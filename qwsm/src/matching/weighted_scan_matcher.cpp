@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "qwsm/matching/weighted_scan_matcher.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace qwsm {
+namespace {
+
+constexpr double kPairDistancePerError = 5.0;  // Pairs are sought as far as the error may reach.
+constexpr double kSmallestDoubt_m = 0.002;     // Below, annealing has ended.
+constexpr double kInlierSigmas = 3.0;
+// A uniform error of one beam spacing has this share of its square as variance.
+constexpr double kUniformVariance = 1.0 / 12.0;
+// The mean of some stored readings carries about a quarter of the variance of one.
+constexpr double kStoredShareOfNoise = 0.25;
+
+// A scan point with its counterpart in the map, kept from iteration to iteration.
+struct Pair {
+  SearchCursor cursor;
+  std::optional<PointId> id;
+  double distance_m2 = 0.0;
+  Eigen::Vector2d nearest_m = Eigen::Vector2d::Zero();
+  Surface surface;
+};
+
+// Doubt about the current estimate, taken back from iteration to iteration: with it all pairs look
+// plausible at first, and a poor first guess does not make the true pairs outliers.
+struct Doubt {
+  double sigma_m = 0.0;
+
+  double PairDistance(double smallest_m) const {
+    return std::max(smallest_m, kPairDistancePerError * sigma_m);
+  }
+  void Shrink(double factor) {
+    sigma_m *= factor;
+    if (sigma_m < kSmallestDoubt_m) sigma_m = 0.0;
+  }
+};
+
+// Normal equations of the weighted least squares: A step = b.
+struct NormalEquations {
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  int pairs = 0;
+  int inliers = 0;
+  double sum_of_distances_m = 0.0;
+
+  void Add(const Eigen::Matrix2d& weight,
+           const Eigen::Vector2d& error,
+           const Eigen::Vector2d& arm) {
+    // Derivative of R u + t by (x, y, theta): [ I | J R u ].
+    Eigen::Matrix<double, 2, 3> H;
+    H << 1.0, 0.0, -arm.y(), 0.0, 1.0, arm.x();
+    const Eigen::Matrix<double, 3, 2> HtW = H.transpose() * weight;
+    A.noalias() += HtW * H;
+    b.noalias() += HtW * error;
+  }
+};
+
+// Inverse of the modelled error of a pair, S_k^-1, in map axes (ALGORITHM: S = N_map + Q + R N
+// R^T).
+Eigen::Matrix2d ModelledInformation(const Surface& surface,
+                                    const ScanPoint& point,
+                                    const Eigen::Matrix2d& N_map,
+                                    double doubt_m2,
+                                    const WeightedScanMatcherOptions& options) {
+  const double range_m2 = options.noise.range_sigma_m * options.noise.range_sigma_m;
+  if (surface.is_line) {
+    // The nearest sample is off by anything along the line: no information there, Q = inf t t^T.
+    const Eigen::Vector2d& n = surface.normal;
+    const double variance_m2 =
+        n.dot(N_map * n) + surface.across_m2 + kStoredShareOfNoise * range_m2 + doubt_m2;
+    return n * n.transpose() / variance_m2;
+  }
+  // No tangent exists: the correspondence error is isotropic, with the neighbourhood's extent.
+  const double isotropic_m2 = surface.across_m2 + range_m2 +
+                              options.small_object_m * options.small_object_m +
+                              kUniformVariance * point.spacing_m * point.spacing_m + doubt_m2;
+  return (N_map + isotropic_m2 * Eigen::Matrix2d::Identity()).inverse();
+}
+
+// Geman-McClure: falls from 1 to a quarter at the outlier limit, and on towards 0.
+double RobustWeight(double mahalanobis2, double outlier_sigmas) {
+  const double w = 1.0 / (1.0 + mahalanobis2 / (outlier_sigmas * outlier_sigmas));
+  return w * w;
+}
+
+// Pairs of one scan with a map.
+class Pairing {
+ public:
+  Pairing(const SurfaceMap& map,
+          std::span<const ScanPoint> points,
+          double max_drift_m2,
+          const WeightedScanMatcherOptions& options)
+      : map_(map),
+        points_(points),
+        max_drift_m2_(max_drift_m2),
+        options_(options),
+        pairs_(points.size()) {}
+
+  NormalEquations Linearize(const Pose2& T_map_cur, const Doubt& doubt) {
+    NormalEquations equations;
+    const Eigen::Matrix2d R = T_map_cur.Rotation();
+    const double reach_m = doubt.PairDistance(options_.pair_distance_m);
+    const double doubt_m2 = doubt.sigma_m * doubt.sigma_m;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const Eigen::Vector2d arm = R * points_[i].p_robot_m;
+      const Eigen::Vector2d p_map = arm + T_map_cur.translation_m();
+      Pair& pair = pairs_[i];
+      if (!FindPair(p_map, reach_m, pair)) continue;
+      ++equations.pairs;
+      equations.sum_of_distances_m += std::sqrt(pair.distance_m2);
+      if (options_.weighting == PairWeighting::kIdentity) {
+        equations.Add(Eigen::Matrix2d::Identity(), pair.nearest_m - p_map, arm);
+        ++equations.inliers;
+        continue;
+      }
+      const Eigen::Vector2d error = pair.surface.mean_m - p_map;
+      const Eigen::Matrix2d N_map =
+          PointCovariance(R * points_[i].beam_robot, points_[i].range_m, options_.noise);
+      const Eigen::Matrix2d information =
+          ModelledInformation(pair.surface, points_[i], N_map, doubt_m2, options_);
+      const double mahalanobis2 = error.dot(information * error);
+      if (mahalanobis2 < kInlierSigmas * kInlierSigmas) ++equations.inliers;
+      equations.Add(RobustWeight(mahalanobis2, options_.outlier_sigmas) * information, error, arm);
+    }
+    return equations;
+  }
+
+ private:
+  bool FindPair(const Eigen::Vector2d& p_map, double reach_m, Pair& pair) const {
+    const auto nearest = map_.quadtree().Nearest(p_map, reach_m, pair.cursor);
+    if (!nearest || map_.Drift_m2(nearest->id) > max_drift_m2_) {
+      pair.id.reset();
+      return false;
+    }
+    if (pair.id != nearest->id) pair.surface = map_.SurfaceAt(nearest->id);
+    pair.id = nearest->id;
+    pair.distance_m2 = nearest->distance_m2;
+    pair.nearest_m = nearest->position_m;
+    return true;
+  }
+
+  const SurfaceMap& map_;
+  std::span<const ScanPoint> points_;
+  double max_drift_m2_;
+  const WeightedScanMatcherOptions& options_;
+  std::vector<Pair> pairs_;
+};
+
+// Information of the pairs in real units. Identity weights know no units: the residuals give them.
+Eigen::Matrix3d PairInformation(const NormalEquations& equations,
+                                const WeightedScanMatcherOptions& options) {
+  if (options.weighting == PairWeighting::kModelled) return equations.A;
+  const double mean_m = equations.sum_of_distances_m / std::max(1, equations.pairs);
+  const double sigma_m = std::max(mean_m, options.noise.range_sigma_m);
+  return equations.A / (sigma_m * sigma_m);
+}
+
+Eigen::Vector3d Difference(const Pose2& a, const Pose2& b) {
+  return {a.x_m - b.x_m, a.y_m - b.y_m, NormalizeAngle(a.theta_rad - b.theta_rad)};
+}
+
+Pose2 Moved(const Pose2& pose, const Eigen::Vector3d& step) {
+  return {pose.x_m + step.x(), pose.y_m + step.y(), NormalizeAngle(pose.theta_rad + step.z())};
+}
+
+bool IsSmall(const Eigen::Vector3d& step, const WeightedScanMatcherOptions& options) {
+  return step.head<2>().norm() < options.translation_tolerance_m &&
+         std::abs(step.z()) < options.rotation_tolerance_rad;
+}
+
+// Whether the answer is known in every direction, be it from the pairs or from the prior.
+bool IsDetermined(const Eigen::Matrix3d& covariance, double max_sigma_m) {
+  if (!covariance.allFinite()) return false;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
+  axes.computeDirect(covariance.topLeftCorner<2, 2>(), Eigen::EigenvaluesOnly);
+  return axes.eigenvalues()(1) < max_sigma_m * max_sigma_m;
+}
+
+}  // namespace
+
+MatchResult WeightedScanMatcher::Match(const SurfaceMap& reference,
+                                       std::span<const ScanPoint> points,
+                                       const MatchPrior& prior,
+                                       MatchTrace* trace) const {
+  MatchResult result{.T_ref_cur = prior.start};
+  const Eigen::Matrix3d prior_information = prior.predicted.covariance.inverse();
+  Pairing pairing(reference, points, prior.max_drift_m2, options_);
+  Doubt doubt{prior.start_error_m};
+  while (result.iterations < options_.max_iterations) {
+    ++result.iterations;
+    const NormalEquations pairs = pairing.Linearize(result.T_ref_cur, doubt);
+    result.pairs = pairs.pairs;
+    if (pairs.pairs < options_.min_pairs) {
+      result.status = MatchStatus::kTooFewPairs;
+      return result;
+    }
+    result.mean_residual_m = pairs.sum_of_distances_m / pairs.pairs;
+    result.overlap = static_cast<double>(pairs.inliers) / static_cast<double>(points.size());
+    result.information = PairInformation(pairs, options_);
+
+    // Fuse pairs and prediction, each by its information.
+    const double independent = 1.0 / options_.correlated_points;
+    const Eigen::Matrix3d information = independent * result.information + prior_information;
+    const double scale = pairs.A.trace() > 0.0 ? result.information.trace() / pairs.A.trace() : 0.0;
+    result.covariance = information.inverse();
+    const Eigen::Vector3d step =
+        result.covariance *
+        (independent * scale * pairs.b +
+         prior_information * Difference(prior.predicted.T_a_b, result.T_ref_cur));
+    if (!IsDetermined(result.covariance, options_.max_sigma_m)) {
+      result.status = MatchStatus::kDegenerate;
+      return result;
+    }
+    result.T_ref_cur = Moved(result.T_ref_cur, step);
+    if (trace != nullptr) {
+      trace->push_back({.T_ref_cur = result.T_ref_cur,
+                        .pairs = result.pairs,
+                        .mean_residual_m = result.mean_residual_m,
+                        .max_pair_distance_m = doubt.PairDistance(options_.pair_distance_m)});
+    }
+    if (doubt.sigma_m == 0.0 && IsSmall(step, options_)) {
+      result.status = MatchStatus::kConverged;
+      return result;
+    }
+    doubt.Shrink(options_.annealing_factor);
+  }
+  result.status = MatchStatus::kIterationLimit;
+  return result;
+}
+
+}  // namespace qwsm

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "qwsm/sensor/scan_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "qwsm/geometry/moments.hpp"
+
+namespace qwsm {
+namespace {
+
+constexpr double kNormalReach_m = 0.12;       // Half the length of surface a normal is fitted to,
+constexpr double kNormalReachSpacings = 2.2;  // or as many beam spacings where these are wider.
+constexpr double kGap_m = 0.15;               // Neighbouring points further apart, and
+constexpr double kGapSpacings = 6.0;          // more beam spacings apart, lie on two surfaces.
+constexpr double kMaxRoughness_m = 0.05;      // A wall is flatter than this.
+constexpr double kMaxAspect = 0.25;           // Across over along, as standard deviations.
+
+// Grows the neighbourhood of points[center] in one direction and returns its end (exclusive when
+// walking forward, inclusive when walking back).
+std::size_t NeighborhoodEnd(std::span<const ScanPoint> points, std::size_t center, bool forward) {
+  const ScanPoint& c = points[center];
+  const double reach_m = std::max(kNormalReach_m, kNormalReachSpacings * c.spacing_m);
+  const double gap_m = std::max(kGap_m, kGapSpacings * c.spacing_m);
+  std::size_t last = center;
+  while (forward ? last + 1 < points.size() : last > 0) {
+    const std::size_t next = forward ? last + 1 : last - 1;
+    if ((points[next].p_robot_m - points[last].p_robot_m).norm() > gap_m) break;
+    if ((points[next].p_robot_m - c.p_robot_m).norm() > reach_m) break;
+    last = next;
+  }
+  return last;
+}
+
+Eigen::Vector2d NormalOf(std::span<const ScanPoint> neighbors) {
+  if (neighbors.size() < 3) return Eigen::Vector2d::Zero();
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (const ScanPoint& p : neighbors) mean += p.p_robot_m;
+  mean /= static_cast<double>(neighbors.size());
+  Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
+  for (const ScanPoint& p : neighbors) {
+    const Eigen::Vector2d d = p.p_robot_m - mean;
+    scatter += d * d.transpose();
+  }
+  scatter /= static_cast<double>(neighbors.size());
+  const PrincipalAxes axes = PrincipalAxesOf(scatter(0, 0), scatter(0, 1), scatter(1, 1));
+  const bool is_line = std::sqrt(axes.minor_m2) < kMaxRoughness_m &&
+                       axes.minor_m2 < kMaxAspect * kMaxAspect * axes.major_m2;
+  return is_line ? axes.minor_axis : Eigen::Vector2d::Zero();
+}
+
+}  // namespace
+
+std::vector<ScanPoint> ToPoints(const LaserScan& scan) {
+  const Pose2& T_robot_laser = scan.geometry.T_robot_laser;
+  const double step_rad = std::abs(static_cast<double>(scan.geometry.bearing_step_rad));
+  std::vector<ScanPoint> points;
+  points.reserve(scan.size());
+  for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+    if (StateOf(scan.ranges_m[beam], scan.geometry) != BeamState::kHit) continue;
+    const double range_m = static_cast<double>(scan.ranges_m[beam]);
+    const double bearing_robot_rad = T_robot_laser.theta_rad + scan.geometry.Bearing(beam);
+    const Eigen::Vector2d beam_robot(std::cos(bearing_robot_rad), std::sin(bearing_robot_rad));
+    points.push_back({.p_robot_m = T_robot_laser.translation_m() + range_m * beam_robot,
+                      .beam_robot = beam_robot,
+                      .range_m = range_m,
+                      .spacing_m = range_m * step_rad,
+                      .beam = beam});
+  }
+  return points;
+}
+
+std::vector<Eigen::Vector2d> ThinOut(std::span<const ScanPoint> points, double spacing_m) {
+  std::vector<Eigen::Vector2d> thinned;
+  thinned.reserve(points.size());
+  for (const ScanPoint& point : points) {
+    if (!thinned.empty() &&
+        (point.p_robot_m - thinned.back()).squaredNorm() < spacing_m * spacing_m) {
+      continue;
+    }
+    thinned.push_back(point.p_robot_m);
+  }
+  return thinned;
+}
+
+std::vector<Eigen::Vector2d> EstimateNormals(std::span<const ScanPoint> points) {
+  std::vector<Eigen::Vector2d> normals;
+  normals.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::size_t first = NeighborhoodEnd(points, i, false);
+    const std::size_t last = NeighborhoodEnd(points, i, true);
+    normals.push_back(NormalOf(points.subspan(first, last - first + 1)));
+  }
+  return normals;
+}
+
+}  // namespace qwsm
