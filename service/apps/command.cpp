@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/apps/command.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "service/config/suggestion.hpp"
+
+namespace qwsm::apps {
+
+void AddConfiguration(CLI::App& parser, config::OptionSources& sources) {
+  const auto take_file = [&sources](const std::string& file) { sources.file = file; };
+  parser
+      .add_option_function<std::string>("--config", take_file, "options in YAML; see qwsm config")
+      ->type_name("FILE")
+      ->group("Configuration");
+  parser.add_option("--set", sources.settings, "one option, over the file's; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false)
+      ->group("Configuration");
+}
+
+void AddVerbosity(CLI::App& parser, Verbosity& verbosity, const std::string& json_help) {
+  parser.add_flag("--json", verbosity.json, json_help)->group("Messages");
+  parser.add_flag("-q,--quiet", verbosity.quiet, "no progress and no summary; errors only")
+      ->group("Messages");
+  parser.add_flag("-v,--verbose", verbosity.verbose, "say more about what is done")
+      ->excludes("--quiet")
+      ->group("Messages");
+}
+
+MatcherKind MatcherNamed(const std::string& name) {
+  std::vector<std::string> names;
+  for (const auto& [known, matcher] : Names(MatcherKind{})) {
+    if (known == name) return matcher;
+    names.emplace_back(known);
+  }
+  throw UsageError(fmt::format("--matcher: must be one of {}, got '{}'{}",
+                               fmt::join(names, ", "),
+                               name,
+                               config::DidYouMean(name, names)));
+}
+
+}  // namespace qwsm::apps

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "service/config/options_io.hpp"
+#include "service/config/program_options.hpp"
+
+namespace qwsm::apps {
+
+/// What the program tells its caller; the same for all commands.
+enum class ExitCode {
+  kDone = 0,
+  kFailed = 1,  ///< It ran, but the result is not what was asked for.
+  kUsage = 2,   ///< Wrong arguments, configuration or input.
+  kIo = 3,      ///< Results could not be written.
+  kInterrupted = 130,
+};
+
+/// Arguments that are each right but make no sense together.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A command: what its arguments are, and what it does once they are parsed.
+struct Command {
+  CLI::App* parser = nullptr;
+  std::function<ExitCode()> run;
+};
+
+/// How much is said, and in what form.
+struct Verbosity {
+  bool quiet = false;
+  bool verbose = false;
+  bool json = false;
+};
+
+/// Adds --config and --set.
+void AddConfiguration(CLI::App& parser, config::OptionSources& sources);
+
+/// Adds --quiet, --verbose and, with its meaning, --json.
+void AddVerbosity(CLI::App& parser, Verbosity& verbosity, const std::string& json_help);
+
+/// The matcher of a name given after --matcher. @throws UsageError.
+MatcherKind MatcherNamed(const std::string& name);
+
+// One per command, each in a file of its own.
+Command AddMapCommand(CLI::App& program);
+
+}  // namespace qwsm::apps

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+
+#include "service/apps/command.hpp"
+
+namespace qwsm::apps {
+
+/// Sends messages (spdlog) to stderr, as much as was asked for, as `qwsm: message`.
+void StartMessages(const Verbosity& verbosity);
+
+/// From now on, all of them go to this file too, each with its time.
+void CopyMessagesTo(const std::filesystem::path& file);
+
+}  // namespace qwsm::apps

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "qwsm/mapping/mapper.hpp"
+
+namespace qwsm::config {
+
+/// How logs are read. What a log states, or lets infer, needs no option: 0 leaves it at that.
+struct LogOptions {
+  bool strict = false;
+  double range_max_m = 0.0;
+  double field_of_view_rad = 0.0;
+};
+
+template <class Visitor>
+void Describe(Visitor& visit, LogOptions& o) {
+  visit("strict", o.strict, {.help = "stop at a malformed line instead of skipping it"});
+  visit("range_max_m",
+        o.range_max_m,
+        {.help = "range of the laser; 0: as the log says or shows", .min = 0, .max = 1000});
+  visit("field_of_view_rad",
+        o.field_of_view_rad,
+        {.help = "of the laser; 0: as the log says or its beams suggest", .min = 0, .max = 6.2832});
+}
+
+/// Everything that can be configured of the program `qwsm`.
+struct ProgramOptions {
+  LogOptions log;
+  MapperOptions mapper;
+};
+
+template <class Visitor>
+void Describe(Visitor& visit, ProgramOptions& o) {
+  visit("log", o.log, {.help = "reading of logs"});
+  visit("mapper", o.mapper, {.help = "matching scans and extending the map"});
+}
+
+}  // namespace qwsm::config

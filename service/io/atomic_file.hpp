@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <ostream>
+#include <stdexcept>
+#include <string_view>
+
+namespace qwsm::io {
+
+/// A file that could not be written: the text names it and gives the system's reason.
+class WriteError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A file that appears under its name whole, or not at all: until Commit() the bytes go to a
+/// neighbour with a name of its own, which is removed if there is no commit.
+class AtomicFile {
+ public:
+  /// @throws WriteError where it cannot be created.
+  explicit AtomicFile(std::filesystem::path path);
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+  ~AtomicFile();
+
+  std::ostream& stream();
+
+  /// Where to write for a library that wants a path instead of the stream.
+  const std::filesystem::path& temporary_path() const { return temporary_path_; }
+
+  /// Long runs ask now and then, rather than find the disk full at the end.
+  /// @throws WriteError if a write failed so far.
+  void ThrowIfFailed() const;
+
+  /// Puts the file in its place. @throws WriteError if any byte did not get there.
+  void Commit();
+
+ private:
+  class FileBuffer;
+
+  std::filesystem::path path_;
+  std::filesystem::path temporary_path_;
+  std::unique_ptr<FileBuffer> buffer_;
+  std::ostream stream_;
+  bool committed_ = false;
+};
+
+/// Writes a whole file at once. @throws WriteError.
+void WriteTextFile(const std::filesystem::path& path, std::string_view text);
+
+}  // namespace qwsm::io

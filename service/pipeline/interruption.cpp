@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/interruption.hpp"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <string_view>
+
+namespace qwsm::pipeline {
+namespace {
+
+constexpr int kInterruptedExitCode = 130;
+
+// The only thing a signal handler and the program can share.
+std::atomic<bool> interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+// Only what may be called inside a signal handler.
+void Say(std::string_view text) {
+  [[maybe_unused]] const ssize_t ignored = write(STDERR_FILENO, text.data(), text.size());
+}
+
+extern "C" void HandleSignal(int) {
+  if (interrupted.exchange(true)) {
+    Say("\nqwsm: quit without writing results\n");
+    _exit(kInterruptedExitCode);
+  }
+  Say("\nqwsm: interrupted: finishing this scan and writing the results; again to quit at once\n");
+}
+
+}  // namespace
+
+Interruption::Interruption() {
+  interrupted = false;
+  struct sigaction action {};
+  action.sa_handler = HandleSignal;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, &old_interrupt_);
+  sigaction(SIGTERM, &action, &old_terminate_);
+}
+
+Interruption::~Interruption() {
+  sigaction(SIGINT, &old_interrupt_, nullptr);
+  sigaction(SIGTERM, &old_terminate_, nullptr);
+}
+
+bool Interruption::requested() const { return interrupted; }
+
+}  // namespace qwsm::pipeline

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "service/io/log_reader.hpp"
+#include "service/pipeline/scan_source.hpp"
+
+namespace qwsm::pipeline {
+
+/// The scans of recorded logs, one log after the other as parts of one recording.
+class LogSource final : public ScanSource {
+ public:
+  /// Opens all logs at once, so that a wrong name is found before the work begins.
+  /// @throws io::LogError where one is no log.
+  LogSource(const std::vector<std::filesystem::path>& logs, const io::LogOptions& options);
+
+  /// @throws io::LogError where a log is damaged, after everything before the damage was given.
+  std::optional<Observation> Next() override;
+  SourceProgress progress() const override;
+
+  /// What was found in the logs so far, one line each, and a line per kind of fault.
+  std::vector<std::string> Describe() const;
+
+ private:
+  std::vector<std::unique_ptr<io::LogReader>> readers_;
+  std::size_t current_ = 0;
+  std::size_t scans_ = 0;
+};
+
+}  // namespace qwsm::pipeline

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <cstdio>
+#include <string>
+
+#include "service/pipeline/scan_source.hpp"
+#include "service/pipeline/step_sink.hpp"
+
+namespace qwsm::pipeline {
+
+/// `map  62 %  4 210/6 790 scans  381 scan/s  ETA 0:07  dropped 0`; what is not known is left out.
+std::string ProgressLine(const std::string& task,
+                         const SourceProgress& progress,
+                         std::chrono::duration<double> elapsed);
+
+/// 4210 as `4 210`.
+std::string WithThousands(std::size_t number);
+
+/// How progress is shown.
+enum class ProgressStyle {
+  kNone,
+  kLines,  ///< A line every five seconds, for files and dumb terminals.
+  kBar,    ///< One line of a terminal, rewritten.
+};
+
+/// kBar where the stream is a terminal that can rewrite a line (TERM is not "dumb"), else kLines.
+ProgressStyle StyleFor(std::FILE* stream);
+
+/// Shows how far a source has come while its scans pass by.
+class ProgressDisplay final : public StepSink {
+ public:
+  ProgressDisplay(std::string task, const ScanSource& source, ProgressStyle style);
+  ~ProgressDisplay() override;
+
+  void Take(const TimedStep& timed) override;
+  /// Clears the line of a terminal, so that others can write.
+  void Clear();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::string task_;
+  const ScanSource& source_;
+  ProgressStyle style_;
+  Clock::time_point begin_;
+  Clock::time_point next_;
+  bool shown_ = false;
+};
+
+}  // namespace qwsm::pipeline

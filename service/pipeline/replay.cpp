@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/replay.hpp"
+
+#include <chrono>
+#include <optional>
+
+#include "service/io/log_reader.hpp"
+
+namespace qwsm::pipeline {
+
+ReplayResult Replay(ScanSource& source,
+                    Mapper& mapper,
+                    std::span<StepSink* const> sinks,
+                    const std::function<bool()>& stop) {
+  while (!stop()) {
+    std::optional<Observation> observation;
+    try {
+      observation = source.Next();
+    } catch (const io::LogError& error) {
+      return {.end = ReplayEnd::kSourceFailed, .failure = error.what()};
+    }
+    if (!observation) return {.end = ReplayEnd::kExhausted, .failure = {}};
+
+    const auto start = std::chrono::steady_clock::now();
+    TimedStep timed{.step = mapper.Process(*observation)};
+    timed.duration = std::chrono::steady_clock::now() - start;
+    for (StepSink* sink : sinks) sink->Take(timed);
+  }
+  return {.end = ReplayEnd::kInterrupted, .failure = {}};
+}
+
+}  // namespace qwsm::pipeline

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+
+#include "qwsm/mapping/mapper.hpp"
+#include "service/pipeline/scan_source.hpp"
+#include "service/pipeline/step_sink.hpp"
+
+namespace qwsm::pipeline {
+
+/// Why a replay ended.
+enum class ReplayEnd { kExhausted, kInterrupted, kSourceFailed };
+
+struct ReplayResult {
+  ReplayEnd end = ReplayEnd::kExhausted;
+  std::string failure;  ///< What the source said when it failed.
+};
+
+/// Feeds the mapper with all the source has, as fast as it can, and hands every answer to all
+/// sinks. A source that fails half way ends the replay but not the program: what came before is
+/// worth keeping. Sinks that fail throw.
+/// @param stop asked before every scan; when true, the replay ends.
+ReplayResult Replay(ScanSource& source,
+                    Mapper& mapper,
+                    std::span<StepSink* const> sinks,
+                    const std::function<bool()>& stop);
+
+}  // namespace qwsm::pipeline

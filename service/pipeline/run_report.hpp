@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "service/pipeline/run_statistics.hpp"
+
+namespace qwsm::pipeline {
+
+/// The figures of a run as JSON; every name ends in its unit. Names are only ever added.
+std::string MetricsJson(const RunStatistics& run, const ScanMap& map, MatcherKind matcher);
+
+/// The same in a few lines for people.
+std::string SummaryText(const RunStatistics& run, const ScanMap& map);
+
+}  // namespace qwsm::pipeline

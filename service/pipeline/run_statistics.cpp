@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/run_statistics.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+#include "service/pipeline/scan_table_sink.hpp"
+
+namespace qwsm::pipeline {
+namespace {
+
+bool IsMatch(StepStatus status) {
+  return status == StepStatus::kMatched || status == StepStatus::kExtended;
+}
+
+}  // namespace
+
+void RunStatistics::Take(const TimedStep& timed) {
+  const MappingStep& step = timed.step;
+  durations_ms_.push_back(std::chrono::duration<double, std::milli>(timed.duration).count());
+  ++count_of_status_[static_cast<std::size_t>(step.status)];
+  if (step.relevant) ++relevant_;
+  if (IsMatch(step.status)) {
+    residual_sum_mm_ += step.match.mean_residual_m * 1e3;
+    trace_sum_m2_ += PositionTrace_m2(step.match);
+  }
+  const Pose2& T_map_robot = step.map_robot.T_a_b;
+  if (T_map_last_) {
+    path_length_m_ += (T_map_robot.translation_m() - T_map_last_->translation_m()).norm();
+  }
+  T_map_last_ = T_map_robot;
+}
+
+std::size_t RunStatistics::Count(StepStatus status) const {
+  return count_of_status_[static_cast<std::size_t>(status)];
+}
+
+double RunStatistics::MeanResidual_mm() const {
+  const std::size_t matches = Count(StepStatus::kMatched) + Count(StepStatus::kExtended);
+  return matches == 0 ? 0.0 : residual_sum_mm_ / static_cast<double>(matches);
+}
+
+double RunStatistics::MeanTrace_m2() const {
+  const std::size_t matches = Count(StepStatus::kMatched) + Count(StepStatus::kExtended);
+  return matches == 0 ? 0.0 : trace_sum_m2_ / static_cast<double>(matches);
+}
+
+double RunStatistics::TotalTime_s() const {
+  return std::accumulate(durations_ms_.begin(), durations_ms_.end(), 0.0) * 1e-3;
+}
+
+double RunStatistics::TimeQuantile_ms(double quantile) const {
+  assert(!durations_ms_.empty() && "no scan, no time per scan");
+  std::vector<double> sorted = durations_ms_;
+  const auto last = static_cast<double>(sorted.size() - 1);
+  const auto nth = sorted.begin() + static_cast<std::ptrdiff_t>(std::llround(quantile * last));
+  std::ranges::nth_element(sorted, nth);
+  return *nth;
+}
+
+}  // namespace qwsm::pipeline

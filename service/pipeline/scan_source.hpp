@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "qwsm/mapping/observation.hpp"
+
+namespace qwsm::pipeline {
+
+/// How far a source has come.
+struct SourceProgress {
+  std::size_t scans = 0;          ///< Given so far.
+  std::size_t dropped = 0;        ///< Lost on the way here: malformed, or a full queue.
+  std::optional<double> share{};  ///< Of all there is, 0..1; unknown for what has no known end.
+};
+
+/// Where observations come from: a log, a simulator, a robot.
+class ScanSource {
+ public:
+  ScanSource() = default;
+  ScanSource(const ScanSource&) = delete;
+  ScanSource& operator=(const ScanSource&) = delete;
+  virtual ~ScanSource() = default;
+
+  /// The next observation, in the order of measurement; nothing at the end.
+  virtual std::optional<Observation> Next() = 0;
+
+  virtual SourceProgress progress() const = 0;
+};
+
+}  // namespace qwsm::pipeline

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/scan_table_sink.hpp"
+
+#include <string_view>
+
+#include "service/io/number_text.hpp"
+
+namespace qwsm::pipeline {
+namespace {
+
+constexpr std::string_view kHeader =
+    "stamp_s,x_m,y_m,theta_rad,"
+    "cov_xx_m2,cov_xy_m2,cov_xtheta_m_rad,cov_yy_m2,cov_ytheta_m_rad,cov_thetatheta_rad2,"
+    "status,reason,relevant,pairs,overlap,residual_mm,trace,iterations,ms\n";
+
+/// One line of the table.
+class Row {
+ public:
+  void Add(double value) {
+    io::AppendNumber(text_, value);
+    text_ += ',';
+  }
+  void Add(Timestamp stamp) {
+    io::AppendStamp(text_, stamp);
+    text_ += ',';
+  }
+  /// @pre no comma or quote in it: our own words.
+  void Add(std::string_view word) {
+    text_ += word;
+    text_ += ',';
+  }
+  const std::string& Finish() {
+    text_.back() = '\n';
+    return text_;
+  }
+
+ private:
+  std::string text_;
+};
+
+}  // namespace
+
+double PositionTrace_m2(const MatchResult& match) {
+  return match.covariance(0, 0) + match.covariance(1, 1);
+}
+
+ScanTableSink::ScanTableSink(const std::filesystem::path& path) : file_(path) {
+  file_.stream() << kHeader;
+}
+
+void ScanTableSink::Take(const TimedStep& timed) {
+  const MappingStep& step = timed.step;
+  const Pose2& T_map_robot = step.map_robot.T_a_b;
+  Row row;
+  row.Add(step.stamp);
+  for (const double value : {T_map_robot.x_m, T_map_robot.y_m, T_map_robot.theta_rad})
+    row.Add(value);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = i; j < 3; ++j) row.Add(step.map_robot.covariance(i, j));
+  }
+  row.Add(Name(step.status));
+  row.Add(step.reason);
+  row.Add(step.relevant ? "1" : "0");
+  row.Add(static_cast<double>(step.match.pairs));
+  row.Add(step.match.overlap);
+  row.Add(step.match.mean_residual_m * 1e3);
+  row.Add(PositionTrace_m2(step.match));
+  row.Add(static_cast<double>(step.match.iterations));
+  row.Add(std::chrono::duration<double, std::milli>(timed.duration).count());
+  file_.stream() << row.Finish();
+  file_.ThrowIfFailed();
+}
+
+}  // namespace qwsm::pipeline

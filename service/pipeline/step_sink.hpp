@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+
+#include "qwsm/mapping/mapper.hpp"
+
+namespace qwsm::pipeline {
+
+/// The mapper's answer, and how long it took to give.
+struct TimedStep {
+  MappingStep step;
+  std::chrono::nanoseconds duration{};
+};
+
+/// Takes the mapper's answers: files, topics, a display.
+class StepSink {
+ public:
+  StepSink() = default;
+  StepSink(const StepSink&) = delete;
+  StepSink& operator=(const StepSink&) = delete;
+  virtual ~StepSink() = default;
+
+  virtual void Take(const TimedStep& timed) = 0;
+};
+
+}  // namespace qwsm::pipeline

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// `qwsm map` as its users run it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "service/io/trajectory_file.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/room_log.hpp"
+
+namespace qwsm::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kScans = 40;
+
+std::size_t CountLines(const fs::path& file) {
+  const std::string text = ReadFile(file);
+  return static_cast<std::size_t>(std::ranges::count(text, '\n'));
+}
+
+class MapCommand : public ::testing::Test {
+ protected:
+  void SetUp() override { WriteRoomLog(log_, kScans); }
+
+  TemporaryFolder folder_;
+  fs::path log_ = folder_.path() / "room.log";
+  fs::path results_ = folder_.path() / "results";
+};
+
+TEST_F(MapCommand, LeavesAllResults) {
+  const Outcome outcome = RunProgram({"map", log_, "--output", results_});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_NE(outcome.output.find("scans          40"), std::string::npos) << outcome.output;
+  EXPECT_EQ(CountLines(results_ / "trajectory.tum"), kScans);
+  EXPECT_EQ(CountLines(results_ / "scans.csv"), kScans + 1);
+  EXPECT_NE(ReadFile(results_ / "metrics.json").find("\"scans\": 40"), std::string::npos);
+  EXPECT_NE(ReadFile(results_ / "config.yaml").find("matcher: q-wsm"), std::string::npos);
+  EXPECT_NE(ReadFile(results_ / "run.log").find("40 scans"), std::string::npos);
+  for (const fs::directory_entry& entry : fs::directory_iterator(results_)) {
+    EXPECT_NE(entry.path().extension(), ".part");
+  }
+}
+
+TEST_F(MapCommand, FollowsTheRobot) {
+  RunProgram({"map", log_, "--output", results_});
+  const Trajectory trajectory = io::ReadTumFile(results_ / "trajectory.tum");
+  ASSERT_EQ(trajectory.size(), kScans);
+  const Pose2 T_start_end = PoseInRoom(0).Inverse() * PoseInRoom(kScans - 1);
+  const Pose2 T_map_end = trajectory.back().T_map_robot;
+  EXPECT_NEAR(T_map_end.x_m, T_start_end.x_m, 0.02);
+  EXPECT_NEAR(T_map_end.y_m, T_start_end.y_m, 0.02);
+  EXPECT_NEAR(NormalizeAngle(T_map_end.theta_rad - T_start_end.theta_rad), 0.0, 0.01);
+}
+
+TEST_F(MapCommand, GivesTheSameFromAPipe) {
+  RunProgram({"map", log_, "--output", results_});
+  const fs::path piped = folder_.path() / "piped";
+  const Outcome outcome = Program({"map", "-", "--output", piped}, log_).Wait();
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_EQ(ReadFile(piped / "trajectory.tum"), ReadFile(results_ / "trajectory.tum"));
+}
+
+TEST_F(MapCommand, RunsAgainFromItsOwnConfiguration) {
+  RunProgram({"map", log_, "--output", results_, "--set", "mapper.relevant_rotation_deg=7.3"});
+  const fs::path again = folder_.path() / "again";
+  const Outcome outcome =
+      RunProgram({"map", log_, "-o", again, "--config", results_ / "config.yaml"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_EQ(ReadFile(again / "config.yaml"), ReadFile(results_ / "config.yaml"));
+  EXPECT_EQ(ReadFile(again / "trajectory.tum"), ReadFile(results_ / "trajectory.tum"));
+}
+
+TEST_F(MapCommand, WritesJsonLinesForPipes) {
+  const Outcome outcome = RunProgram({"map", log_, "--output", results_, "--json"});
+  EXPECT_EQ(std::ranges::count(outcome.output, '\n'), kScans);
+  EXPECT_TRUE(outcome.output.starts_with("{\"stamp_s\":1000.0,"));
+}
+
+TEST_F(MapCommand, ReplacesItsOwnResultsOnly) {
+  RunProgram({"map", log_, "--output", results_});
+  EXPECT_EQ(RunProgram({"map", log_, "--output", results_}).exit_code, 0);
+  const fs::path foreign = folder_.path() / "thesis";
+  fs::create_directory(foreign);
+  std::ofstream(foreign / "chapter1.tex") << "Introduction";
+  const Outcome refused = RunProgram({"map", log_, "--output", foreign});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_NE(refused.errors.find("--force"), std::string::npos) << refused.errors;
+  EXPECT_EQ(RunProgram({"map", log_, "--output", foreign, "--force"}).exit_code, 0);
+  EXPECT_EQ(ReadFile(foreign / "chapter1.tex"), "Introduction");
+  EXPECT_EQ(CountLines(foreign / "trajectory.tum"), kScans);
+}
+
+}  // namespace
+}  // namespace qwsm::test

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What the program says to mistakes, and with which exit code.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+#include "tests/support/program.hpp"
+#include "tests/support/room_log.hpp"
+
+namespace qwsm::test {
+namespace {
+
+TEST(Usage, HelpShowsExamplesFirst) {
+  const Outcome outcome = RunProgram({"map", "--help"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  const std::size_t examples = outcome.output.find("Examples:");
+  EXPECT_LT(examples, outcome.output.find("Options:"));
+  EXPECT_LT(examples, outcome.output.find("Usage:"));
+  EXPECT_EQ(outcome.errors, "");
+}
+
+TEST(Usage, VersionNamesTheProgram) {
+  const Outcome outcome = RunProgram({"--version"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_TRUE(outcome.output.starts_with("qwsm 0.")) << outcome.output;
+}
+
+TEST(Usage, SuggestsCommandsAndOptions) {
+  const Outcome command = RunProgram({"mpa", "room.log"});
+  EXPECT_EQ(command.exit_code, 2);
+  EXPECT_EQ(command.errors,
+            "qwsm: unknown command 'mpa'; did you mean 'map'?\nqwsm: see 'qwsm --help'\n");
+  const Outcome option = RunProgram({"map", "room.log", "--matchr", "wsm"});
+  EXPECT_EQ(option.exit_code, 2);
+  EXPECT_EQ(option.errors,
+            "qwsm: unknown option '--matchr'; did you mean '--matcher'?\n"
+            "qwsm: see 'qwsm map --help'\n");
+}
+
+TEST(Usage, NamesTheMatchers) {
+  const Outcome outcome = RunProgram({"map", "room.log", "--matcher", "q-wms"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.errors,
+            "qwsm: --matcher: must be one of q-wsm, wsm, icp, got 'q-wms'; "
+            "did you mean 'q-wsm'?\n");
+}
+
+TEST(Usage, AsksForWhatIsMissing) {
+  EXPECT_EQ(RunProgram({}).exit_code, 2);
+  const Outcome outcome = RunProgram({"map"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.errors.find("LOG is required"), std::string::npos) << outcome.errors;
+}
+
+TEST(Usage, NamesAMissingLog) {
+  const TemporaryFolder folder;
+  const Outcome outcome = RunProgram({"map", "no-such.log", "--output", folder.path() / "results"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.errors.find("no-such.log"), std::string::npos) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("No such file"), std::string::npos) << outcome.errors;
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "results"));
+}
+
+TEST(Usage, RefusesWhatIsNoLog) {
+  const TemporaryFolder folder;
+  const std::filesystem::path garbage = folder.path() / "garbage";
+  std::ofstream(garbage, std::ios::binary) << std::string(5000, '\x80') << "\nGARBAGE 1 2 3\n";
+  const Outcome outcome = RunProgram({"map", garbage, "--output", folder.path() / "results"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.errors.find("garbage"), std::string::npos) << outcome.errors;
+}
+
+TEST(Usage, ReportsAllConfigurationProblemsBeforeAnythingIsDone) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "robot.yaml";
+  std::ofstream(file) << "mapper:\n  matchr: wsm\n  min_overlap: 7\n";
+  const std::filesystem::path results = folder.path() / "results";
+  const Outcome outcome = RunProgram(
+      {"map", "room.log", "-o", results, "--config", file, "--set", "mapper.matcher=wms"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.errors,
+            file.string() + ":2:3: mapper.matchr: unknown option; did you mean 'matcher'?\n" +
+                file.string() + ":3:16: mapper.min_overlap: must be between 0 and 1, got 7\n" +
+                "--set mapper.matcher: must be one of q-wsm, wsm, icp, got 'wms'; "
+                "did you mean 'wsm'?\n");
+  EXPECT_FALSE(std::filesystem::exists(results));
+}
+
+TEST(Usage, SaysWhyResultsCannotBeWritten) {
+  const TemporaryFolder folder;
+  const std::filesystem::path log = folder.path() / "room.log";
+  WriteRoomLog(log, 3);
+  const Outcome nowhere = RunProgram({"map", log, "--output", "/proc/results"});
+  EXPECT_EQ(nowhere.exit_code, 3);
+  EXPECT_NE(nowhere.errors.find("/proc/results"), std::string::npos) << nowhere.errors;
+  const Outcome file = RunProgram({"map", log, "--output", log});
+  EXPECT_EQ(file.exit_code, 3);
+  EXPECT_NE(file.errors.find("is a file"), std::string::npos) << file.errors;
+}
+
+}  // namespace
+}  // namespace qwsm::test

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "tests/support/temporary_folder.hpp"
+
+namespace qwsm::test {
+
+inline std::string ReadFile(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// The program stands in bin/ beside the folder of the tests.
+inline std::filesystem::path ProgramPath() {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "bin/qwsm";
+}
+
+/// What a program did.
+struct Outcome {
+  int exit_code = -1;  ///< 128 + signal where it was killed.
+  std::string output;
+  std::string errors;
+};
+
+/// The program qwsm as its own process, in a folder of its own.
+class Program {
+ public:
+  explicit Program(std::vector<std::string> arguments) { Start(std::move(arguments), "/dev/null"); }
+  Program(std::vector<std::string> arguments, const std::filesystem::path& input) {
+    Start(std::move(arguments), input);
+  }
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+  ~Program() {
+    if (process_ > 0) Wait();
+  }
+
+  void Signal(int number) const { kill(process_, number); }
+
+  Outcome Wait() {
+    int status = 0;
+    waitpid(process_, &status, 0);
+    process_ = -1;
+    return {.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+            .output = ReadFile(streams_.path() / "output"),
+            .errors = ReadFile(streams_.path() / "errors")};
+  }
+
+ private:
+  void Start(std::vector<std::string> arguments, const std::filesystem::path& input) {
+    arguments.insert(arguments.begin(), ProgramPath());
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    process_ = fork();
+    if (process_ < 0) throw std::runtime_error("cannot fork");
+    if (process_ > 0) return;
+    Redirect(STDIN_FILENO, input, O_RDONLY);
+    Redirect(STDOUT_FILENO, streams_.path() / "output", O_WRONLY | O_CREAT);
+    Redirect(STDERR_FILENO, streams_.path() / "errors", O_WRONLY | O_CREAT);
+    execv(argv.front(), argv.data());
+    _exit(127);
+  }
+
+  static void Redirect(int descriptor, const std::filesystem::path& file, int flags) {
+    dup2(open(file.c_str(), flags, 0600), descriptor);
+  }
+
+  TemporaryFolder streams_;
+  pid_t process_ = -1;
+};
+
+inline Outcome RunProgram(std::vector<std::string> arguments) {
+  return Program(std::move(arguments)).Wait();
+}
+
+}  // namespace qwsm::test
