@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tests/support/scenes.hpp"
+
+#include <string_view>
+
+namespace qwsm::test {
+namespace {
+
+constexpr double kCellM = 0.5;
+constexpr double kTableLegM = 0.04;
+
+constexpr std::string_view kTwoRooms = R"(
+##################                    ##################
+#                #                    #   ##           #
+#  o o      ##   #                    #   ##           #
+#           ##   #                    #       6    o o #
+#        1       #                    #                #
+#                ######################            o o #
+#        b       #                    #                #
+#                                                      #
+#   2         4                          5          7  #
+#             a                          9             #
+#                #                    #                #
+#                ######################       8        #
+#   ###          #                    #        ####    #
+#   ###   3      #                    #        ####    #
+#                #                    #                #
+##################                    ##################
+)";
+
+constexpr std::string_view kOffices = R"(
+########################################################################
+#       #        #      #         #         #       #      #      #    #
+#       #        #      #         #         #       #      #      #    #
+#       #        #      #         #    ###  #       #  ### #      #    #
+#  o o  #   o o  # o o  #   ###   #         #   ### #      #  ### #    #
+#       #        #      #         #         #       #      #      #    #
+#       #        #      #         #         #       #      #      #    #
+#       #        #      #         #         #       #      #      #    #
+#       ##  #######  ######  ###########  #######  ####  #######       #
+#       #                     #                                #       #
+#       #           1                                                  #
+#   o   # 5        6                    7                   2      o   #
+#       #                                                      #       #
+#       #    ###  ###################################  ####    #       #
+#            #         #         #              #         #    #########
+#            #         #         #              #         #    #       #
+#       #    #         #         #              #         #    #       #
+#########    #         #         #              #         #    #       #
+#       #    #         #         #              #         #            #
+#   o   #    #   o     #         #              # o  o    #            #
+#            #         #       o #              #         #   ##  o    #
+#            #         #         #              #         #    #       #
+#       #    #         #      o  #              #         #    #########
+#########    #     o   #         # o     o      #         #    #       #
+#       #    #         #         #              #         #    #   o   #
+#       #    #         #         #              #         #            #
+#       #    #         #         #              #         #            #
+#   o   #    #         #         #              #         #    #       #
+#       #    #         #         #              #         #    #########
+#       #    #         #         #              #         #    #       #
+#       #    ######  ########  #######  #############  ####       o    #
+#                                                                      #
+#                                                            3 #       #
+#       #  4                                                   #       #
+#       #                                #                     #       #
+#       #####  ####  #####  ####   ########  ######   ##########       #
+#        #      #      #      #         #        #          #          #
+#        #      #      #      #         #        #          #          #
+#        #  o o #      #      #   ###   # ###    #          #          #
+#    ### #      #  o o # ###  #         #        #   ###    #   o o    #
+#        #      #      #      #         #        #          #          #
+#        #      #      #      #         #        #          #          #
+#        #      #      #      #         #        #          #          #
+########################################################################
+)";
+
+}  // namespace
+
+Scene TwoRoomsAndCorridor() {
+  return Moved(SceneFromDrawing(kTwoRooms, kCellM, kTableLegM), {3.0, -7.0, 0.3});
+}
+
+Scene LongCorridor() {
+  const std::vector<Eigen::Vector2d> corridor_m = {{0, 0},
+                                                   {60, 0},
+                                                   {60, 2},
+                                                   {31, 2},
+                                                   {31, 5},
+                                                   {28, 5},
+                                                   {28, 2.1},
+                                                   {30, 2.1},
+                                                   {30, 2},
+                                                   {0, 2},
+                                                   {0, 0}};
+  Scene scene{.world = {}, .route_m = {{2, 1}, {58, 1.2}, {2, 0.8}}};
+  for (std::size_t i = 1; i < corridor_m.size(); ++i) {
+    scene.world.walls.push_back({.from_m = corridor_m[i - 1], .to_m = corridor_m[i]});
+  }
+  return Moved(scene, {-5.0, 12.0, -0.4});
+}
+
+Scene OfficeLoop() {
+  return Moved(SceneFromDrawing(kOffices, kCellM, kTableLegM), {-20.0, 4.0, 0.2});
+}
+
+}  // namespace qwsm::test

@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "tests/support/scenes.hpp"
+#include "tests/support/simulated_drive.hpp"
+#include "tests/support/simulated_laser.hpp"
+#include "tests/support/world.hpp"
+
+namespace qwsm::test {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Eigen::Vector2d Towards(double heading_rad) {
+  return {std::cos(heading_rad), std::sin(heading_rad)};
+}
+
+TEST(CastRay, MeasuresWallsExactly) {
+  const World world{.walls = {{{2.0, -1.0}, {2.0, 1.0}}, {{5.0, -9.0}, {5.0, 9.0}}}, .columns = {}};
+  EXPECT_DOUBLE_EQ(*CastRay(world, {0.0, 0.0}, Towards(0.0)), 2.0);
+  EXPECT_NEAR(*CastRay(world, {0.0, 0.0}, Towards(kPi / 4)), 5.0 * std::sqrt(2.0), 1e-12);
+  EXPECT_EQ(CastRay(world, {0.0, 0.0}, Towards(kPi)), std::nullopt);
+  EXPECT_DOUBLE_EQ(*CastRay(world, {0.0, 1.5}, Towards(0.0)), 5.0);
+}
+
+TEST(CastRay, MeasuresColumnsExactly) {
+  const World world{.walls = {}, .columns = {{.center_m = {3.0, 0.0}, .radius_m = 0.5}}};
+  EXPECT_DOUBLE_EQ(*CastRay(world, {0.0, 0.0}, Towards(0.0)), 2.5);
+  EXPECT_NEAR(*CastRay(world, {0.0, 0.3}, Towards(0.0)), 3.0 - 0.4, 1e-12);
+  EXPECT_EQ(CastRay(world, {0.0, 0.6}, Towards(0.0)), std::nullopt);
+  EXPECT_EQ(CastRay(world, {0.0, 0.0}, Towards(kPi)), std::nullopt);
+}
+
+TEST(SceneFromDrawing, StandsOnItsLowerLeftCorner) {
+  const Scene scene = SceneFromDrawing(
+      "####\n"
+      "#1o#\n"
+      "#.2#\n"
+      "####\n",
+      0.5);
+  ASSERT_EQ(scene.route_m.size(), 2U);
+  EXPECT_EQ(scene.route_m[0], Eigen::Vector2d(0.75, 1.25));
+  EXPECT_EQ(scene.route_m[1], Eigen::Vector2d(1.25, 0.75));
+  ASSERT_EQ(scene.world.columns.size(), 1U);
+  EXPECT_EQ(scene.world.columns[0].center_m, Eigen::Vector2d(1.25, 1.25));
+  EXPECT_EQ(scene.world.walls.size(), 8U);  // The outline inside and outside.
+  EXPECT_DOUBLE_EQ(*CastRay(scene.world, scene.route_m[1], Towards(0.0)), 0.25);
+  EXPECT_DOUBLE_EQ(*CastRay(scene.world, scene.route_m[1], Towards(kPi)), 0.75);
+}
+
+TEST(SceneFromDrawing, RefusesAnUnclearRoute) {
+  EXPECT_THROW(SceneFromDrawing("1 2 2", 1.0), std::invalid_argument);
+  EXPECT_THROW(SceneFromDrawing("1 3", 1.0), std::invalid_argument);
+}
+
+TEST(SimulatedLaser, ReadsTheTruthWithoutNoise) {
+  const World world{.walls = {{{2.0, -9.0}, {2.0, 9.0}}}, .columns = {}};
+  SimulatedLaser laser{.beams = 3, .range_max_m = 8.0, .range_sigma_m = 0.0};
+  laser.bearing_sigma_rad = 0.0;
+  laser.lost_echo_share = 0.0;
+  laser.T_robot_laser = {0.5, 0.0, 0.0};
+  std::mt19937_64 random(1);
+  const LaserScan ahead = Measure(laser, world, {0.0, 0.0, 0.0}, random);
+  EXPECT_FLOAT_EQ(ahead.ranges_m[1], 1.5F);
+  EXPECT_EQ(StateOf(ahead.ranges_m[0], ahead.geometry), BeamState::kMiss);
+  const LaserScan turned_left = Measure(laser, world, {0.0, 0.0, kPi / 2}, random);
+  EXPECT_FLOAT_EQ(turned_left.ranges_m[0], 2.0F);  // The right beam.
+}
+
+TEST(SimulatedLaser, NoiseHasTheDeviationAskedFor) {
+  const World world{.walls = {{{4.0, -90.0}, {4.0, 90.0}}}, .columns = {}};
+  SimulatedLaser laser{.beams = 3, .field_of_view_rad = 1e-3, .range_sigma_m = 0.03};
+  laser.lost_echo_share = 0.0;
+  std::mt19937_64 random(5);
+  double sum_of_squares_m2 = 0.0;
+  constexpr int kScans = 3000;
+  for (int i = 0; i < kScans; ++i) {
+    const double error_m = static_cast<double>(Measure(laser, world, {}, random).ranges_m[1]) - 4.0;
+    sum_of_squares_m2 += error_m * error_m;
+  }
+  EXPECT_NEAR(std::sqrt(sum_of_squares_m2 / kScans), 0.03, 0.0015);
+}
+
+TEST(SimulatedDrive, IsTheSameForTheSameSeed) {
+  const Scene scene = TwoRoomsAndCorridor();
+  const SimulatedDrive a = DriveThrough(scene, {.seed = 3});
+  const SimulatedDrive b = DriveThrough(scene, {.seed = 3});
+  const SimulatedDrive other = DriveThrough(scene, {.seed = 4});
+  ASSERT_EQ(a.observations.size(), b.observations.size());
+  EXPECT_EQ(a.T_world_robot, other.T_world_robot);
+  EXPECT_EQ(a.observations.back().scan.ranges_m, b.observations.back().scan.ranges_m);
+  EXPECT_EQ(a.observations.back().T_odom_robot, b.observations.back().T_odom_robot);
+  EXPECT_NE(a.observations.back().scan.ranges_m, other.observations.back().scan.ranges_m);
+}
+
+TEST(SimulatedDrive, OdometryIsTheTruthWithoutErrors) {
+  const OdometryErrors none{.position_sigma_m_per_sqrt_m = 0.0,
+                            .heading_sigma_rad_per_sqrt_m = 0.0,
+                            .heading_sigma_rad_per_sqrt_rad = 0.0,
+                            .path_scale = 1.0,
+                            .turn_scale = 1.0};
+  const SimulatedDrive drive = DriveThrough(TwoRoomsAndCorridor(), {.odometry = none});
+  const Pose2 T_world_odom = drive.T_world_robot.front();
+  const Pose2 T_world_robot = T_world_odom * *drive.observations.back().T_odom_robot;
+  EXPECT_NEAR((T_world_robot.translation_m() - drive.T_world_robot.back().translation_m()).norm(),
+              0.0,
+              1e-9);
+}
+
+TEST(SimulatedDrive, OdometryErrsAsToldHoweverOftenItIsSampled) {
+  OdometryErrors errors{.position_sigma_m_per_sqrt_m = 0.05, .heading_sigma_rad_per_sqrt_m = 0.0};
+  errors.path_scale = 1.0;
+  for (const int samples : {1, 50}) {
+    SCOPED_TRACE(samples);
+    std::vector<Pose2> straight;
+    for (int i = 0; i <= samples; ++i) straight.push_back({9.0 * i / samples, 0.0, 0.0});
+    std::mt19937_64 random(11);
+    double sum_of_squares_m2 = 0.0;
+    constexpr int kDrives = 2000;
+    for (int i = 0; i < kDrives; ++i) {
+      const double error_m = ErringOdometry(straight, errors, random).back().x_m - 9.0;
+      sum_of_squares_m2 += error_m * error_m;
+    }
+    EXPECT_NEAR(std::sqrt(sum_of_squares_m2 / kDrives), 0.05 * 3.0, 0.01);
+  }
+}
+
+// A robot 0.5 m wide fits through every scene, and the laser sees something all the way.
+TEST(Scenes, LeaveRoomForTheirRoutes) {
+  for (const Scene& scene : {TwoRoomsAndCorridor(), LongCorridor(), OfficeLoop()}) {
+    SCOPED_TRACE("scene with " + std::to_string(scene.world.walls.size()) + " walls");
+    for (const Pose2& T_world_robot : PosesAlong(scene.route_m, {})) {
+      for (int i = 0; i < 32; ++i) {
+        const std::optional<double> clearance_m =
+            CastRay(scene.world, T_world_robot.translation_m(), Towards(i * kPi / 16));
+        ASSERT_TRUE(clearance_m) << "the walls have a gap";
+        ASSERT_GT(*clearance_m, 0.25) << T_world_robot.translation_m().transpose();
+      }
+    }
+  }
+}
+
+TEST(Scenes, ReturnToWhereTheyBegan) {
+  for (const Scene& scene : {TwoRoomsAndCorridor(), LongCorridor(), OfficeLoop()}) {
+    const std::vector<Pose2> poses = PosesAlong(scene.route_m, {});
+    double path_m = 0.0;
+    double return_m = 1e9;
+    for (std::size_t i = 1; i < poses.size(); ++i) {
+      path_m += (poses[i].translation_m() - poses[i - 1].translation_m()).norm();
+      const double away_m = (poses[i].translation_m() - poses[0].translation_m()).norm();
+      if (path_m > 30.0) return_m = std::min(return_m, away_m);
+    }
+    EXPECT_GT(path_m, 50.0);
+    EXPECT_LT(return_m, 1.5);
+  }
+}
+
+}  // namespace
+}  // namespace qwsm::test
