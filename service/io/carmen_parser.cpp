@@ -53,10 +53,6 @@ const SweepLayout* LayoutOf(std::string_view message) {
   return found == kSweepLayouts.end() ? nullptr : found;
 }
 
-bool IsPrintable(std::string_view word) {
-  return std::ranges::all_of(word, [](char c) { return c > ' ' && c <= '~'; });
-}
-
 /// `ipc_timestamp ipc_hostname logger_timestamp`: the first, unless it was never set. Old writers
 /// leave out the last or the last two.
 Timestamp ReadStamp(FieldReader& fields) {

@@ -24,6 +24,25 @@ std::string_view WithoutPlus(std::string_view text) {
   return text;
 }
 
+/// ".5", "1.2e+09": rare, and not written by those who care for nanoseconds.
+std::optional<Timestamp> ParseRoundedStamp(std::string_view seconds) {
+  const std::optional<double> value_s = ParseNumber(seconds);
+  if (!value_s || !(*value_s >= 0.0 && *value_s <= kMaxStampS)) return std::nullopt;
+  return Timestamp(std::llround(*value_s * static_cast<double>(kNanosecondsPerSecond)));
+}
+
+/// What a number stands for that is out of the range of its type: next to nothing, or no end of it.
+template <class Value>
+Value OutOfRange(std::string_view number) {
+  const std::size_t exponent = number.find_first_of("eE");
+  const bool vanishes = exponent == std::string_view::npos
+                            ? number.starts_with("0") || number.starts_with("-0")
+                            : number.substr(exponent + 1).starts_with("-");
+  if (vanishes) return Value{0};
+  constexpr Value kInfinity = std::numeric_limits<Value>::infinity();
+  return number.starts_with("-") ? -kInfinity : kInfinity;
+}
+
 }  // namespace
 
 std::string_view Explain(FieldFault fault) {
@@ -46,10 +65,16 @@ std::string_view Explain(FieldFault fault) {
       return "the line is longer than 4 MiB; it may lack its line end";
     case FieldFault::kNotText:
       return "the line is not text; the file is damaged here or was copied wrongly";
+    case FieldFault::kNoMessage:
+      return "the line does not begin like a message; it was damaged, or comes from elsewhere";
     case FieldFault::kOddReadings:
       return "readings are negative or not finite; they count as invalid, the rest is used";
   }
   return "unknown fault";
+}
+
+bool IsPrintable(std::string_view word) {
+  return std::ranges::all_of(word, [](char c) { return c > ' ' && c <= '~'; });
 }
 
 std::optional<double> ParseNumber(std::string_view text) {
@@ -65,19 +90,13 @@ std::optional<Timestamp> ParseStamp(std::string_view seconds) {
   std::int64_t whole_s = 0;
   const char* const end = seconds.data() + seconds.size();
   auto [rest, error] = std::from_chars(seconds.data(), end, whole_s);
-  const bool plain =
-      error == std::errc() && IsDigit(seconds.front()) && (rest == end || *rest == '.');
-  if (!plain) {  // ".5" or "1.2e+09": rare enough for the detour.
-    const std::optional<double> value_s = ParseNumber(seconds);
-    if (!value_s || !(*value_s >= 0.0 && *value_s <= kMaxStampS)) return std::nullopt;
-    return Timestamp(std::llround(*value_s * static_cast<double>(kNanosecondsPerSecond)));
-  }
+  if (error != std::errc() || !IsDigit(seconds.front())) return ParseRoundedStamp(seconds);
+  if (rest != end && *rest++ != '.') return ParseRoundedStamp(seconds);
   if (static_cast<double>(whole_s) > kMaxStampS) return std::nullopt;
   std::int64_t nanoseconds = whole_s * kNanosecondsPerSecond;
   std::int64_t digit_value_ns = kNanosecondsPerSecond / 10;
-  if (rest != end) ++rest;
   for (; rest != end; ++rest, digit_value_ns /= 10) {  // Digits beyond the ninth count nothing.
-    if (!IsDigit(*rest)) return std::nullopt;
+    if (!IsDigit(*rest)) return ParseRoundedStamp(seconds);
     nanoseconds += digit_value_ns * (*rest - '0');
   }
   return Timestamp(nanoseconds);
@@ -109,8 +128,9 @@ Value FieldReader::Parse() {
     Fail(text_.empty() ? FieldFault::kEndsEarly : FieldFault::kNotANumber);
     return Value{};
   }
-  text_.remove_prefix(static_cast<std::size_t>(rest - text_.data()));
-  return error == std::errc() ? value : std::numeric_limits<Value>::infinity();
+  const std::string_view number(text_.data(), static_cast<std::size_t>(rest - text_.data()));
+  text_.remove_prefix(number.size());
+  return error == std::errc() ? value : OutOfRange<Value>(number);
 }
 
 double FieldReader::Number() {

@@ -26,11 +26,15 @@ enum class FieldFault {
   kSurplus,
   kTooLong,
   kNotText,
+  kNoMessage,
   kOddReadings,  ///< The only one that leaves the line usable.
 };
 
 /// The cause and its remedy, to follow "FLASER: ".
 std::string_view Explain(FieldFault fault);
+
+/// Whether a word is of printable ASCII.
+bool IsPrintable(std::string_view word);
 
 /// Reads the fields of one line from left to right.
 ///

@@ -21,13 +21,15 @@ std::optional<Line> LineReader::Next() {
   while (true) {
     if (const char* line_end = FindLineEnd()) {
       const auto size = static_cast<std::size_t>(line_end - buffer_.data()) - begin_;
-      const Line line = Cut(size);
+      Line line = Cut(size);
+      line.too_long = size > kMaxLineBytes;
       begin_ = searched_ = begin_ + size + 1;
       return line;
     }
     if (end_ - begin_ > kMaxLineBytes) {
       Line line = Cut(kMaxLineBytes);
-      line.too_long = in_long_line_ = true;
+      line.too_long = true;
+      in_long_line_ = true;
       begin_ = end_;
       return line;
     }

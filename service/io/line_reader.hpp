@@ -19,7 +19,7 @@ inline constexpr std::size_t kMaxLineBytes = std::size_t{4} << 20U;
 struct Line {
   std::size_t number = 0;  ///< Counted from 1.
   std::string_view text;   ///< Without line end, carriage return and byte order mark.
-  bool too_long = false;   ///< Then `text` is only its beginning.
+  bool too_long = false;   ///< Then `text` may be only its beginning.
 };
 
 /// Cuts the bytes of a source into lines, in bounded memory.

@@ -3,12 +3,16 @@
 #include "service/io/log_parser.hpp"
 
 #include "service/io/carmen_parser.hpp"
+#include "service/io/dpslam_parser.hpp"
+#include "service/io/player_parser.hpp"
 
 namespace qwsm::io {
 
 std::unique_ptr<LogParser> RecognizeFormat(std::string_view line,
                                            std::optional<double> field_of_view_rad) {
   if (CarmenParser::Recognizes(line)) return std::make_unique<CarmenParser>(field_of_view_rad);
+  if (PlayerParser::Recognizes(line)) return std::make_unique<PlayerParser>();
+  if (DpslamParser::Recognizes(line)) return std::make_unique<DpslamParser>(field_of_view_rad);
   return nullptr;
 }
 

@@ -53,6 +53,8 @@ class LogParser {
   virtual ~LogParser() = default;
 
   virtual std::string_view format() const = 0;
+  /// Whether the format has time stamps; else the parser makes them up.
+  virtual bool has_stamps() const { return true; }
   /// Views in the result are valid as long as `line`.
   virtual ParsedLine Parse(std::string_view line) = 0;
 };

@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/io/log_reader.hpp"
 
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <iostream>
 #include <utility>
 
+#include "service/io/file_error.hpp"
 #include "service/io/text_log_reader.hpp"
 
 namespace qwsm::io {
@@ -20,13 +19,14 @@ std::unique_ptr<LogReader> OpenLog(std::istream& stream,
 
 std::unique_ptr<LogReader> OpenLog(const std::filesystem::path& path, const LogOptions& options) {
   if (path == "-") return OpenLog(std::cin, "standard input", options);
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    throw LogError(path.string() + ": is a folder; name the log file in it");
+  std::unique_ptr<std::ifstream> file;
+  try {
+    file = std::make_unique<std::ifstream>(OpenForReading(path));
+  } catch (const std::runtime_error& error) {
+    throw LogError(error.what());
   }
-  auto file = std::make_unique<std::ifstream>(path, std::ios::binary);
-  if (!*file) throw LogError(path.string() + ": cannot be opened: " + std::strerror(errno));
   auto reader = std::make_unique<TextLogReader>(*file, path.string(), options);
+  std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);  // Not that of a pipe.
   reader->Own(std::move(file), error ? std::nullopt : std::optional<std::uint64_t>(size));
   return reader;

@@ -22,6 +22,7 @@ struct LogReport {
   std::string name;         ///< The file, or "standard input".
   std::string format;       ///< "CARMEN", "Player" or "DP-SLAM".
   std::string compression;  ///< "none", "gzip", "bzip2" or "xz".
+  bool has_stamps = true;   ///< Else they were made up: the format has none.
   std::size_t lines = 0;
   std::size_t scans = 0;  ///< Delivered, like the next two.
   std::size_t odometry_readings = 0;

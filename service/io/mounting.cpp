@@ -24,7 +24,7 @@ double Median(std::vector<Pose2> poses, Component component) {
 }
 
 /// To a tenth of a millimetre: a tape measure was used, the rest is rounding of the poses.
-double RoundedM(double value_m) { return std::round(value_m * 1e4) / 1e4; }
+double RoundedM(double value_m) { return std::round(value_m * 1e4) / 1e4 + 0.0; }  // No -0.
 
 bool IsNear(const Pose2& a, const Pose2& b) {
   return (a.translation_m() - b.translation_m()).norm() < kSameM &&

@@ -87,10 +87,11 @@ std::optional<ScanReading> SweepCompleter::Complete(Sweep sweep) {
   if (found == lasers_.end() || found->second.message != sweep.message) return std::nullopt;
   const Laser& laser = found->second;
   LaserGeometry& geometry = sweep.reading.scan.geometry;
-  // A scanner whose stated range is longer than what it writes for "no echo" was configured so.
+  // A stated maximum holds, unless what stands for "no echo" would be taken for echoes.
   const bool stated = geometry.range_max_m > 0.0F;
-  geometry.range_max_m =
-      stated ? std::min(geometry.range_max_m, laser.range_max_m) : laser.range_max_m;
+  if (!stated || laser.range_max_m < kMissShareOfMaximum * geometry.range_max_m) {
+    geometry.range_max_m = laser.range_max_m;
+  }
   if (options_.range_max_m) geometry.range_max_m = *options_.range_max_m;
   if (!sweep.mounting_known && laser.T_robot_laser) geometry.T_robot_laser = *laser.T_robot_laser;
   if (options_.T_robot_laser) geometry.T_robot_laser = *options_.T_robot_laser;

@@ -55,6 +55,7 @@ void TextLogReader::Recognize() {
       parser_ = RecognizeFormat(line->text, options_.field_of_view_rad);
       if (parser_ != nullptr) {
         report_.format = parser_->format();
+        report_.has_stamps = parser_->has_stamps();
         return Take(parser_->Parse(line->text), line->number);
       }
       const std::string_view name = FieldReader(line->text).Word();

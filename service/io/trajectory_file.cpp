@@ -2,25 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/io/trajectory_file.hpp"
 
-#include <array>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <fstream>
-#include <stdexcept>
 #include <string>
 
 #include "service/io/field_reader.hpp"
+#include "service/io/file_error.hpp"
 #include "service/io/line_reader.hpp"
 #include "service/io/number_text.hpp"
 
 namespace qwsm::io {
 namespace {
-
-[[noreturn]] void ThrowCannot(const std::filesystem::path& path, std::string_view what) {
-  throw std::runtime_error(path.string() + ": cannot be " + std::string(what) + ": " +
-                           std::strerror(errno));
-}
 
 StampedPose2 ParseTumLine(FieldReader& fields) {
   StampedPose2 pose;
@@ -59,7 +51,7 @@ void WriteTumLine(std::ostream& stream, const StampedPose2& pose) {
 void WriteTumFile(const std::filesystem::path& path, const Trajectory& trajectory) {
   std::ofstream file(path);
   for (const StampedPose2& pose : trajectory) WriteTumLine(file, pose);
-  if (!file.flush()) ThrowCannot(path, "written");
+  if (!file.flush()) ThrowCannotWrite(path);
 }
 
 Trajectory ReadTum(std::istream& stream, std::string_view name) {
@@ -69,17 +61,15 @@ Trajectory ReadTum(std::istream& stream, std::string_view name) {
     FieldReader fields(line->text);
     if (fields.AtEnd() || line->text.starts_with('#')) continue;
     trajectory.push_back(ParseTumLine(fields));
-    if (!fields.fault()) continue;
-    throw std::runtime_error(std::string(name) + ":" + std::to_string(line->number) + ": " +
-                             std::string(Explain(*fields.fault())) +
-                             "; a line is 't x y z qx qy qz qw'");
+    if (fields.fault()) {
+      ThrowAtLine(name, line->number, *fields.fault(), "a line is 't x y z qx qy qz qw'");
+    }
   }
   return trajectory;
 }
 
 Trajectory ReadTumFile(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) ThrowCannot(path, "opened");
+  std::ifstream file = OpenForReading(path);
   return ReadTum(file, path.string());
 }
 

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/io/file_error.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+
+namespace qwsm::io {
+namespace {
+
+std::runtime_error Cannot(std::string_view what, const std::filesystem::path& path) {
+  std::string message = path.string();
+  message.append(": cannot be ").append(what).append(": ").append(std::strerror(errno));
+  return std::runtime_error(message);
+}
+
+}  // namespace
+
+std::ifstream OpenForReading(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    throw std::runtime_error(path.string() + ": is a folder; name the file in it");
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Cannot("opened", path);
+  return file;
+}
+
+void ThrowCannotWrite(const std::filesystem::path& path) { throw Cannot("written", path); }
+
+void ThrowAtLine(std::string_view name,
+                 std::size_t line_number,
+                 FieldFault fault,
+                 std::string_view expected) {
+  std::string message(name);
+  message.append(":").append(std::to_string(line_number)).append(": ");
+  message.append(Explain(fault)).append("; ").append(expected);
+  throw std::runtime_error(message);
+}
+
+}  // namespace qwsm::io
