@@ -14,6 +14,8 @@ function(qwsm_target_defaults target)
     -Wno-psabi
     # GCC 12 warns wrongly of `"text" + std::string` (its bug 105651).
     $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>
+    # Clang counts changes of sign to -Wconversion, GCC does not: the same code passes both.
+    $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<CXX_COMPILER_ID:Clang>>:-Wno-sign-conversion>
     # Fused multiply-adds would make results depend on the machine: a replay has to be bit-exact.
     -ffp-contract=off
     $<$<BOOL:${QWSM_WARNINGS_AS_ERRORS}>:-Werror>)

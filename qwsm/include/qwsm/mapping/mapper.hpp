@@ -119,7 +119,6 @@ class Mapper {
   ScanMap map_;
   UncertainPose2 map_last_;  // Pose at the last scan.
   Pose2 T_map_relevant_;     // Pose at the last relevant scan.
-  bool begun_ = false;
 };
 
 }  // namespace qwsm
