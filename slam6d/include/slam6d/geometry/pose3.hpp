@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+namespace slam6d {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// A rigid motion of space, SE(3), right-handed. `T_a_b` is the pose of frame b in frame a; it maps
+/// coordinates in b to coordinates in a: `p_a = T_a_b * p_b`.
+struct Pose3 {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();
+
+  Pose3 Inverse() const;
+};
+
+/// T_a_c = T_a_b * T_b_c.
+Pose3 operator*(const Pose3& T_a_b, const Pose3& T_b_c);
+
+/// p_a = T_a_b * p_b, in metres.
+Eigen::Vector3d operator*(const Pose3& T_a_b, const Eigen::Vector3d& p_b_m);
+
+/// A pose and how far it may be from the truth.
+///
+/// `covariance` is of (x, y, z, roll, pitch, yaw) in m^2, m rad and rad^2: the translation along
+/// the axes of the parent frame a, the small rotations about those axes through the origin of b.
+struct UncertainPose3 {
+  Pose3 T_a_b;
+  Matrix6d covariance = Matrix6d::Zero();
+};
+
+/// The matrix with `Skew(a) * b == a.cross(b)`.
+Eigen::Matrix3d Skew(const Eigen::Vector3d& a);
+
+/// The rotation by |v| about v (Rodrigues), and its inverse with |v| in [0, pi].
+Eigen::Matrix3d RotationFromVector(const Eigen::Vector3d& rotation_vector_rad);
+Eigen::Vector3d RotationVector(const Eigen::Matrix3d& rotation);
+
+/// Angle of the rotation in [0, pi]; as exact near 0 as elsewhere.
+double RotationAngle(const Eigen::Matrix3d& rotation);
+
+/// Rz(yaw) Ry(pitch) Rx(roll), and its inverse: the angles of REP 103 with pitch in [-pi/2, pi/2].
+Eigen::Matrix3d RotationFromRollPitchYaw(const Eigen::Vector3d& roll_pitch_yaw_rad);
+Eigen::Vector3d RollPitchYaw(const Eigen::Matrix3d& rotation);
+
+/// The rotation nearest to `nearly`; long products of rotations are brought back by it.
+Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& nearly);
+
+/// The pose at `share` of the way from identity to `motion`: translation and rotation vector
+/// scaled.
+Pose3 ScaledMotion(const Pose3& motion, double share);
+
+/// Whether all numbers are finite.
+bool IsFinite(const Pose3& pose);
+
+}  // namespace slam6d

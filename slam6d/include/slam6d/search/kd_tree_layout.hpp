@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace slam6d {
+
+/// Points are compared eight at a time: a block fills one cache line per coordinate.
+inline constexpr int kLanes = 8;
+
+/// Up to eight points of one leaf. Empty places hold infinity, which is never near to anything.
+struct alignas(64) PointBlock {
+  double x_m[kLanes];
+  double y_m[kLanes];
+  double z_m[kLanes];
+};
+
+/// A box with sides along the axes; the fourth place only fills the line.
+struct alignas(64) Box {
+  double low_m[4];
+  double high_m[4];
+};
+
+/// A node of the tree: two children side by side, or a leaf with its blocks of points.
+struct KdNode {
+  static constexpr std::uint32_t kLeaf = 3;
+
+  double split_m = 0.0;           ///< The cut across `axis`; points on it belong to the left child.
+  std::uint32_t axis = kLeaf;     ///< 0, 1, 2 = x, y, z.
+  std::uint32_t first = 0;        ///< The left child, or the leaf's first block.
+  std::uint32_t point_count = 0;  ///< Of a leaf; they fill its blocks in order.
+  std::uint32_t parent = 0;       ///< The root is its own parent.
+};
+
+/// A kd-tree as the searches read it. Node 0 is the root; slot s is place s % 8 of block s / 8.
+struct KdTreeLayout {
+  static constexpr std::uint32_t kNoSlot = std::numeric_limits<std::uint32_t>::max();
+  /// No path from the root is longer; the searches' stacks rely on it.
+  static constexpr int kMaxDepth = 96;
+
+  std::vector<KdNode> nodes;
+  std::vector<Box> limits;  ///< Per node, the box of the points really in it (Figure 3b).
+  std::vector<Box> cells;   ///< Per node, the part of space its cuts leave it; the root's is all.
+  std::vector<PointBlock> blocks;
+  std::vector<std::uint32_t> index_of_slot;  ///< The point's place in the cloud.
+  std::vector<std::uint32_t> leaf_of_block;
+};
+
+}  // namespace slam6d
