@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "sim/driver.hpp"
+#include "sim/gyro.hpp"
+#include "sim/laser.hpp"
+#include "sim/odometry.hpp"
+#include "sim/physics_world.hpp"
+#include "sim/wheel_drive.hpp"
+
+namespace sim {
+
+struct RobotOptions {
+  std::string name = "robot";
+  double start_x_m = 0.0;  ///< Not looked at where the robot drives a route of the layout.
+  double start_y_m = 0.0;
+  double start_heading_rad = 0.0;
+  double length_m = 0.5;
+  double width_m = 0.5;
+  double mass_kg = 30.0;
+  WheelDriveOptions drive;
+  OdometryOptions odometry;
+  GyroOptions gyro;
+  LaserOptions laser;
+  DriverOptions driver;
+};
+
+template <class Visitor>
+void Describe(Visitor& visit, RobotOptions& o) {
+  visit("name", o.name, {.help = "name of the robot"});
+  visit("start_x_m",
+        o.start_x_m,
+        {.help = "start, if way points are given", .min = -1e4, .max = 1e4});
+  visit("start_y_m",
+        o.start_y_m,
+        {.help = "start, if way points are given", .min = -1e4, .max = 1e4});
+  visit("start_heading_rad",
+        o.start_heading_rad,
+        {.help = "heading at the start, if way points are given", .min = -7, .max = 7});
+  visit("length_m", o.length_m, {.help = "of the body", .min = 0.05, .max = 10});
+  visit("width_m", o.width_m, {.help = "of the body", .min = 0.05, .max = 10});
+  visit("mass_kg", o.mass_kg, {.help = "mass", .min = 0.1, .max = 1e4});
+  visit("drive", o.drive, {.help = "wheels and motors"});
+  visit("odometry", o.odometry, {.help = "encoders"});
+  visit("gyro", o.gyro, {.help = "yaw rate sensor"});
+  visit("laser", o.laser, {.help = "laser scanner"});
+  visit("driver", o.driver, {.help = "who steers it, and where to"});
+}
+
+template <class Report>
+void Validate(const RobotOptions& o, Report& report) {
+  if (o.drive.track_m > o.width_m) report("width_m", "must be at least drive.track_m");
+  if (o.drive.type == DriveType::kSkidSteer && o.drive.wheelbase_m > o.length_m) {
+    report("length_m", "must be at least drive.wheelbase_m");
+  }
+}
+
+/// A scan, and what was true and what was believed when its first beam was cast.
+struct Reading {
+  std::size_t robot = 0;  ///< Index in the scenario.
+  qwsm::LaserScan scan;
+  qwsm::Pose2 T_odom_robot;        ///< By the wheels, from where the robot started.
+  qwsm::Pose2 T_world_robot;       ///< The truth.
+  std::optional<double> gyro_rad;  ///< Turned since the start, by the gyro; not wrapped.
+};
+
+/// A robot, where it starts and the way it is to follow, if it follows one.
+struct RobotPlacement {
+  RobotOptions options;
+  qwsm::Pose2 T_world_robot;
+  Route route;
+};
+
+/// One robot in the world: a body pushed by its wheels, sensors, and whoever drives it.
+class Robot {
+ public:
+  Robot(const RobotPlacement& placement, std::uint64_t seed, PhysicsWorld& world);
+
+  /// Decides, turns the wheels and pushes, for a step of the world that begins now.
+  void Drive(PhysicsWorld& world,
+             const Ground& ground,
+             qwsm::Timestamp now,
+             std::chrono::nanoseconds step);
+
+  /// Encoders and gyro, after the step.
+  void Advance(const PhysicsWorld& world, std::chrono::nanoseconds step);
+
+  /// Casts the beams that are due by now; the scan is returned once it is complete.
+  std::optional<Reading> Scan(const PhysicsWorld& world, qwsm::Timestamp now);
+
+  Driver& driver() { return driver_; }
+  const Driver& driver() const { return driver_; }
+  const RobotOptions& options() const { return options_; }
+  BodyId body() const { return body_; }
+  const qwsm::Pose2& T_odom_robot() const { return odometry_.T_odom_robot(); }
+
+ private:
+  qwsm::Timestamp ScanDue() const;
+
+  RobotOptions options_;
+  BodyId body_;
+  WheelDrive drive_;
+  WheelOdometry odometry_;
+  Gyro gyro_;
+  Laser laser_;
+  Driver driver_;
+  Reading reading_;  ///< Of the scan being taken.
+  std::int64_t scans_begun_ = 0;
+};
+
+}  // namespace sim

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/robot.hpp"
+
+#include <algorithm>
+#include <numbers>
+#include <utility>
+
+namespace sim {
+namespace {
+
+constexpr double kDriversView_m = 2.0;
+
+/// From the front of a robot to the nearest thing straight ahead, up to kDriversView_m; or from its
+/// back to what is behind it, if it is turned round by pi.
+double FreeAlong(const PhysicsWorld& world,
+                 BodyId body,
+                 const RobotOptions& options,
+                 double turned_rad) {
+  const qwsm::Pose2 T_world_view = world.PoseOf(body) * qwsm::Pose2{0.0, 0.0, turned_rad};
+  const double to_end_m = 0.5 * options.length_m;
+  double free_m = kDriversView_m;
+  for (const double side : {-0.5, 0.0, 0.5}) {
+    const Eigen::Vector2d from_m = T_world_view * Eigen::Vector2d(0.0, side * options.width_m);
+    const double range_m =
+        world.CastRay(from_m, T_world_view.theta_rad, to_end_m + kDriversView_m, body);
+    free_m = std::min(free_m, range_m - to_end_m);
+  }
+  return free_m;
+}
+
+}  // namespace
+
+Robot::Robot(const RobotPlacement& placement, std::uint64_t seed, PhysicsWorld& world)
+    : options_(placement.options),
+      body_(world.AddDriven(Rectangle{options_.length_m, options_.width_m},
+                            placement.T_world_robot,
+                            options_.mass_kg)),
+      drive_(options_.drive, options_.mass_kg, world.MomentOfInertiaOf(body_)),
+      odometry_(options_.odometry, options_.drive, SeedFor("odometry", seed)),
+      gyro_(options_.gyro, SeedFor("gyro", seed)),
+      laser_(options_.laser, SeedFor("laser", seed)),
+      driver_(options_.driver, placement.route, SeedFor("driver", seed)) {}
+
+void Robot::Drive(PhysicsWorld& world,
+                  const Ground& ground,
+                  qwsm::Timestamp now,
+                  std::chrono::nanoseconds step) {
+  const qwsm::Pose2 T_world_robot = world.PoseOf(body_);
+  const DriverView view{.now = now,
+                        .T_world_robot = T_world_robot,
+                        .free_ahead_m = FreeAlong(world, body_, options_, 0.0),
+                        .free_behind_m = FreeAlong(world, body_, options_, std::numbers::pi)};
+  drive_.Drive(driver_.Decide(view), step);
+  world.Apply(body_, drive_.Push(ground, T_world_robot, world.TwistOf(body_), step));
+}
+
+void Robot::Advance(const PhysicsWorld& world, std::chrono::nanoseconds step) {
+  odometry_.Advance(drive_.rims(), step);
+  gyro_.Advance(world.TwistOf(body_).yaw_rate_rad_s, step);
+}
+
+std::optional<Reading> Robot::Scan(const PhysicsWorld& world, qwsm::Timestamp now) {
+  if (laser_.is_scanning()) {
+    laser_.Continue(world, body_, now);
+  } else if (now >= ScanDue()) {
+    ++scans_begun_;
+    reading_.T_odom_robot = odometry_.T_odom_robot();
+    reading_.T_world_robot = world.PoseOf(body_);
+    if (options_.gyro.enabled) reading_.gyro_rad = gyro_.turned_rad();
+    laser_.Begin(world, body_, now);
+  }
+  std::optional<qwsm::LaserScan> scan = laser_.Take();
+  if (!scan) return std::nullopt;
+  reading_.scan = std::move(*scan);
+  return reading_;
+}
+
+qwsm::Timestamp Robot::ScanDue() const {
+  const std::chrono::duration<double> due(static_cast<double>(scans_begun_) /
+                                          options_.laser.rate_hz);
+  return std::chrono::round<qwsm::Timestamp>(due);
+}
+
+}  // namespace sim
