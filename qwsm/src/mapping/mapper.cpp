@@ -55,13 +55,15 @@ Mapper::Mapper(const MapperOptions& options)
     : options_(options),
       motion_(options.motion),
       locator_(LocatorOptions(options)),
-      map_(options.map) {}
+      map_(options.map),
+      recent_(options.surroundings) {}
 
 Mapper::Mapper(const MapperOptions& options, ScanMap map, const UncertainPose2& map_robot)
     : options_(options),
       motion_(options.motion),
       locator_(LocatorOptions(options)),
       map_(std::move(map)),
+      recent_(options.surroundings),
       map_last_(map_robot),
       T_map_relevant_(map_robot.T_a_b) {}
 
@@ -74,7 +76,7 @@ MappingStep Mapper::Process(const Observation& observation) {
   MappingStep step{.stamp = observation.scan.stamp};
   step.match = locator_.Locate(map_, points, predicted);
   step.map_robot = map_last_ * last_robot;
-  Judge(predicted, points, step);
+  Judge(points, step);
   if (options_.extend_map && IsRelevant(step)) Extend(observation, points, step);
 
   motion_.Remember(map_last_.T_a_b.Inverse() * step.map_robot.T_a_b, observation.T_odom_robot);
@@ -95,9 +97,7 @@ MappingStep Mapper::Begin(const Observation& observation, std::span<const ScanPo
 
 // Matched well: the match is the pose. Overlap low: the pose, and the map is extended. Bad: dead
 // reckoning (Visser et al. 2009, section 4).
-void Mapper::Judge(const UncertainPose2& predicted,
-                   std::span<const ScanPoint> points,
-                   MappingStep& step) {
+void Mapper::Judge(std::span<const ScanPoint> points, MappingStep& step) const {
   const MatchResult& match = step.match;
   const bool found =
       match.status == MatchStatus::kConverged || match.status == MatchStatus::kIterationLimit;
@@ -119,7 +119,6 @@ void Mapper::Judge(const UncertainPose2& predicted,
   step.map_robot.T_a_b = match.T_ref_cur;
   step.map_robot.covariance = reference.At(match.T_ref_cur.translation_m()) + match.covariance;
   step.map_robot.covariance.diagonal() += Eigen::Vector3d(floor_m2, floor_m2, floor_rad2);
-  static_cast<void>(predicted);
 }
 
 bool Mapper::IsRelevant(const MappingStep& step) const {
@@ -131,12 +130,15 @@ bool Mapper::IsRelevant(const MappingStep& step) const {
 void Mapper::Extend(const Observation& observation,
                     std::span<const ScanPoint> points,
                     MappingStep& step) {
+  recent_.Add(step.map_robot.T_a_b, points);
   if (options_.matcher == MatcherKind::kQWsm) {
-    if (const auto back = locator_.FindReturn(map_, points, step.map_robot)) {
+    if (const auto back = locator_.FindReturn(
+            map_, points, recent_.PointsAround(step.map_robot.T_a_b), step.map_robot)) {
       step.match = *back;
       step.reason = "back at a known place";
       step.map_robot.T_a_b = back->T_ref_cur;
       step.map_robot.covariance = back->covariance;
+      recent_.Clear();
     }
   } else {
     map_.ForgetPoints();

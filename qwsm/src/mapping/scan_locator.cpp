@@ -10,6 +10,9 @@ namespace {
 
 constexpr std::size_t kMinSearchPoints = 6;   // Fewer prove nothing.
 constexpr std::size_t kMinReturnPoints = 20;  // A return needs more evidence.
+constexpr double kSamePlace_m = 0.3;          // Poses this near to each other are no rivals.
+constexpr double kFoundSigma_m = 0.1;         // How exact a search over many scans is.
+constexpr double kFoundSigma_rad = 0.02;
 
 double SigmaXY(const Eigen::Matrix3d& covariance) {
   return std::sqrt(0.5 * (covariance(0, 0) + covariance(1, 1)));
@@ -89,45 +92,62 @@ MatchResult ScanLocator::SearchAndMatch(const ScanMap& map,
   return matcher_.Match(map.surfaces(), points, prior, trace);
 }
 
-std::optional<MatchResult> ScanLocator::FindReturn(const ScanMap& map,
-                                                   std::span<const ScanPoint> points,
-                                                   const UncertainPose2& estimated) const {
-  const std::vector<Eigen::Vector2d> thinned = ThinOut(points, options_.search_spacing_m);
-  if (thinned.size() < kMinReturnPoints) return std::nullopt;
+std::optional<MatchResult> ScanLocator::FindReturn(
+    const ScanMap& map,
+    std::span<const ScanPoint> points,
+    std::span<const Eigen::Vector2d> surroundings_robot_m,
+    const UncertainPose2& estimated) const {
+  if (surroundings_robot_m.size() < kMinReturnPoints) return std::nullopt;
+  const ReturnOptions& options = options_.known_places;
   const LikelihoodPyramid& likelihood = map.surfaces().likelihood();
+  const UncertainPose2 doubted = Widened(estimated, options.caution);
   const double drift_m2 = std::pow(SigmaXY(estimated.covariance), 2);
-  const double max_drift_m2 = options_.return_drift_share * drift_m2;
+  const double max_drift_m2 = options.max_drift_share * drift_m2;
   const KnownSurroundings known =
-      SurroundingsOf(likelihood, thinned, estimated.T_a_b, max_drift_m2);
-  const double drift_since_m = std::sqrt(std::max(0.0, drift_m2 - known.mean_drift_m2));
-  if (known.share < options_.return_min_known || drift_since_m < options_.return_drift_m) {
+      SurroundingsOf(likelihood, surroundings_robot_m, estimated.T_a_b, max_drift_m2);
+  const double drift_since_m =
+      options.caution * std::sqrt(std::max(0.0, drift_m2 - known.mean_drift_m2));
+  if (known.share < options.min_known_share || drift_since_m < options.min_drift_m) {
     return std::nullopt;
   }
-  SearchWindow window{
-      .predicted = estimated,
-      .translation_m =
-          std::min(options_.return_max_window_m, options_.return_sigmas * drift_since_m),
-      .rotation_rad = std::min(options_.return_max_window_rad,
-                               options_.return_sigmas * SigmaTheta(estimated.covariance)),
-      .min_score = options_.return_min_score,
-      .max_drift_code = LikelihoodPyramid::DriftCode(max_drift_m2)};
-  const auto there = SearchPose(likelihood, thinned, window, options_.search);
-  if (!there) return std::nullopt;
-  window.translation_m = likelihood.cell_size_m();
-  window.rotation_rad = 0.02;
-  window.min_score = 0.0;
-  const auto here = SearchPose(likelihood, thinned, window, options_.search);
-  if (here && there->score < here->score + options_.return_gain) return std::nullopt;
-  MatchResult match = matcher_.Match(map.surfaces(),
-                                     points,
-                                     {.predicted = estimated,
-                                      .start = there->T_map_robot,
-                                      .start_error_m = options_.search_error_m,
-                                      .max_drift_m2 = max_drift_m2});
-  if (match.status != MatchStatus::kConverged || match.overlap < options_.return_min_score) {
-    return std::nullopt;
-  }
-  return match;
+  const auto place = OnlyPlace(
+      likelihood,
+      surroundings_robot_m,
+      {.predicted = doubted,
+       .translation_m = std::min(options.max_window_m, options.window_sigmas * drift_since_m),
+       .rotation_rad =
+           std::min(options.max_window_rad, options.window_sigmas * SigmaTheta(doubted.covariance)),
+       .min_score = options.min_score,
+       .max_drift_code = LikelihoodPyramid::DriftCode(max_drift_m2)});
+  if (!place) return std::nullopt;
+
+  UncertainPose2 found{.T_a_b = *place};
+  found.covariance.diagonal() =
+      Eigen::Vector3d(kFoundSigma_m, kFoundSigma_m, kFoundSigma_rad).cwiseAbs2();
+  const MatchResult match = matcher_.Match(map.surfaces(),
+                                           points,
+                                           {.predicted = found,
+                                            .start = found.T_a_b,
+                                            .start_error_m = options_.search_error_m,
+                                            .max_drift_m2 = max_drift_m2});
+  const bool fits = match.status == MatchStatus::kConverged && match.overlap >= options.min_overlap;
+  return fits ? std::optional(match) : std::nullopt;
+}
+
+// The place that fits best, unless another one fits nearly as well or it is where we are anyway.
+std::optional<Pose2> ScanLocator::OnlyPlace(const LikelihoodPyramid& map,
+                                            std::span<const Eigen::Vector2d> surroundings_robot_m,
+                                            SearchWindow window) const {
+  const ReturnOptions& options = options_.known_places;
+  const auto best = SearchPose(map, surroundings_robot_m, window, options.search);
+  if (!best) return std::nullopt;
+  const Pose2 jump = window.predicted.T_a_b.Inverse() * best->T_map_robot;
+  if (jump.translation_m().norm() < kSamePlace_m) return std::nullopt;
+  window.exclude = best->T_map_robot;
+  window.exclude_m = kSamePlace_m;
+  window.min_score = best->score - options.uniqueness;
+  const auto rival = SearchPose(map, surroundings_robot_m, window, options.search);
+  return rival ? std::nullopt : std::optional(best->T_map_robot);
 }
 
 }  // namespace qwsm

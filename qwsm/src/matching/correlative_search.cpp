@@ -123,10 +123,17 @@ class BranchAndBound {
   }
 
   void Push(Block block) {
+    if (IsExcluded(block)) return;
     block.bound = Score(block) - Price(block);
     if (block.bound <= window_.min_score) return;
     queue_.push_back(block);
     std::push_heap(queue_.begin(), queue_.end());
+  }
+
+  bool IsExcluded(const Block& block) const {
+    if (!window_.exclude || block.level > 0) return false;
+    const Eigen::Vector2d way_m = PoseOf(block).translation_m() - window_.exclude->translation_m();
+    return way_m.norm() <= window_.exclude_m;
   }
 
   void PushChildren(const Block& block) {

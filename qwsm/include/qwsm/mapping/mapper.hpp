@@ -9,6 +9,7 @@
 
 #include "qwsm/mapping/motion_model.hpp"
 #include "qwsm/mapping/observation.hpp"
+#include "qwsm/mapping/recent_scans.hpp"
 #include "qwsm/mapping/scan_locator.hpp"
 #include "qwsm/mapping/scan_map.hpp"
 
@@ -35,6 +36,7 @@ struct MapperOptions {
   MotionNoise motion;
   ScanLocatorOptions locator;
   ScanMapOptions map;
+  RecentScansOptions surroundings;
   double relevant_translation_m = 0.5;
   double relevant_rotation_rad = 0.35;
   double extend_below_overlap = 0.6;
@@ -50,6 +52,7 @@ void Describe(Visitor& visit, MapperOptions& o) {
   visit("motion", o.motion, {.help = "errors of odometry"});
   visit("locator", o.locator, {.help = "finding a scan in the map"});
   visit("map", o.map, {.help = "what is stored of relevant scans"});
+  visit("surroundings", o.surroundings, {.help = "what is compared with places seen long ago"});
   visit("relevant_translation_m",
         o.relevant_translation_m,
         {.help = "a scan is relevant when the robot moved this far since the last one",
@@ -109,7 +112,7 @@ class Mapper {
 
  private:
   MappingStep Begin(const Observation& observation, std::span<const ScanPoint> points);
-  void Judge(const UncertainPose2& predicted, std::span<const ScanPoint> points, MappingStep& step);
+  void Judge(std::span<const ScanPoint> points, MappingStep& step) const;
   bool IsRelevant(const MappingStep& step) const;
   void Extend(const Observation& observation, std::span<const ScanPoint> points, MappingStep& step);
 
@@ -117,6 +120,7 @@ class Mapper {
   MotionModel motion_;
   ScanLocator locator_;
   ScanMap map_;
+  RecentScans recent_;
   UncertainPose2 map_last_;  // Pose at the last scan.
   Pose2 T_map_relevant_;     // Pose at the last relevant scan.
 };

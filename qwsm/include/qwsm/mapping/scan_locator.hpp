@@ -13,9 +13,55 @@
 
 namespace qwsm {
 
+/// When a place counts as seen before, and where it is looked for.
+struct ReturnOptions {
+  CorrelativeSearchOptions search{.prior_weight = 0.002};
+  double caution = 3.0;
+  double min_drift_m = 0.5;
+  double max_drift_share = 0.5;
+  double min_known_share = 0.5;
+  double window_sigmas = 2.5;
+  double max_window_m = 4.0;
+  double max_window_rad = 0.35;
+  double min_score = 0.3;
+  double uniqueness = 0.06;
+  double min_overlap = 0.35;
+};
+
+template <class Visitor>
+void Describe(Visitor& visit, ReturnOptions& o) {
+  visit("search", o.search, {.help = "the search among surfaces seen long ago"});
+  visit(
+      "caution",
+      o.caution,
+      {.help = "the world may be this much less kind than the error model", .min = 1, .max = 100});
+  visit("min_drift_m",
+        o.min_drift_m,
+        {.help = "sigma of the drift since, from which on to look", .min = 0.01, .max = 100});
+  visit("max_drift_share",
+        o.max_drift_share,
+        {.help = "known is what has less than this share of today's variance", .min = 0, .max = 1});
+  visit("min_known_share",
+        o.min_known_share,
+        {.help = "share of the surroundings that ends near known surfaces", .min = 0, .max = 1});
+  visit("window_sigmas",
+        o.window_sigmas,
+        {.help = "half the window, in sigmas of the drift", .min = 0, .max = 10});
+  visit("max_window_m", o.max_window_m, {.help = "and at most this far", .min = 0, .max = 100});
+  visit("max_window_rad", o.max_window_rad, {.help = "and this turn", .min = 0, .max = 3.2});
+  visit("min_score", o.min_score, {.help = "score that proves a return", .min = 0, .max = 1});
+  visit("uniqueness",
+        o.uniqueness,
+        {.help = "by how much it must beat every other place", .min = 0, .max = 1});
+  visit("min_overlap",
+        o.min_overlap,
+        {.help = "share of the scan that then agrees with known surfaces", .min = 0, .max = 1});
+}
+
 struct ScanLocatorOptions {
   CorrelativeSearchOptions search;
   WeightedScanMatcherOptions matcher;
+  ReturnOptions known_places;
   double search_spacing_m = 0.15;
   double search_error_m = 0.022;
   double window_sigmas = 3.0;
@@ -24,20 +70,13 @@ struct ScanLocatorOptions {
   double widen_below_overlap = 0.5;
   double widen_factor = 3.0;
   double widen_gain = 0.15;
-  double return_drift_m = 0.3;
-  double return_drift_share = 0.5;
-  double return_sigmas = 2.5;
-  double return_max_window_m = 4.0;
-  double return_max_window_rad = 0.35;
-  double return_min_known = 0.5;
-  double return_min_score = 0.4;
-  double return_gain = 0.08;
 };
 
 template <class Visitor>
 void Describe(Visitor& visit, ScanLocatorOptions& o) {
   visit("search", o.search, {.help = "the coarse-to-fine search for the first guess"});
   visit("matcher", o.matcher, {.help = "the weighted match that follows"});
+  visit("known_places", o.known_places, {.help = "returning to places seen long ago"});
   visit("search_spacing_m",
         o.search_spacing_m,
         {.help = "points of the scan this near count once in searches", .min = 0, .max = 10});
@@ -56,32 +95,6 @@ void Describe(Visitor& visit, ScanLocatorOptions& o) {
   visit("widen_gain",
         o.widen_gain,
         {.help = "and believe it if that much more agrees", .min = 0, .max = 1});
-  visit("return_drift_m",
-        o.return_drift_m,
-        {.help = "look for known places once the drift since then reaches this sigma",
-         .min = 0.01,
-         .max = 100});
-  visit("return_drift_share",
-        o.return_drift_share,
-        {.help = "known is what has less than this share of the variance now", .min = 0, .max = 1});
-  visit("return_sigmas",
-        o.return_sigmas,
-        {.help = "half the window, in sigmas of the drift", .min = 0, .max = 10});
-  visit("return_max_window_m",
-        o.return_max_window_m,
-        {.help = "and at most this far", .min = 0, .max = 100});
-  visit("return_max_window_rad",
-        o.return_max_window_rad,
-        {.help = "and this turn", .min = 0, .max = 3.2});
-  visit("return_min_known",
-        o.return_min_known,
-        {.help = "share of the scan that must end near known surfaces", .min = 0, .max = 1});
-  visit("return_min_score",
-        o.return_min_score,
-        {.help = "score on known surfaces that proves a return", .min = 0, .max = 1});
-  visit("return_gain",
-        o.return_gain,
-        {.help = "and by how much it must beat the pose without return", .min = 0, .max = 1});
 }
 
 /// Finds where in the map a scan was taken, from a rough prediction.
@@ -99,13 +112,15 @@ class ScanLocator {
                      const UncertainPose2& predicted,
                      MatchTrace* trace = nullptr) const;
 
-  /// Looks for the scan among the surfaces mapped long ago, with much less drift than `estimated`.
+  /// Looks for the robot among the surfaces mapped long ago, with much less drift than `estimated`.
   ///
-  /// A wrong jump is worse than drift: nothing is returned unless most of the scan fits there, much
-  /// better than at the estimate, within what the drift since can have been.
+  /// A wrong jump is worse than drift: nothing is returned unless the surroundings fit there, fit
+  /// nowhere else within what the drift since can have been, and not where they are estimated.
+  /// @param surroundings_robot_m points of the last scans, thinned, in the robot's frame.
   /// @param estimated pose of the robot in the map; covariance of all drift since the start.
   std::optional<MatchResult> FindReturn(const ScanMap& map,
                                         std::span<const ScanPoint> points,
+                                        std::span<const Eigen::Vector2d> surroundings_robot_m,
                                         const UncertainPose2& estimated) const;
 
   const ScanLocatorOptions& options() const { return options_; }
@@ -115,6 +130,9 @@ class ScanLocator {
                              std::span<const ScanPoint> points,
                              const UncertainPose2& predicted,
                              MatchTrace* trace) const;
+  std::optional<Pose2> OnlyPlace(const LikelihoodPyramid& map,
+                                 std::span<const Eigen::Vector2d> surroundings_robot_m,
+                                 SearchWindow window) const;
 
   ScanLocatorOptions options_;
   WeightedScanMatcher matcher_;

@@ -33,10 +33,12 @@ void Describe(Visitor& visit, CorrelativeSearchOptions& o) {
 
 /// Where to look for a pose.
 struct SearchWindow {
-  UncertainPose2 predicted;    ///< The prediction; its covariance prices the way from there.
-  double translation_m = 0.0;  ///< Half the side of the square of positions.
-  double rotation_rad = 0.0;   ///< Half the range of headings.
-  double min_score = 0.0;      ///< Poses that score no better are not found.
+  UncertainPose2 predicted;        ///< The prediction; its covariance prices the way from there.
+  double translation_m = 0.0;      ///< Half the side of the square of positions.
+  double rotation_rad = 0.0;       ///< Half the range of headings.
+  double min_score = 0.0;          ///< Poses that score no better are not found.
+  std::optional<Pose2> exclude{};  ///< Positions near this one are not looked at:
+  double exclude_m = 0.0;          ///< no further from it than this.
   std::uint8_t max_drift_code =
       LikelihoodPyramid::kUnmapped;  ///< Only what drifted no more counts.
 };

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "qwsm/geometry/pose2.hpp"
+#include "qwsm/sensor/scan_points.hpp"
+
+namespace qwsm {
+
+struct RecentScansOptions {
+  int count = 8;
+  double spacing_m = 0.25;
+};
+
+template <class Visitor>
+void Describe(Visitor& visit, RecentScansOptions& o) {
+  visit("count",
+        o.count,
+        {.help = "relevant scans that make up the surroundings", .min = 1, .max = 100});
+  visit("spacing_m",
+        o.spacing_m,
+        {.help = "one point per cell of this size", .min = 0.01, .max = 10});
+}
+
+/// The last few relevant scans together: one scan in a corridor looks like many places, the last
+/// ten metres do not.
+class RecentScans {
+ public:
+  explicit RecentScans(const RecentScansOptions& options = {}) : options_(options) {}
+
+  void Add(const Pose2& T_map_robot, std::span<const ScanPoint> points);
+  void Clear() { scans_.clear(); }
+
+  /// Their points in the robot's frame, at most one per cell.
+  std::vector<Eigen::Vector2d> PointsAround(const Pose2& T_map_robot) const;
+
+ private:
+  struct Scan {
+    Pose2 T_map_robot;
+    std::vector<Eigen::Vector2d> points_robot_m;  // Thinned.
+  };
+
+  RecentScansOptions options_;
+  std::deque<Scan> scans_;  // The latest last.
+};
+
+}  // namespace qwsm
