@@ -3,6 +3,7 @@
 #include "service/apps/command.hpp"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <filesystem>
 
@@ -41,6 +42,15 @@ MatcherKind MatcherNamed(const std::string& name) {
                                fmt::join(names, ", "),
                                name,
                                config::DidYouMean(name, names)));
+}
+
+io::LogOptions LogOptionsOf(const config::LogOptions& options) {
+  io::LogOptions log;
+  log.strict = options.strict;
+  if (options.range_max_m > 0.0) log.range_max_m = static_cast<float>(options.range_max_m);
+  if (options.field_of_view_rad > 0.0) log.field_of_view_rad = options.field_of_view_rad;
+  log.on_fault = [](const std::string& fault) { spdlog::warn("{}", fault); };
+  return log;
 }
 
 }  // namespace qwsm::apps

@@ -10,6 +10,7 @@
 
 #include "service/config/options_io.hpp"
 #include "service/config/program_options.hpp"
+#include "service/io/log_reader.hpp"
 
 namespace qwsm::apps {
 
@@ -50,7 +51,13 @@ void AddVerbosity(CLI::App& parser, Verbosity& verbosity, const std::string& jso
 /// The matcher of a name given after --matcher. @throws UsageError.
 MatcherKind MatcherNamed(const std::string& name);
 
+/// How logs are read; their faults become messages.
+io::LogOptions LogOptionsOf(const config::LogOptions& options);
+
 // One per command, each in a file of its own.
 Command AddMapCommand(CLI::App& program);
+Command AddEvalCommand(CLI::App& program);
+Command AddConvertCommand(CLI::App& program);
+std::vector<Command> AddConfigCommands(CLI::App& program);
 
 }  // namespace qwsm::apps

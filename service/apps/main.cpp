@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <exception>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,6 @@
 #include "service/apps/version.hpp"
 #include "service/config/suggestion.hpp"
 #include "service/io/atomic_file.hpp"
-#include "service/io/log_reader.hpp"
 
 namespace qwsm::apps {
 namespace {
@@ -76,12 +76,11 @@ ExitCode RunChosen(const std::vector<Command>& commands) {
   } catch (const config::ConfigError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return ExitCode::kUsage;
-  } catch (const UsageError& error) {
-    return Complain(ExitCode::kUsage, error.what());
-  } catch (const io::LogError& error) {
-    return Complain(ExitCode::kUsage, error.what());
   } catch (const io::WriteError& error) {
     return Complain(ExitCode::kIo, error.what());
+  } catch (const std::runtime_error& error) {
+    // Arguments and files that make no sense; the text names them.
+    return Complain(ExitCode::kUsage, error.what());
   }
 }
 
@@ -95,7 +94,9 @@ ExitCode Run(int argc, const char* const* argv) {
   program.require_subcommand(1);
   program.get_formatter()->label("SUBCOMMAND", "COMMAND");
 
-  const std::vector<Command> commands{AddMapCommand(program)};
+  std::vector<Command> commands{
+      AddMapCommand(program), AddEvalCommand(program), AddConvertCommand(program)};
+  for (Command& command : AddConfigCommands(program)) commands.push_back(std::move(command));
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& success) {

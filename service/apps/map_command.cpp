@@ -46,15 +46,6 @@ config::ProgramOptions LoadOptions(const MapArguments& arguments) {
   return options;
 }
 
-io::LogOptions LogOptionsOf(const config::LogOptions& options) {
-  io::LogOptions log;
-  log.strict = options.strict;
-  if (options.range_max_m > 0.0) log.range_max_m = static_cast<float>(options.range_max_m);
-  if (options.field_of_view_rad > 0.0) log.field_of_view_rad = options.field_of_view_rad;
-  log.on_fault = [](const std::string& fault) { spdlog::warn("{}", fault); };
-  return log;
-}
-
 ResultsFolder MakeFolder(const MapArguments& arguments) {
   return arguments.output ? ResultsFolder(*arguments.output, arguments.force)
                           : ResultsFolder::ForNow("results");

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "service/config/text_table.hpp"
+
 namespace qwsm::config {
 namespace {
 
@@ -40,24 +42,23 @@ void Dump(const OptionGroup& group, const std::string& indent, std::string& yaml
 /// The unit a name ends in, as it is written in tables.
 std::string UnitOf(std::string_view name) {
   using Unit = std::pair<std::string_view, std::string_view>;
-  static constexpr std::array<Unit, 10> kUnits{{{"_m", "m"},
-                                                {"_mm", "mm"},
-                                                {"_m2", "m^2"},
-                                                {"_deg", "deg"},
-                                                {"_rad", "rad"},
-                                                {"_s", "s"},
-                                                {"_ms", "ms"},
-                                                {"_hz", "Hz"},
-                                                {"_px", "px"},
-                                                {"_deg_per_m", "deg/m"}}};
+  static constexpr std::array<Unit, 9> kUnits{{{"_m", "m"},
+                                               {"_mm", "mm"},
+                                               {"_m2", "m^2"},
+                                               {"_deg", "deg"},
+                                               {"_rad", "rad"},
+                                               {"_s", "s"},
+                                               {"_ms", "ms"},
+                                               {"_hz", "Hz"},
+                                               {"_px", "px"}}};
   const auto found =
       std::ranges::find_if(kUnits, [name](const Unit& unit) { return name.ends_with(unit.first); });
   return found == kUnits.end() ? std::string() : std::string(found->second);
 }
 
-using Row = std::array<std::string, 5>;
-
-void AddRows(const OptionGroup& group, const std::string& prefix, std::vector<Row>& rows) {
+void AddRows(const OptionGroup& group,
+             const std::string& prefix,
+             std::vector<std::vector<std::string>>& rows) {
   for (const Field& field : group.fields) {
     const std::string key = prefix + field.name;
     if (const auto* nested = std::get_if<OptionGroup>(&field.value)) {
@@ -77,20 +78,10 @@ std::string DumpYaml(const OptionGroup& group) {
 }
 
 std::string DescribeAsTable(const OptionGroup& group) {
-  std::vector<Row> rows{{"option", "default", "unit", "allowed", "what it does"}};
+  std::vector<std::vector<std::string>> rows{
+      {"option", "default", "unit", "allowed", "what it does"}};
   AddRows(group, "", rows);
-  std::array<std::size_t, 5> widths{};
-  for (const Row& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  }
-  std::string table;
-  for (const Row& row : rows) {
-    std::string line;
-    for (std::size_t i = 0; i + 1 < row.size(); ++i)
-      line += fmt::format("{:<{}}  ", row[i], widths[i]);
-    table += line + row.back() + "\n";
-  }
-  return table;
+  return FormatTable(rows);
 }
 
 }  // namespace qwsm::config

@@ -17,9 +17,9 @@ constexpr std::string_view kRadians = "_rad";
 constexpr std::string_view kDegrees = "_deg";
 
 std::string BoundText(const Field& field, double bound) {
-  // Bounds are round numbers; nobody wants to read 89.99999999999999.
+  // Bounds are round numbers, if not always in degrees; nobody wants to read 89.99999999999999.
   const bool is_angle = std::holds_alternative<AngleField>(field.value);
-  return fmt::format("{:.10g}", is_angle ? RadiansToDegrees(bound) : bound);
+  return is_angle ? fmt::format("{:.4g}", RadiansToDegrees(bound)) : fmt::format("{:.10g}", bound);
 }
 
 struct ValuePrinter {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <numbers>
+
 #include "qwsm/mapping/mapper.hpp"
 
 namespace qwsm::config {
@@ -21,7 +23,9 @@ void Describe(Visitor& visit, LogOptions& o) {
         {.help = "range of the laser; 0: as the log says or shows", .min = 0, .max = 1000});
   visit("field_of_view_rad",
         o.field_of_view_rad,
-        {.help = "of the laser; 0: as the log says or its beams suggest", .min = 0, .max = 6.2832});
+        {.help = "of the laser; 0: as the log says or its beams suggest",
+         .min = 0,
+         .max = 2.0 * std::numbers::pi});
 }
 
 /// Everything that can be configured of the program `qwsm`.

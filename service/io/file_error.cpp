@@ -8,27 +8,17 @@
 #include <string>
 
 namespace qwsm::io {
-namespace {
-
-std::runtime_error Cannot(std::string_view what, const std::filesystem::path& path) {
-  std::string message = path.string();
-  message.append(": cannot be ").append(what).append(": ").append(std::strerror(errno));
-  return std::runtime_error(message);
-}
-
-}  // namespace
-
 std::ifstream OpenForReading(const std::filesystem::path& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
     throw std::runtime_error(path.string() + ": is a folder; name the file in it");
   }
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw Cannot("opened", path);
+  if (!file) {
+    throw std::runtime_error(path.string() + ": cannot be opened: " + std::strerror(errno));
+  }
   return file;
 }
-
-void ThrowCannotWrite(const std::filesystem::path& path) { throw Cannot("written", path); }
 
 void ThrowAtLine(std::string_view name,
                  std::size_t line_number,

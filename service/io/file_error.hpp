@@ -15,9 +15,6 @@ namespace qwsm::io {
 /// @throws std::runtime_error naming the file and the reason.
 std::ifstream OpenForReading(const std::filesystem::path& path);
 
-/// @throws std::runtime_error naming the file and the reason, which errno still has.
-[[noreturn]] void ThrowCannotWrite(const std::filesystem::path& path);
-
 /// @throws std::runtime_error "name:line: fault; expected"
 [[noreturn]] void ThrowAtLine(std::string_view name,
                               std::size_t line_number,

@@ -3,9 +3,9 @@
 #include "service/io/trajectory_file.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <string>
 
+#include "service/io/atomic_file.hpp"
 #include "service/io/field_reader.hpp"
 #include "service/io/file_error.hpp"
 #include "service/io/line_reader.hpp"
@@ -49,9 +49,9 @@ void WriteTumLine(std::ostream& stream, const StampedPose2& pose) {
 }
 
 void WriteTumFile(const std::filesystem::path& path, const Trajectory& trajectory) {
-  std::ofstream file(path);
-  for (const StampedPose2& pose : trajectory) WriteTumLine(file, pose);
-  if (!file.flush()) ThrowCannotWrite(path);
+  AtomicFile file(path);
+  for (const StampedPose2& pose : trajectory) WriteTumLine(file.stream(), pose);
+  file.Commit();
 }
 
 Trajectory ReadTum(std::istream& stream, std::string_view name) {

@@ -15,7 +15,7 @@ namespace qwsm::io {
 void WriteTumLine(std::ostream& stream, const StampedPose2& pose);
 
 /// Writes a TUM trajectory, one line per pose, in their order.
-/// @throws std::runtime_error naming the file where it cannot be written.
+/// @throws WriteError where it cannot be written.
 void WriteTumFile(const std::filesystem::path& path, const Trajectory& trajectory);
 
 /// Reads a TUM trajectory; `#` begins a comment. Of poses in space x, y and yaw are kept.

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "qwsm/metrics/relations.hpp"
+#include "qwsm/metrics/trajectory_error.hpp"
+
+namespace qwsm::pipeline {
+
+/// What trajectories are compared with.
+struct EvaluationOptions {
+  std::optional<std::filesystem::path> relations;
+  std::optional<std::filesystem::path>
+      log;  ///< Its odometry carries poses to stamps between scans.
+  std::optional<std::filesystem::path> truth;  ///< A TUM trajectory.
+  bool align = false;  ///< Move the trajectory onto the truth before its error is taken.
+  std::chrono::nanoseconds max_time_difference = std::chrono::milliseconds(10);
+  std::size_t relative_step = 1;  ///< Poses between the two ends of a relative pose error.
+};
+
+/// How good one trajectory is; what was not asked for is absent.
+struct Evaluation {
+  std::string trajectory;
+  std::optional<RelationsResult> relations;
+  std::optional<ErrorStatistics> absolute_m;
+  std::optional<RelativePoseError> relative;
+};
+
+/// Compares trajectories with what is known to be true.
+class Evaluator {
+ public:
+  /// @throws std::runtime_error where a file cannot be read.
+  explicit Evaluator(EvaluationOptions options);
+
+  /// @param file a TUM trajectory, or a folder of results that holds one.
+  /// @throws std::runtime_error where it cannot be read or has nothing in common with the truth.
+  Evaluation Evaluate(const std::filesystem::path& file) const;
+
+ private:
+  RelationsResult EvaluateAtRelations(const Trajectory& trajectory) const;
+
+  EvaluationOptions options_;
+  std::vector<Relation> relations_;
+  Trajectory truth_;
+};
+
+/// A line per trajectory and metric, with units: metres and degrees.
+std::string EvaluationTable(std::span<const Evaluation> evaluations);
+
+/// The same as JSON, every name ending in its unit.
+std::string EvaluationJson(std::span<const Evaluation> evaluations);
+
+}  // namespace qwsm::pipeline
