@@ -4,9 +4,12 @@
 
 #include <concepts>
 #include <limits>
+#include <memory>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "service/config/option_group.hpp"
 
@@ -38,13 +41,32 @@ class FieldCollector {
       } else {
         field.value = &value;
       }
-    } else if constexpr (std::is_same_v<Value, int> || std::is_same_v<Value, bool>) {
+    } else if constexpr (std::is_same_v<Value, int> || std::is_same_v<Value, bool> ||
+                         std::is_same_v<Value, std::string>) {
       field.value = &value;
     } else if constexpr (std::is_enum_v<Value>) {
       field.value = ChoiceOf(value);
     } else {
       field.value = GroupOf(value);
     }
+    group_.fields.push_back(std::move(field));
+  }
+
+  template <class Item>
+  void operator()(std::string_view name, std::vector<Item>& items, const FieldInfo& info) {
+    ListField list;
+    list.clear = [&items] { items.clear(); };
+    list.append = [&items] { return GroupOf(items.emplace_back()); };
+    list.items = [&items] {
+      std::vector<OptionGroup> groups;
+      for (Item& item : items) groups.push_back(GroupOf(item));
+      return groups;
+    };
+    list.example = [item = std::make_shared<Item>()] { return GroupOf(*item); };
+    Field field;
+    field.name = name;
+    field.help = info.help;
+    field.value = std::move(list);
     group_.fields.push_back(std::move(field));
   }
 

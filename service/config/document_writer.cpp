@@ -33,6 +33,13 @@ void Dump(const OptionGroup& group, const std::string& indent, std::string& yaml
     if (const auto* nested = std::get_if<OptionGroup>(&field.value)) {
       yaml += '\n';
       Dump(*nested, indent + "  ", yaml);
+    } else if (const auto* list = std::get_if<ListField>(&field.value)) {
+      const std::vector<OptionGroup> items = list->items();
+      yaml += items.empty() ? " []\n" : "\n";
+      for (const OptionGroup& item : items) {
+        yaml += indent + "  -\n";
+        Dump(item, indent + "    ", yaml);
+      }
     } else {
       yaml += " " + ValueText(field) + "\n";
     }
@@ -63,6 +70,8 @@ void AddRows(const OptionGroup& group,
     const std::string key = prefix + field.name;
     if (const auto* nested = std::get_if<OptionGroup>(&field.value)) {
       AddRows(*nested, key + ".", rows);
+    } else if (const auto* list = std::get_if<ListField>(&field.value)) {
+      AddRows(list->example(), key + "[].", rows);
     } else {
       rows.push_back({key, ValueText(field), UnitOf(field.name), AllowedText(field), field.help});
     }

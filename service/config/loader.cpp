@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <deque>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <system_error>
 #include <utility>
 
+#include "service/config/number_text.hpp"
 #include "service/config/suggestion.hpp"
 #include "service/config/value_reader.hpp"
 
@@ -41,6 +44,35 @@ FileText ReadWhole(const fs::path& file) {
   if (text.size() > kMaxFileBytes)
     return {.text = {}, .error = "is larger than 1 MiB; is it a YAML file?"};
   return {.text = std::move(text), .error = {}};
+}
+
+/// One name of a dotted key: `laser`, or `robots[1]`.
+struct Step {
+  std::string name;
+  std::optional<int> index{};
+};
+
+Step StepOf(const std::string& text) {
+  const std::size_t bracket = text.find('[');
+  if (bracket == std::string::npos || !text.ends_with(']')) return {.name = text};
+  const std::string index = text.substr(bracket + 1, text.size() - bracket - 2);
+  return {.name = text.substr(0, bracket), .index = ParseWholeNumber(index)};
+}
+
+/// The group that a field, or one item of it, is; nothing where it is none. Items are kept in
+/// `items`.
+OptionGroup* GroupIn(Field& field, const Step& step, std::deque<OptionGroup>& items) {
+  if (!step.index) return std::get_if<OptionGroup>(&field.value);
+  const auto* list = std::get_if<ListField>(&field.value);
+  if (list == nullptr) return nullptr;
+  std::vector<OptionGroup> all = list->items();
+  if (*step.index < 0 || static_cast<std::size_t>(*step.index) >= all.size()) return nullptr;
+  items.push_back(std::move(all[static_cast<std::size_t>(*step.index)]));
+  return &items.back();
+}
+
+std::string ItemKey(const std::string& list, std::size_t index) {
+  return list + "[" + std::to_string(index) + "]";
 }
 
 /// The full names of all options of this name, wherever they are.
@@ -107,22 +139,22 @@ void Loader::Set(const std::string& setting) {
   if (equals == std::string::npos) return Report(at, "", "expected key=value");
 
   OptionGroup* group = &root_;
+  std::deque<OptionGroup> items;  // Of lists on the way down; they live until the value is set.
   std::size_t begin = 0;
   while (true) {
     const std::size_t dot = key.find('.', begin);
-    const std::string name = key.substr(begin, dot == std::string::npos ? dot : dot - begin);
-    Field* field = group->Find(name);
-    if (field == nullptr) return Report(at, "", UnknownOption(name, *group, root_));
-    auto* nested = std::get_if<OptionGroup>(&field->value);
+    const Step step = StepOf(key.substr(begin, dot == std::string::npos ? dot : dot - begin));
+    Field* field = group->Find(step.name);
+    if (field == nullptr) return Report(at, "", UnknownOption(step.name, *group, root_));
     if (dot == std::string::npos) {
       YamlNode value;
       value.text = setting.substr(equals + 1);
       if (!value.text.empty()) value.kind = YamlNode::Kind::kPlain;
       return Assign({*field, key}, value, at);
     }
-    if (nested == nullptr)
+    group = GroupIn(*field, step, items);
+    if (group == nullptr)
       return Report(at, "", "'" + key.substr(0, dot) + "' is no group of options");
-    group = nested;
     begin = dot + 1;
   }
 }
@@ -180,8 +212,26 @@ void Loader::ReadEntry(const YamlEntry& entry, OptionGroup& group, const std::st
   if (auto* nested = std::get_if<OptionGroup>(&field->value)) {
     return ReadMap(entry.value, *nested, prefix + name + ".");
   }
+  if (const auto* list = std::get_if<ListField>(&field->value)) {
+    return ReadList(entry.value, *list, prefix + name);
+  }
   const bool has_value = entry.value.kind != YamlNode::Kind::kNothing;
   Assign({*field, prefix + name}, entry.value, At(has_value ? entry.value : entry.key));
+}
+
+void Loader::ReadList(const YamlNode& list, const ListField& field, const std::string& key) {
+  if (list.kind == YamlNode::Kind::kNothing) return;
+  if (list.kind != YamlNode::Kind::kSequence) {
+    return Report(At(list), key, "expected a list (one '- ' for each item, indented below)");
+  }
+  given_[key] = At(list);
+  field.clear();  // A later list takes the place of an earlier one.
+  for (std::size_t i = 0; i < list.items.size(); ++i) {
+    const std::string item_key = ItemKey(key, i);
+    given_[item_key] = At(list.items[i]);
+    OptionGroup item = field.append();
+    ReadMap(list.items[i], item, item_key + ".");
+  }
 }
 
 void Loader::Assign(const Slot& slot, const YamlNode& value, const Location& at) {
@@ -189,6 +239,9 @@ void Loader::Assign(const Slot& slot, const YamlNode& value, const Location& at)
   const std::string shown_key = at.line > 0 ? slot.key : std::string();
   if (std::holds_alternative<OptionGroup>(slot.field.value)) {
     return Report(at, shown_key, "is a group of options; set one of them");
+  }
+  if (std::holds_alternative<ListField>(slot.field.value)) {
+    return Report(at, shown_key, "is a list; set an option of one of its items, such as [0]");
   }
   given_[slot.key] = at;
   if (const std::optional<std::string> wrong = AssignValue(slot.field, value)) {
@@ -200,6 +253,11 @@ void Loader::Check(const OptionGroup& group, const std::string& prefix) {
   for (const Field& field : group.fields) {
     if (const auto* nested = std::get_if<OptionGroup>(&field.value)) {
       Check(*nested, prefix + field.name + ".");
+    } else if (const auto* list = std::get_if<ListField>(&field.value)) {
+      const std::vector<OptionGroup> items = list->items();
+      for (std::size_t i = 0; i < items.size(); ++i) {
+        Check(items[i], ItemKey(prefix + field.name, i) + ".");
+      }
     }
   }
   // Values already refused would only be refused a second time.
@@ -212,7 +270,8 @@ void Loader::Check(const OptionGroup& group, const std::string& prefix) {
 
 bool Loader::HasProblemsIn(const std::string& prefix) const {
   return std::ranges::any_of(problems_, [&](const Problem& problem) {
-    return problem.key.starts_with(prefix) || problem.location.line == 0;
+    return problem.key.starts_with(prefix) || problem.key + "." == prefix ||
+           problem.location.line == 0;
   });
 }
 
@@ -220,7 +279,15 @@ Location Loader::WhereGiven(const std::string& prefix, const std::string& key) c
   if (const auto found = given_.find(key); found != given_.end()) return found->second;
   // The other side of the comparison was given then.
   const auto near = given_.lower_bound(prefix);
-  if (near != given_.end() && near->first.starts_with(prefix)) return near->second;
+  const bool is_near = near != given_.end() && near->first.starts_with(prefix);
+  if (is_near && !prefix.empty()) return near->second;
+  // Or the list or the item of a list that it belongs to.
+  for (std::size_t end = key.find_last_of(".["); end != std::string::npos && end > 0;
+       end = key.find_last_of(".[", end - 1)) {
+    const auto around = given_.find(key.substr(0, end));
+    if (around != given_.end()) return around->second;
+  }
+  if (is_near) return near->second;
   return {.source = sources_.empty() ? "defaults" : sources_.back()};
 }
 

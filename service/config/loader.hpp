@@ -43,6 +43,7 @@ class Loader {
   void ReadRoot(const YamlNode& document);
   void ReadMap(const YamlNode& map, OptionGroup& group, const std::string& prefix);
   void ReadEntry(const YamlEntry& entry, OptionGroup& group, const std::string& prefix);
+  void ReadList(const YamlNode& list, const ListField& field, const std::string& key);
   void Assign(const Slot& slot, const YamlNode& value, const Location& at);
   void Check(const OptionGroup& group, const std::string& prefix);
   bool HasProblemsIn(const std::string& prefix) const;
@@ -54,7 +55,8 @@ class Loader {
   std::vector<std::filesystem::path> open_files_;  ///< The one being read is the last.
   std::vector<std::string> sources_;               ///< In the order in which they were opened.
   std::vector<Problem> problems_;
-  std::map<std::string, Location> given_;  ///< Where each key got its value last.
+  /// Where each key got its value last, and where each list and each item of one begins.
+  std::map<std::string, Location> given_;
 };
 
 }  // namespace qwsm::config

@@ -22,13 +22,22 @@ std::string BoundText(const Field& field, double bound) {
   return is_angle ? fmt::format("{:.4g}", RadiansToDegrees(bound)) : fmt::format("{:.10g}", bound);
 }
 
+/// In single quotes YAML takes everything as it stands, but for the quote itself.
+std::string Quoted(const std::string& text) {
+  std::string quoted = "'";
+  for (const char letter : text) quoted += letter == '\'' ? "''" : std::string(1, letter);
+  return quoted + "'";
+}
+
 struct ValuePrinter {
   std::string operator()(const double* value) const { return NumberText(*value); }
   std::string operator()(const AngleField& angle) const { return DegreesText(*angle.value_rad); }
   std::string operator()(const int* value) const { return fmt::format("{}", *value); }
   std::string operator()(const bool* value) const { return *value ? "true" : "false"; }
+  std::string operator()(const std::string* value) const { return Quoted(*value); }
   std::string operator()(const ChoiceField& choice) const { return choice.names[choice.get()]; }
   std::string operator()(const OptionGroup&) const { return {}; }
+  std::string operator()(const ListField&) const { return {}; }
 };
 
 }  // namespace

@@ -40,13 +40,22 @@ struct ChoiceField {
   std::function<void(std::size_t)> set;
 };
 
+/// Options repeated in a list. The groups point into the list: adding an item ends those of others.
+struct ListField {
+  std::function<void()> clear;
+  std::function<OptionGroup()> append;              ///< Adds an item with defaults.
+  std::function<std::vector<OptionGroup>()> items;  ///< As they are now.
+  std::function<OptionGroup()> example;             ///< An item with defaults, not of the list.
+};
+
 /// One option: where its value is and what its Describe() says of it.
 struct Field {
   std::string name;  ///< As written in YAML: `_deg` where the struct has `_rad`.
   std::string help;
   double min = -std::numeric_limits<double>::infinity();  ///< In the unit of the struct: radians.
   double max = std::numeric_limits<double>::infinity();
-  std::variant<double*, AngleField, int*, bool*, ChoiceField, OptionGroup> value;
+  std::variant<double*, AngleField, int*, bool*, std::string*, ChoiceField, OptionGroup, ListField>
+      value;
 };
 
 /// The name in YAML of a field called so in code.
@@ -55,7 +64,7 @@ std::string YamlName(std::string_view field_name);
 /// `between 0 and 10`, `at least 0`, `at most 10` in the unit of the YAML, or nothing.
 std::string BoundsText(const Field& field);
 
-/// The value as it is written in YAML; empty for a group.
+/// The value as it is written in YAML; empty for a group or a list.
 std::string ValueText(const Field& field);
 
 }  // namespace qwsm::config

@@ -70,6 +70,14 @@ class ValueReader {
     return std::nullopt;
   }
 
+  std::optional<std::string> operator()(std::string* target) const {
+    if (value_.kind != Kind::kPlain && value_.kind != Kind::kQuoted) {
+      return "expected a text, got " + Quote(value_);
+    }
+    *target = value_.text;
+    return std::nullopt;
+  }
+
   std::optional<std::string> operator()(const ChoiceField& choice) const {
     const auto found = std::ranges::find(choice.names, value_.text);
     const bool is_scalar = value_.kind == Kind::kPlain || value_.kind == Kind::kQuoted;
@@ -84,6 +92,7 @@ class ValueReader {
   }
 
   std::optional<std::string> operator()(const OptionGroup&) const { return std::nullopt; }
+  std::optional<std::string> operator()(const ListField&) const { return std::nullopt; }
 
  private:
   /// Empty, and so no number, for anything but a plain scalar.

@@ -12,7 +12,7 @@ namespace qwsm::config {
 
 /// Puts a value that was read into the option. Returns what is wrong with it, in which case the
 /// option keeps its value.
-/// @pre `field` is not a group.
+/// @pre `field` is neither a group nor a list.
 std::optional<std::string> AssignValue(Field& field, const YamlNode& value);
 
 }  // namespace qwsm::config

@@ -109,7 +109,10 @@ class TreeBuilder : public YAML::EventHandler {
       return;
     }
     OpenNode& parent = open_.back();
-    if (parent.node.kind == YamlNode::Kind::kSequence) return;  // No option is a list.
+    if (parent.node.kind == YamlNode::Kind::kSequence) {
+      parent.node.items.push_back(std::move(node));
+      return;
+    }
     if (parent.has_key) {
       parent.node.entries.push_back({std::move(parent.key), std::move(node)});
     } else {

@@ -18,6 +18,7 @@ struct YamlNode {
   int column = 1;                  ///< From 1.
   std::string text;                ///< Of a scalar.
   std::vector<YamlEntry> entries;  ///< Of a map, in the order of the file, duplicates included.
+  std::vector<YamlNode> items;     ///< Of a sequence.
 };
 
 struct YamlEntry {
@@ -38,7 +39,7 @@ class YamlError : public std::runtime_error {
   int column_;
 };
 
-/// Reads one document. Options need maps of scalars and nothing else, so what could make a small
+/// Reads one document. Options need maps, lists and scalars only, so what could make a small
 /// file large (anchors and aliases), deep (over 32 levels) or surprising (tags, a second document)
 /// is refused. @throws YamlError
 YamlNode ParseYaml(const std::string& text);
