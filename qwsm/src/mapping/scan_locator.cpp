@@ -63,16 +63,21 @@ MatchResult ScanLocator::Locate(const ScanMap& map,
                                 std::span<const ScanPoint> points,
                                 const UncertainPose2& predicted,
                                 MatchTrace* trace) const {
-  const MatchResult near = SearchAndMatch(map, points, predicted, trace);
-  if (near.overlap >= options_.widen_below_overlap) return near;
-  const MatchResult far =
-      SearchAndMatch(map, points, Widened(predicted, options_.widen_factor), trace);
-  return far.overlap > near.overlap + options_.widen_gain ? far : near;
+  const double sigmas = options_.window_sigmas;
+  const MatchResult narrow =
+      SearchAndMatch(map, points, predicted, options_.narrow_share * sigmas, trace);
+  if (narrow.overlap >= options_.confident_overlap) return narrow;
+  const MatchResult full = SearchAndMatch(map, points, predicted, sigmas, trace);
+  if (full.overlap >= options_.widen_below_overlap) return full;
+  const MatchResult wide =
+      SearchAndMatch(map, points, Widened(predicted, options_.widen_factor), sigmas, trace);
+  return wide.overlap > full.overlap + options_.widen_gain ? wide : full;
 }
 
 MatchResult ScanLocator::SearchAndMatch(const ScanMap& map,
                                         std::span<const ScanPoint> points,
                                         const UncertainPose2& predicted,
+                                        double window_sigmas,
                                         MatchTrace* trace) const {
   MatchPrior prior{.predicted = predicted, .start = predicted.T_a_b};
   const std::vector<Eigen::Vector2d> thinned = ThinOut(points, options_.search_spacing_m);
@@ -80,9 +85,9 @@ MatchResult ScanLocator::SearchAndMatch(const ScanMap& map,
     const SearchWindow window{
         .predicted = predicted,
         .translation_m =
-            std::min(options_.max_window_m, options_.window_sigmas * SigmaXY(predicted.covariance)),
-        .rotation_rad = std::min(options_.max_window_rad,
-                                 options_.window_sigmas * SigmaTheta(predicted.covariance))};
+            std::min(options_.max_window_m, window_sigmas * SigmaXY(predicted.covariance)),
+        .rotation_rad =
+            std::min(options_.max_window_rad, window_sigmas * SigmaTheta(predicted.covariance))};
     const auto found = SearchPose(map.surfaces().likelihood(), thinned, window, options_.search);
     if (found) {
       prior.start = found->T_map_robot;

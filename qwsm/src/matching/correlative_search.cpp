@@ -6,11 +6,13 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace qwsm {
 namespace {
 
+constexpr int kFullLikelihood = std::numeric_limits<std::uint8_t>::max();
 constexpr int kCoarsestLevel = LikelihoodPyramid::kLevels - 1;
 
 // A square block of 2^level x 2^level cell offsets at one heading.
@@ -41,7 +43,11 @@ class BranchAndBound {
                  std::span<const Eigen::Vector2d> points_robot_m,
                  const SearchWindow& window,
                  const CorrelativeSearchOptions& options)
-      : map_(map), points_robot_m_(points_robot_m), window_(window), options_(options) {
+      : map_(map),
+        points_robot_m_(points_robot_m),
+        window_(window),
+        options_(options),
+        floor_(window.min_score) {
     double lever_m = 1.0;
     for (const Eigen::Vector2d& p : points_robot_m) lever_m = std::max(lever_m, p.norm());
     heading_step_rad_ = map.cell_size_m() / std::min(lever_m, options.lever_m);
@@ -54,6 +60,7 @@ class BranchAndBound {
   }
 
   std::optional<FoundPose> Run() {
+    Push({0.0, 0, 0, 0, 0});  // The prediction itself is often hard to beat.
     for (int heading = -headings_; heading <= headings_; ++heading) {
       for (int x = -reach_; x <= reach_; x += 1 << level_) {
         for (int y = -reach_; y <= reach_; y += 1 << level_) Push({0.0, heading, x, y, level_});
@@ -100,13 +107,24 @@ class BranchAndBound {
     return std::span(cells_).subspan(static_cast<std::size_t>(heading + headings_) * count, count);
   }
 
-  double Score(const Block& block) const {
+  // Mean likelihood of the beam ends in the block; any lower value once `needed` is out of reach.
+  double Score(const Block& block, double needed) const {
+    constexpr std::size_t kStride = 16;  // Points between two looks at whether to go on.
+    const std::span<const CellOffset> ends = CellsAt(block.heading);
+    const double full = kFullLikelihood * static_cast<double>(ends.size());
+    const auto needed_sum = static_cast<int>(needed * full);
     int sum = 0;
-    for (const CellOffset& end : CellsAt(block.heading)) {
-      const LikelihoodPyramid::Cell cell = map_.At(block.level, end.x + block.x, end.y + block.y);
-      if (cell.drift_code <= window_.max_drift_code) sum += cell.likelihood;
+    for (std::size_t i = 0; i < ends.size(); i += kStride) {
+      const std::size_t end = std::min(ends.size(), i + kStride);
+      for (std::size_t k = i; k < end; ++k) {
+        const LikelihoodPyramid::Cell cell =
+            map_.At(block.level, ends[k].x + block.x, ends[k].y + block.y);
+        sum += cell.drift_code <= window_.max_drift_code ? cell.likelihood : 0;
+      }
+      const int still_possible = kFullLikelihood * static_cast<int>(ends.size() - end);
+      if (sum + still_possible < needed_sum) break;
     }
-    return sum / (255.0 * static_cast<double>(points_robot_m_.size()));
+    return sum / full;
   }
 
   double Price(const Block& block) const {
@@ -124,8 +142,10 @@ class BranchAndBound {
 
   void Push(Block block) {
     if (IsExcluded(block)) return;
-    block.bound = Score(block) - Price(block);
-    if (block.bound <= window_.min_score) return;
+    const double price = Price(block);
+    block.bound = Score(block, floor_ + price) - price;
+    if (block.bound <= window_.min_score || block.bound < floor_) return;
+    if (block.level == 0) floor_ = block.bound;  // No worse pose will be the best.
     queue_.push_back(block);
     std::push_heap(queue_.begin(), queue_.end());
   }
@@ -160,6 +180,7 @@ class BranchAndBound {
   int headings_ = 0;  // Headings -headings_ .. headings_ are searched,
   int reach_ = 0;     // and offsets -reach_ .. reach_ in x and y.
   int level_ = 0;     // Where the search begins.
+  double floor_;      // The best single pose met so far.
   Eigen::Matrix3d information_;
   double cheapest_per_m2_ = 0.0;
   std::vector<CellOffset> cells_;  // Beam ends of all headings, one heading after the other.

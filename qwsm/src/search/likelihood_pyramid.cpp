@@ -3,6 +3,7 @@
 #include "qwsm/search/likelihood_pyramid.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace qwsm {
 namespace {
@@ -11,6 +12,26 @@ constexpr double kReachSigmas = 2.5;   // Beyond, the likelihood is not worth st
 constexpr std::uint8_t kOnPoint = 60;  // A cell counts as mapped by a point from here on.
 constexpr double kSmallestDrift_m2 = 1e-6;
 constexpr double kDriftStepsPerOctave = 5.0;
+constexpr int kFirstTiles = 8;  // Side of the first directory.
+
+// A range of tile columns or rows.
+struct Range {
+  int first = 0;
+  int count = 0;
+
+  bool Contains(int tile) const { return tile >= first && tile < first + count; }
+
+  // Grows by doubling towards the tile, which keeps the cost per insertion constant on average.
+  Range GrownTo(int tile) const {
+    if (count == 0) return {tile - kFirstTiles / 2, kFirstTiles};
+    if (tile < first) {
+      const int grown = std::max(first + count - tile, 2 * count);
+      return {first + count - grown, grown};
+    }
+    if (tile >= first + count) return {first, std::max(tile - first + 1, 2 * count)};
+    return *this;
+  }
+};
 
 }  // namespace
 
@@ -34,11 +55,7 @@ void LikelihoodPyramid::Insert(const Eigen::Vector2d& p_m, double drift_m2) {
   }
 }
 
-void LikelihoodPyramid::Clear() {
-  directory_.clear();
-  tiles_.clear();
-  first_column_ = first_row_ = columns_ = rows_ = 0;
-}
+void LikelihoodPyramid::Clear() { *this = LikelihoodPyramid(options_); }
 
 void LikelihoodPyramid::Raise(int x, int y, Cell value) {
   if (value.likelihood < kOnPoint) value.drift_code = std::numeric_limits<std::uint8_t>::max();
@@ -58,46 +75,37 @@ void LikelihoodPyramid::Raise(int x, int y, Cell value) {
 }
 
 LikelihoodPyramid::Cell& LikelihoodPyramid::Touch(int level, int x, int y) {
-  const std::int64_t column = std::int64_t{x} >> kTileBits;
-  const std::int64_t row = std::int64_t{y} >> kTileBits;
+  const int column = x >> kTileBits;
+  const int row = y >> kTileBits;
   GrowDirectory(column, row);
-  std::int32_t& tile =
-      directory_[static_cast<std::size_t>((row - first_row_) * columns_ + column - first_column_)];
-  if (tile < 0) {
-    tile = static_cast<std::int32_t>(tiles_.size());
+  std::uint32_t& tile = directory_[static_cast<std::size_t>(row - first_row_) * columns_ +
+                                   static_cast<std::size_t>(column - first_column_)];
+  if (tile == kEmptyTile) {
+    tile = static_cast<std::uint32_t>(tiles_.size());
     tiles_.emplace_back();
   }
-  return tiles_[static_cast<std::size_t>(tile)][OffsetInTile(level, x, y)];
+  return tiles_[tile][OffsetInTile(level, x, y)];
 }
 
-void LikelihoodPyramid::GrowDirectory(std::int64_t column, std::int64_t row) {
-  if (column >= first_column_ && row >= first_row_ && column < first_column_ + columns_ &&
-      row < first_row_ + rows_) {
-    return;
-  }
-  // Doubling towards the new tile keeps the cost per insertion constant on average.
-  const auto grow = [](std::int64_t first, std::int64_t count, std::int64_t wanted) {
-    if (count == 0) return std::pair{wanted - 4, std::int64_t{8}};
-    if (wanted < first)
-      return std::pair{std::min(wanted, first - count), count + std::max(first - wanted, count)};
-    if (wanted >= first + count) return std::pair{first, std::max(wanted - first + 1, 2 * count)};
-    return std::pair{first, count};
-  };
-  const auto [first_column, columns] = grow(first_column_, columns_, column);
-  const auto [first_row, rows] = grow(first_row_, rows_, row);
-  std::vector<std::int32_t> directory(static_cast<std::size_t>(columns * rows), -1);
-  for (std::int64_t y = 0; y < rows_; ++y) {
-    const auto source = directory_.begin() + y * columns_;
-    std::copy(
-        source,
-        source + columns_,
-        directory.begin() + (y + first_row_ - first_row) * columns + first_column_ - first_column);
+void LikelihoodPyramid::GrowDirectory(int column, int row) {
+  const Range old_columns{first_column_, static_cast<int>(columns_)};
+  const Range old_rows{first_row_, static_cast<int>(rows_)};
+  if (old_columns.Contains(column) && old_rows.Contains(row)) return;
+  const Range new_columns = old_columns.GrownTo(column);
+  const Range new_rows = old_rows.GrownTo(row);
+  const auto width = static_cast<std::size_t>(new_columns.count);
+  std::vector<std::uint32_t> directory(width * static_cast<std::size_t>(new_rows.count),
+                                       kEmptyTile);
+  for (std::size_t y = 0; y < rows_; ++y) {
+    const std::size_t new_y = y + static_cast<std::size_t>(first_row_ - new_rows.first);
+    const std::size_t new_x = static_cast<std::size_t>(first_column_ - new_columns.first);
+    std::copy_n(&directory_[y * columns_], columns_, &directory[new_y * width + new_x]);
   }
   directory_ = std::move(directory);
-  first_column_ = first_column;
-  first_row_ = first_row;
-  columns_ = columns;
-  rows_ = rows;
+  first_column_ = new_columns.first;
+  first_row_ = new_rows.first;
+  columns_ = static_cast<std::uint32_t>(new_columns.count);
+  rows_ = static_cast<std::uint32_t>(new_rows.count);
 }
 
 std::uint8_t LikelihoodPyramid::DriftCode(double drift_m2) {

@@ -14,7 +14,7 @@ namespace qwsm {
 
 struct RecentScansOptions {
   int count = 8;
-  double spacing_m = 0.25;
+  double spacing_m = 0.4;
 };
 
 template <class Visitor>

@@ -15,7 +15,7 @@ namespace qwsm {
 
 /// When a place counts as seen before, and where it is looked for.
 struct ReturnOptions {
-  CorrelativeSearchOptions search{.prior_weight = 0.002};
+  CorrelativeSearchOptions search{.prior_weight = 0.002, .lever_m = 8.0};
   double caution = 3.0;
   double min_drift_m = 0.5;
   double max_drift_share = 0.5;
@@ -62,6 +62,8 @@ struct ScanLocatorOptions {
   CorrelativeSearchOptions search;
   WeightedScanMatcherOptions matcher;
   ReturnOptions known_places;
+  double narrow_share = 0.33;
+  double confident_overlap = 0.9;
   double search_spacing_m = 0.15;
   double search_error_m = 0.022;
   double window_sigmas = 3.0;
@@ -77,6 +79,12 @@ void Describe(Visitor& visit, ScanLocatorOptions& o) {
   visit("search", o.search, {.help = "the coarse-to-fine search for the first guess"});
   visit("matcher", o.matcher, {.help = "the weighted match that follows"});
   visit("known_places", o.known_places, {.help = "returning to places seen long ago"});
+  visit("narrow_share",
+        o.narrow_share,
+        {.help = "first search only this share of the window", .min = 0, .max = 1});
+  visit("confident_overlap",
+        o.confident_overlap,
+        {.help = "and all of it where less of the scan agrees with the map", .min = 0, .max = 1});
   visit("search_spacing_m",
         o.search_spacing_m,
         {.help = "points of the scan this near count once in searches", .min = 0, .max = 10});
@@ -103,8 +111,10 @@ class ScanLocator {
   explicit ScanLocator(const ScanLocatorOptions& options = {})
       : options_(options), matcher_(options.matcher) {}
 
-  /// Searches the window of the prediction, then matches from the best pose found. Where the result
-  /// explains little of the scan, odometry has jumped or slipped: a wider window is searched too.
+  /// Searches around the prediction, then matches from the best pose found. The window is narrow
+  /// first, for most predictions are better than their worst case; as wide as the prediction is
+  /// uncertain where not nearly all of the scan is explained; and wider still where little of it
+  /// is, for then odometry has jumped or slipped.
   ///
   /// @param predicted pose of the robot in the map; covariance of the motion since the last scan.
   MatchResult Locate(const ScanMap& map,
@@ -129,6 +139,7 @@ class ScanLocator {
   MatchResult SearchAndMatch(const ScanMap& map,
                              std::span<const ScanPoint> points,
                              const UncertainPose2& predicted,
+                             double window_sigmas,
                              MatchTrace* trace) const;
   std::optional<Pose2> OnlyPlace(const LikelihoodPyramid& map,
                                  std::span<const Eigen::Vector2d> surroundings_robot_m,

@@ -26,7 +26,7 @@ struct WeightedScanMatcherOptions {
   int max_iterations = 30;
   double translation_tolerance_m = 3e-4;
   double rotation_tolerance_rad = 1e-4;
-  double pair_distance_m = 0.1;
+  double pair_distance_m = 0.15;
   double annealing_factor = 0.6;
   double outlier_sigmas = 4.0;
   double small_object_m = 0.05;

@@ -63,12 +63,10 @@ class LikelihoodPyramid {
   }
   /// The cell of `level` around the level-0 cell (x, y); an empty cell where nothing is stored.
   Cell At(int level, int x, int y) const {
-    const std::int64_t column = (std::int64_t{x} >> kTileBits) - first_column_;
-    const std::int64_t row = (std::int64_t{y} >> kTileBits) - first_row_;
-    if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return {};
-    const std::int32_t tile = directory_[static_cast<std::size_t>(row * columns_ + column)];
-    if (tile < 0) return {};
-    return tiles_[static_cast<std::size_t>(tile)][OffsetInTile(level, x, y)];
+    const auto column = static_cast<std::uint32_t>((x >> kTileBits) - first_column_);
+    const auto row = static_cast<std::uint32_t>((y >> kTileBits) - first_row_);
+    if (column >= columns_ || row >= rows_) return {};
+    return tiles_[directory_[std::size_t{row} * columns_ + column]][OffsetInTile(level, x, y)];
   }
 
   /// Drift variance on a logarithmic scale of 8 bits: monotone, a fifth of an octave per step.
@@ -83,6 +81,7 @@ class LikelihoodPyramid {
   // 64^2 + 32^2 + 16^2 + 8^2 + 4^2 cells: one tile of each level.
   static constexpr std::array<std::size_t, kLevels> kLevelStart = {0, 4096, 5120, 5376, 5440};
   static constexpr std::size_t kTileCells = 5456;
+  static constexpr std::uint32_t kEmptyTile = 0;
   using Tile = std::array<Cell, kTileCells>;
 
   static std::size_t OffsetInTile(int level, int x, int y) {
@@ -93,15 +92,15 @@ class LikelihoodPyramid {
   }
   Cell& Touch(int level, int x, int y);
   void Raise(int x, int y, Cell value);
-  void GrowDirectory(std::int64_t column, std::int64_t row);
+  void GrowDirectory(int column, int row);
 
   LikelihoodPyramidOptions options_;
-  std::int64_t first_column_ = 0;
-  std::int64_t first_row_ = 0;
-  std::int64_t columns_ = 0;
-  std::int64_t rows_ = 0;
-  std::vector<std::int32_t> directory_;  // Row-major; -1 where there is no tile.
-  std::vector<Tile> tiles_;
+  int first_column_ = 0;
+  int first_row_ = 0;
+  std::uint32_t columns_ = 0;
+  std::uint32_t rows_ = 0;
+  std::vector<std::uint32_t> directory_;  // Row-major; kEmptyTile where nothing is stored.
+  std::vector<Tile> tiles_ = std::vector<Tile>(1);  // The first one stays empty.
 };
 
 }  // namespace qwsm
