@@ -92,7 +92,7 @@ def check_scripts(tree):
     linter = shutil.which("shellcheck")
     for path in tree.scripts():
         shell = "bash" if "bash" in tree.lines(path)[0] else "sh"
-        commands = [[shell, "-n", path]] + ([[linter, "--format=gcc", path]] if linter else [])
+        commands = [[shell, "-n", path]] + ([[linter, "--external-sources", "--format=gcc", path]] if linter else [])
         for command in commands:
             run = subprocess.run(command, cwd=tree.root, capture_output=True, text=True)
             if run.returncode != 0:
