@@ -54,10 +54,14 @@ MatcherKind MatcherNamed(const std::string& name);
 /// How logs are read; their faults become messages.
 io::LogOptions LogOptionsOf(const config::LogOptions& options);
 
+/// Adds --seed and --duration, which become settings of a scenario.
+void AddScenarioSettings(CLI::App& parser, std::vector<std::string>& settings);
+
 // One per command, each in a file of its own.
 Command AddMapCommand(CLI::App& program);
 Command AddEvalCommand(CLI::App& program);
 Command AddConvertCommand(CLI::App& program);
+Command AddSimCommand(CLI::App& program);
 std::vector<Command> AddConfigCommands(CLI::App& program);
 
 }  // namespace qwsm::apps

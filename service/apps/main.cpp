@@ -89,13 +89,16 @@ ExitCode Run(int argc, const char* const* argv) {
   program.formatter(std::make_shared<HelpFormatter>());
   program.footer(
       "  qwsm map corridor.log.gz            map a recorded log into results/latest\n"
+      "  qwsm sim park                       a simulated robot's log, with the truth\n"
       "  qwsm map --help                     all about one command");
   program.set_version_flag("--version", "qwsm " + std::string(Version()), "print the version");
   program.require_subcommand(1);
   program.get_formatter()->label("SUBCOMMAND", "COMMAND");
 
-  std::vector<Command> commands{
-      AddMapCommand(program), AddEvalCommand(program), AddConvertCommand(program)};
+  std::vector<Command> commands{AddMapCommand(program),
+                                AddEvalCommand(program),
+                                AddConvertCommand(program),
+                                AddSimCommand(program)};
   for (Command& command : AddConfigCommands(program)) commands.push_back(std::move(command));
   try {
     program.parse(argc, argv);

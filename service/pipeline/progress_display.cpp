@@ -25,14 +25,6 @@ void Write(std::string_view text) {
   std::fflush(stderr);
 }
 
-std::string MinutesAndSeconds(double duration_s) {
-  const long long seconds = std::llround(duration_s);
-  if (seconds >= 3600) {
-    return fmt::format("{}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
-  }
-  return fmt::format("{}:{:02}", seconds / 60, seconds % 60);
-}
-
 }  // namespace
 
 std::string WithThousands(std::size_t number) {
@@ -66,29 +58,43 @@ ProgressStyle StyleFor(std::FILE* stream) {
   return isatty(fileno(stream)) != 0 && !is_dumb ? ProgressStyle::kBar : ProgressStyle::kLines;
 }
 
-ProgressDisplay::ProgressDisplay(std::string task, const ScanSource& source, ProgressStyle style)
-    : task_(std::move(task)),
-      source_(source),
-      style_(style),
+std::string MinutesAndSeconds(double duration_s) {
+  const long long seconds = std::llround(duration_s);
+  if (seconds >= 3600) {
+    return fmt::format("{}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
+  }
+  return fmt::format("{}:{:02}", seconds / 60, seconds % 60);
+}
+
+StatusLine::StatusLine(ProgressStyle style)
+    : style_(style),
       begin_(Clock::now()),
       next_(begin_ + (style == ProgressStyle::kBar ? kBarPeriod : kLinePeriod)) {}
 
-ProgressDisplay::~ProgressDisplay() { Clear(); }
-
-void ProgressDisplay::Take(const TimedStep&) {
+void StatusLine::Show(
+    const std::function<std::string(std::chrono::duration<double> elapsed)>& text) {
   if (style_ == ProgressStyle::kNone) return;
   const Clock::time_point now = Clock::now();
   if (now < next_) return;
-  const std::string line = ProgressLine(task_, source_.progress(), now - begin_);
+  const std::string line = text(now - begin_);
   const bool is_bar = style_ == ProgressStyle::kBar;
   Write(is_bar ? std::string(kEraseLine) + line : line + "\n");
   shown_ = is_bar;
   next_ = now + (is_bar ? kBarPeriod : kLinePeriod);
 }
 
-void ProgressDisplay::Clear() {
+void StatusLine::Clear() {
   if (shown_) Write(kEraseLine);
   shown_ = false;
+}
+
+ProgressDisplay::ProgressDisplay(std::string task, const ScanSource& source, ProgressStyle style)
+    : task_(std::move(task)), source_(source), line_(style) {}
+
+void ProgressDisplay::Take(const TimedStep&) {
+  line_.Show([this](std::chrono::duration<double> elapsed) {
+    return ProgressLine(task_, source_.progress(), elapsed);
+  });
 }
 
 }  // namespace qwsm::pipeline

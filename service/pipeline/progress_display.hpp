@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <functional>
 #include <string>
 
 #include "service/pipeline/scan_source.hpp"
@@ -29,25 +30,43 @@ enum class ProgressStyle {
 /// kBar where the stream is a terminal that can rewrite a line (TERM is not "dumb"), else kLines.
 ProgressStyle StyleFor(std::FILE* stream);
 
-/// Shows how far a source has come while its scans pass by.
-class ProgressDisplay final : public StepSink {
- public:
-  ProgressDisplay(std::string task, const ScanSource& source, ProgressStyle style);
-  ~ProgressDisplay() override;
+/// `0:07`, `12:34`, `1:00:00`.
+std::string MinutesAndSeconds(double duration_s);
 
-  void Take(const TimedStep& timed) override;
+/// A line about work in progress that is shown now and then.
+class StatusLine {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  explicit StatusLine(ProgressStyle style);
+  StatusLine(const StatusLine&) = delete;
+  StatusLine& operator=(const StatusLine&) = delete;
+  ~StatusLine() { Clear(); }
+
+  /// Shows the text for this time since the beginning, if it is time to show something again.
+  void Show(const std::function<std::string(std::chrono::duration<double> elapsed)>& text);
   /// Clears the line of a terminal, so that others can write.
   void Clear();
 
  private:
-  using Clock = std::chrono::steady_clock;
-
-  std::string task_;
-  const ScanSource& source_;
   ProgressStyle style_;
   Clock::time_point begin_;
   Clock::time_point next_;
   bool shown_ = false;
+};
+
+/// Shows how far a source has come while its scans pass by.
+class ProgressDisplay final : public StepSink {
+ public:
+  ProgressDisplay(std::string task, const ScanSource& source, ProgressStyle style);
+
+  void Take(const TimedStep& timed) override;
+  void Clear() { line_.Clear(); }
+
+ private:
+  std::string task_;
+  const ScanSource& source_;
+  StatusLine line_;
 };
 
 }  // namespace qwsm::pipeline

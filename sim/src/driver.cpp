@@ -49,6 +49,13 @@ VelocityCommand Driver::Decide(const DriverView& view) {
   return Follow(view);
 }
 
+double Driver::share_done() const {
+  const std::size_t total = FollowsWaypoints(options_.kind)
+                                ? route_.size() * static_cast<std::size_t>(options_.laps)
+                                : options_.commands.size();
+  return total == 0 ? 0.0 : static_cast<double>(passed_) / static_cast<double>(total);
+}
+
 VelocityCommand Driver::PlayBack(qwsm::Timestamp now) {
   const std::vector<TimedCommandOptions>& commands = options_.commands;
   while (passed_ < commands.size() && ToTimestamp(commands[passed_].start_s) <= now) ++passed_;

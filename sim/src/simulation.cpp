@@ -76,6 +76,15 @@ bool Simulation::is_over() const {
                              [](const Robot& robot) { return robot.driver().has_arrived(); });
 }
 
+double Simulation::share_done() const {
+  const std::chrono::duration<double> elapsed = now_;
+  double of_ways = 1.0;
+  for (const Robot& robot : robots_) of_ways = std::min(of_ways, robot.driver().share_done());
+  const double of_time =
+      scenario_.duration_s > 0.0 ? std::min(1.0, elapsed.count() / scenario_.duration_s) : 1.0;
+  return std::max(of_time, of_ways);
+}
+
 void Simulation::SetCommand(std::size_t robot, const VelocityCommand& command) {
   assert(robot < robots_.size() && "the scenario has such a robot");
   robots_[robot].driver().SetCommand(command);

@@ -112,6 +112,9 @@ class Driver {
   /// Whether the last way point or command is behind; never for an external driver.
   bool has_arrived() const { return has_arrived_; }
 
+  /// How much of the way points or commands is behind, 0..1; 0 for an external driver.
+  double share_done() const;
+
  private:
   VelocityCommand PlayBack(qwsm::Timestamp now);
   VelocityCommand Follow(const DriverView& view);

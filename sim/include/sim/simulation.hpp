@@ -34,6 +34,9 @@ class Simulation {
   /// Whether the duration is up or every robot has arrived.
   bool is_over() const;
 
+  /// How much of it is behind, 0..1, by the time or by the way of the robot that is last.
+  double share_done() const;
+
   /// What an external driver asks for until told otherwise.
   /// @pre robot < robots().size()
   void SetCommand(std::size_t robot, const VelocityCommand& command);

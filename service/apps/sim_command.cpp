@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "service/apps/command.hpp"
+#include "service/apps/messages.hpp"
+#include "service/apps/version.hpp"
+#include "service/config/scenario_file.hpp"
+#include "service/io/atomic_file.hpp"
+#include "service/pipeline/interruption.hpp"
+#include "service/pipeline/results_folder.hpp"
+#include "service/pipeline/simulation_report.hpp"
+#include "service/pipeline/simulation_run.hpp"
+
+namespace qwsm::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace pipeline;
+
+struct SimArguments {
+  std::string scenario;
+  std::optional<fs::path> output;
+  std::vector<std::string> settings;
+  std::optional<double> real_time_factor;
+  Verbosity verbosity;
+  bool force = false;
+};
+
+SimulatedLogs OpenLogs(const sim::Simulation& simulation, const ResultsFolder& folder) {
+  SimulatedLogs logs;
+  for (std::size_t i = 0; i < simulation.robots().size(); ++i) {
+    const std::string& name = simulation.robots()[i].options().name;
+    logs.push_back(std::make_unique<SimulatedLog>(folder.path(), i, name));
+  }
+  return logs;
+}
+
+ExitCode RunSim(const SimArguments& arguments) {
+  StartMessages(arguments.verbosity);
+  const auto scenario = config::LoadOptions<sim::ScenarioOptions>(
+      {.file = config::FindScenario(arguments.scenario), .settings = arguments.settings});
+  sim::Simulation simulation(scenario);
+  const ResultsFolder folder = arguments.output ? ResultsFolder(*arguments.output, arguments.force)
+                                                : ResultsFolder::ForNow("results");
+  CopyMessagesTo(folder / "run.log");
+  spdlog::info("version {}", Version());
+  io::WriteTextFile(folder / "scenario.yaml", config::DumpOptions(scenario));
+
+  const SimulatedLogs logs = OpenLogs(simulation, folder);
+  SimulationProgress progress(simulation,
+                              arguments.verbosity.quiet ? ProgressStyle::kNone : StyleFor(stderr));
+  Pacer pacer(arguments.real_time_factor.value_or(1.0));
+  std::vector<ReadingSink*> sinks{&progress};
+  for (const auto& log : logs) sinks.push_back(log.get());
+  if (arguments.real_time_factor) sinks.push_back(&pacer);
+  const Interruption interruption;
+  const bool is_complete =
+      RunSimulation(simulation, sinks, [&] { return interruption.requested(); });
+  progress.Clear();
+
+  for (const auto& log : logs) log->Commit();
+  const std::string json = SimulationJson(simulation, logs);
+  io::WriteTextFile(folder / "metrics.json", json);
+  if (arguments.verbosity.json) {
+    fmt::print("{}", json);
+  } else if (!arguments.verbosity.quiet) {
+    fmt::print(
+        "{}results        {}\n", SimulationSummary(simulation, logs), folder.path().string());
+  }
+  return is_complete ? ExitCode::kDone : ExitCode::kInterrupted;
+}
+
+}  // namespace
+
+void AddScenarioSettings(CLI::App& parser, std::vector<std::string>& settings) {
+  // Through the settings, so that they are checked like what a file says.
+  parser
+      .add_option_function<std::string>(
+          "--seed",
+          [&settings](const std::string& seed) { settings.push_back("seed=" + seed); },
+          "another seed than the scenario's")
+      ->type_name("N")
+      ->group("Simulation");
+  parser
+      .add_option_function<std::string>(
+          "--duration",
+          [&settings](const std::string& time) { settings.push_back("duration_s=" + time); },
+          "simulated seconds at most")
+      ->type_name("S")
+      ->group("Simulation");
+}
+
+Command AddSimCommand(CLI::App& program) {
+  CLI::App* parser = program.add_subcommand("sim", "logs of simulated robots, with the truth");
+  auto arguments = std::make_shared<SimArguments>();
+  parser->footer(
+      "  qwsm sim park                                a shipped scenario, into results/latest\n"
+      "  qwsm sim park --seed 7 --output park-7       other trees\n"
+      "  qwsm sim my.yaml --duration 60               one's own, for a minute\n"
+      "  qwsm sim office --set layout.office.persons=0\n"
+      "  qwsm sim team --speed 1                      in real time");
+  parser
+      ->add_option("SCENARIO",
+                   arguments->scenario,
+                   "a YAML file, or park, corridor, office, rubble, campus or team")
+      ->required()
+      ->type_name("");
+  parser
+      ->add_option("-o,--output", arguments->output, "folder for the results; else results/<time>")
+      ->type_name("DIR");
+  parser->add_flag("--force", arguments->force, "write into a folder that holds other things");
+  AddScenarioSettings(*parser, arguments->settings);
+  parser->add_option("--set", arguments->settings, "one option of the scenario; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false)
+      ->group("Simulation");
+  parser
+      ->add_option("--speed",
+                   arguments->real_time_factor,
+                   "simulated seconds in a real one; else as fast as it can")
+      ->check(CLI::PositiveNumber)
+      ->type_name("FACTOR")
+      ->group("Simulation");
+  AddVerbosity(*parser, arguments->verbosity, "the summary as JSON");
+  return {.parser = parser, .run = [arguments] { return RunSim(*arguments); }};
+}
+
+}  // namespace qwsm::apps

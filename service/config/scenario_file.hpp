@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace qwsm::config {
+
+/// The file of a scenario, given by its path or, for one that is shipped, by its name: `park`.
+/// Shipped ones are looked for beside the program (../share/qwsm/scenarios) and, for a program in
+/// its build folder, in the source tree. What is neither is returned as it is.
+std::filesystem::path FindScenario(const std::string& path_or_name);
+
+}  // namespace qwsm::config
