@@ -94,9 +94,11 @@ class Builder {
       layout_.limits[subtree.node] = limits;
       const std::size_t axis = LongestAxis(limits);
       const bool all_equal = !(limits.high_m[axis] > limits.low_m[axis]);
+      const bool is_leaf = all_equal || subtree.points.size() <= bucket_size_;
+      if (is_leaf) AppendOrder(subtree.points);
       if (all_equal) {
         MakeLeaf(subtree.node, FirstOf(subtree.points));
-      } else if (subtree.points.size() <= bucket_size_) {
+      } else if (is_leaf) {
         MakeLeaf(subtree.node, subtree.points);
       } else {
         Cut(subtree, axis, open);
@@ -110,6 +112,10 @@ class Builder {
     layout_.nodes.push_back({.parent = parent});
     layout_.limits.push_back({});
     layout_.cells.push_back(cell);
+  }
+
+  void AppendOrder(std::span<const IndexedPoint> points) {
+    for (const IndexedPoint& point : points) layout_.order.push_back(point.index);
   }
 
   /// Of equal points the one that stands first in the cloud.

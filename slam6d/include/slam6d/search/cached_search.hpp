@@ -48,6 +48,8 @@ class CachedSearch {
   std::size_t neighbor_index(std::size_t i) const {
     return tree_->layout().index_of_slot[slot_[i]];
   }
+  /// The neighbour's slot in the tree's layout. @pre found(i)
+  std::uint32_t neighbor_slot(std::size_t i) const { return slot_[i]; }
   Eigen::Vector3d neighbor_m(std::size_t i) const { return neighbor_[i]; }
 
   /// All neighbours by coordinate; infinity where none is known.

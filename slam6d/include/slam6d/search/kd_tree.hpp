@@ -31,7 +31,7 @@ struct SearchStatistics {
 };
 
 struct KdTreeOptions {
-  int bucket_size = 24;  ///< A node with more points is cut.
+  int bucket_size = 16;  ///< A node with more points is cut.
   SimdLevel simd = SimdLevel::kBest;
 };
 

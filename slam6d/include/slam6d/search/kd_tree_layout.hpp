@@ -47,6 +47,9 @@ struct KdTreeLayout {
   std::vector<PointBlock> blocks;
   std::vector<std::uint32_t> index_of_slot;  ///< The point's place in the cloud.
   std::vector<std::uint32_t> leaf_of_block;
+  /// Places in the cloud of all finite points, equal ones too, leaf by leaf: points near each other
+  /// stand near each other.
+  std::vector<std::uint32_t> order;
 };
 
 }  // namespace slam6d

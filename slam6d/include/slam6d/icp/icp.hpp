@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "slam6d/cloud/scan_model.hpp"
+#include "slam6d/geometry/pose3.hpp"
+#include "slam6d/icp/closed_form.hpp"
+#include "slam6d/search/cached_search.hpp"
+
+namespace slam6d {
+
+/// What is minimised.
+enum class IcpMetric {
+  kPointToPoint,  ///< Paper Eq. 1, in closed form.
+  kPointToPlane,  ///< Distance of the points from the reference's surfels (Chen & Medioni 1991).
+  /// Distance between surfels along the mean of their normals (as Rusinkiewicz 2019), weighted by
+  /// the scatter of both (as GICP: Segal, Haehnel & Thrun 2009).
+  kPlaneToPlane,
+};
+
+inline std::span<const std::pair<std::string_view, IcpMetric>> Names(IcpMetric) {
+  static constexpr std::array<std::pair<std::string_view, IcpMetric>, 3> kNames{{
+      {"point-to-point", IcpMetric::kPointToPoint},
+      {"point-to-plane", IcpMetric::kPointToPlane},
+      {"plane-to-plane", IcpMetric::kPlaneToPlane},
+  }};
+  return kNames;
+}
+
+struct IcpOptions {
+  IcpMetric metric = IcpMetric::kPlaneToPlane;
+  ClosedForm closed_form = ClosedForm::kSvd;  ///< Of point-to-point.
+  SearchStart search = SearchStart::kCache;
+  double max_distance_m = 0.5;  ///< Longer pairs do not count.
+  int max_iterations = 100;
+  double translation_tolerance_m = 1e-5;  ///< Converged when a step is below both.
+  double rotation_tolerance_rad = 1e-6;
+  int min_pairs = 10;
+  /// Point-to-point: pairs longer than this times the root mean square of the last iteration's do
+  /// not count; 0 keeps them.
+  double max_rms_ratio = 0.0;
+  /// To planes: residuals well above it lose their weight; wider in the first iterations.
+  double residual_scale_m = 0.02;
+  /// To planes: what surfels are off by beside their scatter.
+  double surface_noise_m = 0.001;
+  int threads = 1;  ///< Changes no bit of the result.
+};
+
+template <class Visitor>
+void Describe(Visitor& visit, IcpOptions& o) {
+  visit("metric", o.metric, {.help = "what is minimised"});
+  visit("closed_form", o.closed_form, {.help = "solution of point-to-point; all agree"});
+  visit("max_distance_m",
+        o.max_distance_m,
+        {.help = "longer pairs do not count", .min = 0, .max = 1000});
+  visit("max_iterations",
+        o.max_iterations,
+        {.help = "upper bound on iterations", .min = 1, .max = 10000});
+  visit("translation_tolerance_m",
+        o.translation_tolerance_m,
+        {.help = "converged below", .min = 0, .max = 1});
+  visit("rotation_tolerance_rad",
+        o.rotation_tolerance_rad,
+        {.help = "converged below", .min = 0, .max = 1});
+  visit("min_pairs", o.min_pairs, {.help = "fewer pairs are no match", .min = 3, .max = 1e9});
+  visit("max_rms_ratio",
+        o.max_rms_ratio,
+        {.help = "point-to-point: pairs longer than this times the root mean square are dropped; 0 "
+                 "keeps them",
+         .min = 0,
+         .max = 100});
+  visit("residual_scale_m",
+        o.residual_scale_m,
+        {.help = "to planes: larger residuals lose weight", .min = 1e-6, .max = 100});
+  visit("surface_noise_m",
+        o.surface_noise_m,
+        {.help = "to planes: error of a surfel beside its scatter", .min = 1e-6, .max = 10});
+  visit("threads", o.threads, {.help = "changes no bit of the result", .min = 1, .max = 256});
+}
+
+enum class IcpStatus {
+  kConverged,
+  kIterationLimit,
+  kTooFewPairs,
+  kDegenerate,  ///< The pairs leave some motion open.
+};
+
+/// Why, in words for a person.
+std::string_view Reason(IcpStatus status);
+
+struct [[nodiscard]] IcpResult {
+  IcpStatus status = IcpStatus::kTooFewPairs;
+  Pose3 T_ref_cur;  ///< Best estimate so far, whatever the status.
+  /// Of (x, y, z, roll, pitch, yaw) as in UncertainPose3, assuming independent errors of the size
+  /// of the residuals: a lower bound. Zero unless converged or stopped by the iteration limit.
+  Matrix6d covariance = Matrix6d::Zero();
+  int iterations = 0;
+  std::size_t pairs = 0;
+  double rms_residual_m = 0.0;
+  SearchStatistics search{};
+};
+
+/// Pose after each iteration, the guess first.
+using IcpTrace = std::vector<Pose3>;
+
+/// Aligns `cur` with `ref`, beginning at a guess (paper section 3.3, Algorithm 1).
+IcpResult Align(const ScanModel& ref,
+                const ScanModel& cur,
+                const Pose3& T_ref_cur_guess,
+                const IcpOptions& options,
+                IcpTrace* trace = nullptr);
+
+}  // namespace slam6d

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slam6d/icp/icp.hpp"
+
+#include <cassert>
+#include <memory>
+
+#include "slam6d/src/icp/point_minimizer.hpp"
+#include "slam6d/src/icp/surfel_minimizer.hpp"
+
+namespace slam6d {
+namespace {
+
+std::unique_ptr<IcpMinimizer> MakeMinimizer(const ScanModel& ref,
+                                            const ScanModel& cur,
+                                            const IcpOptions& options) {
+  if (options.metric == IcpMetric::kPointToPoint) {
+    return std::make_unique<PointMinimizer>(ref.tree, cur.points, options);
+  }
+  return std::make_unique<SurfelMinimizer>(ref, cur, options);
+}
+
+bool IsSmall(const Pose3& before, const Pose3& after, const IcpOptions& options) {
+  return (after.translation_m - before.translation_m).norm() < options.translation_tolerance_m &&
+         RotationAngle(before.rotation.transpose() * after.rotation) <
+             options.rotation_tolerance_rad;
+}
+
+IcpResult Stop(IcpResult result, IcpStatus status, const IcpMinimizer& minimizer) {
+  result.status = status;
+  result.search = minimizer.statistics();
+  if (status == IcpStatus::kConverged || status == IcpStatus::kIterationLimit) {
+    result.covariance = minimizer.Covariance(result.T_ref_cur);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string_view Reason(IcpStatus status) {
+  switch (status) {
+    case IcpStatus::kConverged:
+      return "converged";
+    case IcpStatus::kIterationLimit:
+      return "the iteration limit was reached";
+    case IcpStatus::kTooFewPairs:
+      return "too few pairs within the maximum distance";
+    case IcpStatus::kDegenerate:
+      return "the pairs leave some motion open";
+  }
+  return "";
+}
+
+IcpResult Align(const ScanModel& ref,
+                const ScanModel& cur,
+                const Pose3& T_ref_cur_guess,
+                const IcpOptions& options,
+                IcpTrace* trace) {
+  assert(IsFinite(T_ref_cur_guess) && "the guess is a pose");
+  const std::unique_ptr<IcpMinimizer> minimizer = MakeMinimizer(ref, cur, options);
+  IcpResult result{.T_ref_cur = T_ref_cur_guess};
+  if (trace != nullptr) trace->assign(1, T_ref_cur_guess);
+  for (result.iterations = 1; result.iterations <= options.max_iterations; ++result.iterations) {
+    const IcpStep step = minimizer->Iterate(result.T_ref_cur, result.iterations);
+    result.pairs = step.pairs;
+    result.rms_residual_m = step.rms_residual_m;
+    if (step.pairs < static_cast<std::size_t>(options.min_pairs)) {
+      return Stop(result, IcpStatus::kTooFewPairs, *minimizer);
+    }
+    if (!step.motion_ref) return Stop(result, IcpStatus::kDegenerate, *minimizer);
+
+    const Pose3 before = result.T_ref_cur;
+    result.T_ref_cur = *step.motion_ref * before;
+    result.T_ref_cur.rotation = NearestRotation(result.T_ref_cur.rotation);
+    if (trace != nullptr) trace->push_back(result.T_ref_cur);
+    if (step.settled && IsSmall(before, result.T_ref_cur, options)) {
+      return Stop(result, IcpStatus::kConverged, *minimizer);
+    }
+  }
+  result.iterations = options.max_iterations;
+  return Stop(result, IcpStatus::kIterationLimit, *minimizer);
+}
+
+}  // namespace slam6d

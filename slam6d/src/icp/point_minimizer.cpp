@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slam6d/src/icp/point_minimizer.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "slam6d/src/parallel.hpp"
+#include "slam6d/src/search/kd_tree_kernel.hpp"
+
+namespace slam6d {
+namespace {
+
+/// Small enough that a chunk's points stay in the cache from one of its three loops to the next.
+constexpr std::size_t kChunkSize = 2048;
+
+/// The middle of the reference: sums are taken about it, against cancellation far from the origin.
+Eigen::Vector3d MiddleOf(const KdTree& tree) {
+  if (tree.empty()) return Eigen::Vector3d::Zero();
+  const Box& limits = tree.layout().limits[0];
+  return 0.5 * Eigen::Vector3d(limits.low_m) + 0.5 * Eigen::Vector3d(limits.high_m);
+}
+
+/// Moments about the centroids from sums about `origin_m`.
+PairMoments MomentsOf(const PairSums& sums, const Eigen::Vector3d& origin_m) {
+  const double* value = sums.value;
+  PairMoments moments{.count = value[0]};
+  if (moments.count == 0.0) return moments;
+  const Eigen::Vector3d sum_m = Eigen::Map<const Eigen::Vector3d>(value + 2);
+  const Eigen::Vector3d sum_d = Eigen::Map<const Eigen::Vector3d>(value + 5);
+  const Eigen::Matrix3d sum_d_m =
+      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(value + 8);
+  moments.center_ref_m = origin_m + sum_m / moments.count;
+  moments.center_cur_m = origin_m + sum_d / moments.count;
+  moments.H_m2 = sum_d_m - sum_d * sum_m.transpose() / moments.count;
+  return moments;
+}
+
+PairSums SumInOrder(const std::vector<PairSums>& parts) {
+  PairSums total{};
+  for (const PairSums& part : parts) {
+    for (int k = 0; k < PairSums::kCount; ++k) total.value[k] += part.value[k];
+  }
+  return total;
+}
+
+}  // namespace
+
+PointMinimizer::PointMinimizer(const KdTree& ref, const PointCloud& cur, const IcpOptions& options)
+    : cur_(cur),
+      options_(options),
+      search_(ref, cur.size(), {.max_distance_m = options.max_distance_m, .start = options.search}),
+      simd_(ref.simd()),
+      cur_ref_(cur.size()),
+      origin_m_(MiddleOf(ref)),
+      counted_distance2_m2_(search_.max_distance2_m2()) {}
+
+IcpStep PointMinimizer::Iterate(const Pose3& T_ref_cur, int iteration) {
+  if (iteration > 1 && options_.max_rms_ratio > 0.0) {
+    const double limit_m = options_.max_rms_ratio * rms_residual_m_;
+    counted_distance2_m2_ = std::min(search_.max_distance2_m2(), limit_m * limit_m);
+  }
+  const std::size_t chunks = (cur_.size() + kChunkSize - 1) / kChunkSize;
+  std::vector<PairSums> sums(chunks);
+  std::vector<SearchStatistics> statistics(chunks);
+  const auto work = [&](std::size_t chunk, std::size_t first, std::size_t last) {
+    TransformRange(T_ref_cur, cur_, first, last, cur_ref_);
+    statistics[chunk] = search_.Find(cur_ref_, first, last);
+    const PointCloud& ref = search_.neighbors();
+    const PairRange pairs{.ref_m = {ref.x_m(), ref.y_m(), ref.z_m()},
+                          .cur_m = {cur_ref_.x_m(), cur_ref_.y_m(), cur_ref_.z_m()},
+                          .distance2_m2 = search_.distances2_m2(),
+                          .max_distance2_m2 = counted_distance2_m2_,
+                          .origin_m = {origin_m_.x(), origin_m_.y(), origin_m_.z()},
+                          .first = first,
+                          .last = last};
+    KernelFor(simd_).sum_pairs(pairs, sums[chunk]);
+  };
+  ForChunks(cur_.size(), kChunkSize, options_.threads, work);
+  for (const SearchStatistics& part : statistics) statistics_ += part;
+
+  const PairSums total = SumInOrder(sums);
+  const PairMoments moments = MomentsOf(total, origin_m_);
+  rms_residual_m_ = std::sqrt(total.value[1] / std::max(moments.count, 1.0));
+  return {.pairs = static_cast<std::size_t>(moments.count),
+          .rms_residual_m = rms_residual_m_,
+          .motion_ref = AlignPairs(moments, options_.closed_form)};
+}
+
+Matrix6d PointMinimizer::Covariance(const Pose3& T_ref_cur) const {
+  // Residual m - (R d + t), small rotations about the origin of cur: J = [I | -[R d]x].
+  Matrix6d information = Matrix6d::Zero();
+  for (std::size_t i = 0; i < cur_ref_.size(); ++i) {
+    if (!(search_.distance2_m2(i) < counted_distance2_m2_)) continue;
+    Eigen::Matrix<double, 3, 6> J;
+    J << Eigen::Matrix3d::Identity(), -Skew(cur_ref_[i] - T_ref_cur.translation_m);
+    information.noalias() += J.transpose() * J;
+  }
+  return rms_residual_m_ * rms_residual_m_ / 3.0 * information.inverse();
+}
+
+}  // namespace slam6d
