@@ -95,14 +95,23 @@ Configuration ReadConfiguration(FieldReader& fields) {
 std::optional<LaserGeometry> GeometryOf(const Configuration& configuration, std::size_t readings) {
   LaserGeometry geometry = GuessGeometry(readings, std::nullopt);
   geometry.range_max_m = static_cast<float>(std::max(0.0, configuration.range_max_m));
-  if (configuration.field_of_view_rad == 0.0 && configuration.resolution_rad == 0.0)
+  if (configuration.field_of_view_rad == 0.0 && configuration.resolution_rad == 0.0) {
     return geometry;
+  }
   const std::optional<double> step_rad =
       BearingStep(configuration.field_of_view_rad, configuration.resolution_rad, readings);
   if (!step_rad) return std::nullopt;
   geometry.first_bearing_rad = static_cast<float>(NormalizeAngle(configuration.first_bearing_rad));
   geometry.bearing_step_rad = static_cast<float>(*step_rad);
   return geometry;
+}
+
+/// The number of a mounting that a parameter gives; null for other parameters.
+double* Axis(Pose2& T_robot_laser, std::string_view parameter) {
+  if (parameter == "_offset") return &T_robot_laser.x_m;
+  if (parameter == "_side_offset") return &T_robot_laser.y_m;
+  if (parameter == "_angular_offset") return &T_robot_laser.theta_rad;
+  return nullptr;
 }
 
 ParsedLine ParseOdometry(FieldReader fields) {
@@ -180,21 +189,15 @@ ParsedLine CarmenParser::ParseSweep(const SweepLayout& layout, FieldReader field
 /// same for the rear laser.
 ParsedLine CarmenParser::ParseParameter(FieldReader fields) {
   const std::string_view name = fields.Word();
-  for (Mounting& mounting : mountings_) {
-    if (!name.starts_with(mounting.parameter)) continue;
-    const std::string_view axis = name.substr(mounting.parameter.size());
-    Pose2& pose = mounting.T_robot_laser;
-    double* const value = axis == "_offset"           ? &pose.x_m
-                          : axis == "_side_offset"    ? &pose.y_m
-                          : axis == "_angular_offset" ? &pose.theta_rad
-                                                      : nullptr;
-    if (value == nullptr) break;
-    const double number = fields.Number();
-    if (fields.fault()) return MalformedLine{"PARAM", *fields.fault()};
-    *value = number;
-    pose.theta_rad = NormalizeAngle(pose.theta_rad);
-    mounting.known = true;
-  }
+  const auto mounting = std::ranges::find_if(
+      mountings_, [&](const Mounting& known) { return name.starts_with(known.parameter); });
+  if (mounting == mountings_.end()) return OtherMessage{};
+  double* const value = Axis(mounting->T_robot_laser, name.substr(mounting->parameter.size()));
+  if (value == nullptr) return OtherMessage{};
+  const double number = fields.Number();
+  if (fields.fault()) return MalformedLine{"PARAM", *fields.fault()};
+  *value = value == &mounting->T_robot_laser.theta_rad ? NormalizeAngle(number) : number;
+  mounting->known = true;
   return OtherMessage{};
 }
 

@@ -163,6 +163,12 @@ Timestamp FieldReader::Stamp() {
   return stamp.value_or(Timestamp{});
 }
 
+float FieldReader::Range() {
+  const auto range_m = Parse<float>();
+  odd_readings_ |= !(range_m >= 0.0F && range_m <= std::numeric_limits<float>::max());
+  return range_m;
+}
+
 std::vector<float> FieldReader::Ranges(std::size_t count, std::size_t others) {
   std::vector<float> ranges_m;
   // A count the line is too short for must not cost memory.
@@ -170,9 +176,7 @@ std::vector<float> FieldReader::Ranges(std::size_t count, std::size_t others) {
   if (fault_) return ranges_m;
   ranges_m.reserve(count);
   for (std::size_t i = 0; i < count && !fault_; ++i) {
-    const auto range_m = Parse<float>();
-    odd_readings_ |= !(range_m >= 0.0F && range_m <= std::numeric_limits<float>::max());
-    ranges_m.push_back(range_m);
+    ranges_m.push_back(Range());
     Skip(others);
   }
   return ranges_m;

@@ -54,6 +54,8 @@ class FieldReader {
   Pose2 Pose();
   /// The next field as seconds since the epoch, exact to the nanosecond.
   Timestamp Stamp();
+  /// The next field as a range in metres, finite or not.
+  float Range();
   /// The next `count` fields as ranges in metres; `others` fields follow each and are read over.
   std::vector<float> Ranges(std::size_t count, std::size_t others = 0);
   void Skip(std::size_t words);

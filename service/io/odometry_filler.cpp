@@ -59,8 +59,8 @@ std::optional<LogRecord> OdometryFiller::Take() {
 
 /// Whether an odometry reading from after `stamp` may still come.
 bool OdometryFiller::MustWait(Timestamp stamp) const {
-  if (finished_ || held_.size() > kMaxHeldRecords || held_readings_ > kMaxHeldReadings)
-    return false;
+  if (finished_) return false;
+  if (held_.size() > kMaxHeldRecords || held_readings_ > kMaxHeldReadings) return false;
   return odometry_.empty() || odometry_.back().stamp < stamp;
 }
 

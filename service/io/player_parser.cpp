@@ -5,7 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
+#include <numbers>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "service/io/sweep_geometry.hpp"
 
@@ -27,9 +31,31 @@ bool IsInterface(std::string_view name) {
 std::optional<std::size_t> ParseIndex(std::string_view word) {
   std::size_t index = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), index);
-  if (error != std::errc() || end != word.data() + word.size() || index > kMaxDeviceIndex)
-    return {};
-  return index;
+  const bool whole = error == std::errc() && end == word.data() + word.size();
+  return whole && index <= kMaxDeviceIndex ? std::optional(index) : std::nullopt;
+}
+
+/// Whether the fourth field is a count: ranges are written with a decimal point.
+bool HasCount(FieldReader fields) {
+  fields.Skip(3);
+  const std::string_view word = fields.Word();
+  return !fields.fault() && !word.empty() && word.find('.') == std::string_view::npos;
+}
+
+/// False where the bearings are not evenly spaced, as those of a sweep are but for their rounding.
+bool SetEvenBearings(LaserGeometry& geometry, std::span<const double> bearings_rad) {
+  constexpr double kRoundingRad = 0.002;
+  if (bearings_rad.empty()) return false;
+  const double first_rad = bearings_rad.front();
+  const double steps = std::max(1.0, static_cast<double>(bearings_rad.size()) - 1.0);
+  const double step_rad = (bearings_rad.back() - first_rad) / steps;
+  for (std::size_t i = 0; i < bearings_rad.size(); ++i) {
+    const double even_rad = first_rad + static_cast<double>(i) * step_rad;
+    if (!(std::abs(bearings_rad[i] - even_rad) < kRoundingRad)) return false;
+  }
+  geometry.first_bearing_rad = static_cast<float>(NormalizeAngle(first_rad));
+  geometry.bearing_step_rad = static_cast<float>(step_rad);
+  return std::abs(steps * step_rad) < 2.1 * std::numbers::pi;
 }
 
 }  // namespace
@@ -52,15 +78,19 @@ struct PlayerParser::Header {
 /// Nothing where the line does not begin like a message.
 std::optional<PlayerParser::Header> PlayerParser::ReadHeader(FieldReader& fields) {
   Header header;
-  const std::optional<Timestamp> server_stamp = ParseStamp(fields.Word());
-  header.host = fields.Word();
-  header.robot = fields.Word();
+  std::optional<Timestamp> server_stamp = Timestamp{};
   header.interface = fields.Word();
+  if (!IsInterface(header.interface)) {
+    server_stamp = ParseStamp(header.interface);
+    header.host = fields.Word();
+    header.robot = fields.Word();
+    header.interface = fields.Word();
+  }
   const std::optional<std::size_t> index = ParseIndex(fields.Word());
   if (!server_stamp || !index) return std::nullopt;
   header.index = *index;
   const std::string_view type_or_stamp = fields.Word();
-  header.type = ParseIndex(type_or_stamp);
+  if (!header.host.empty()) header.type = ParseIndex(type_or_stamp);
   if (header.type) {
     header.stamp = *server_stamp;
     const std::optional<std::size_t> subtype = ParseIndex(fields.Word());
@@ -119,8 +149,8 @@ bool PlayerParser::IsOtherRobot(const Header& header) {
 ParsedLine PlayerParser::ParseLaser(const Header& header, FieldReader fields) {
   const bool posed = header.type && header.IsData(2);
   if (!posed && !header.IsData(1)) return OtherMessage{};
+  if (!header.type && !HasCount(fields)) return ParseBeams(header, fields);
   Sweep sweep;
-  sweep.message = "laser";
   LaserScan& scan = sweep.reading.scan;
   if (header.type) fields.Skip(1);
   if (posed) sweep.reading.T_odom_robot = fields.Pose();
@@ -136,18 +166,42 @@ ParsedLine PlayerParser::ParseLaser(const Header& header, FieldReader fields) {
   const std::optional<double> step_rad =
       BearingStep(last_bearing_rad - first_bearing_rad, resolution_rad, readings);
   if (!step_rad) return MalformedLine{"laser", FieldFault::kBadGeometry};
-  scan.stamp = header.stamp;
-  scan.geometry = {.first_bearing_rad = static_cast<float>(NormalizeAngle(first_bearing_rad)),
-                   .bearing_step_rad = static_cast<float>(*step_rad),
-                   .range_min_m = kNearestReadingM,
-                   .range_max_m = static_cast<float>(std::max(0.0, range_max_m)),
-                   .T_robot_laser = {}};
-  sweep.reading.laser = "laser:" + std::to_string(header.index);
+  scan.geometry.first_bearing_rad = static_cast<float>(NormalizeAngle(first_bearing_rad));
+  scan.geometry.bearing_step_rad = static_cast<float>(*step_rad);
+  scan.geometry.range_max_m = static_cast<float>(std::max(0.0, range_max_m));
   sweep.odd_readings = fields.odd_readings();
+  return Complete(header, std::move(sweep));
+}
+
+/// `(range bearing intensity)...`, as the first versions wrote.
+ParsedLine PlayerParser::ParseBeams(const Header& header, FieldReader fields) {
+  Sweep sweep;
+  LaserScan& scan = sweep.reading.scan;
+  std::vector<double> bearings_rad;
+  while (!fields.AtEnd() && !fields.fault() && scan.size() < kMaxReadings) {
+    scan.ranges_m.push_back(fields.Range());
+    bearings_rad.push_back(fields.Number());
+    fields.Skip(1);
+  }
+  fields.ExpectEnd();
+  if (fields.fault()) return MalformedLine{"laser", *fields.fault()};
+  if (!SetEvenBearings(scan.geometry, bearings_rad)) {
+    return MalformedLine{"laser", FieldFault::kBadGeometry};
+  }
+  sweep.odd_readings = fields.odd_readings();
+  return Complete(header, std::move(sweep));
+}
+
+ParsedLine PlayerParser::Complete(const Header& header, Sweep sweep) {
+  sweep.message = "laser";
+  sweep.reading.laser = "laser:" + std::to_string(header.index);
+  sweep.reading.scan.stamp = header.stamp;
+  LaserGeometry& geometry = sweep.reading.scan.geometry;
+  geometry.range_min_m = kNearestReadingM;
   if (IsOtherRobot(header)) {
     sweep.reading.laser.append("@").append(NameOf(header));
   } else if (const auto known = T_robot_laser_.find(header.index); known != T_robot_laser_.end()) {
-    scan.geometry.T_robot_laser = known->second;
+    geometry.T_robot_laser = known->second;
     sweep.mounting_known = true;
   }
   return sweep;

@@ -12,10 +12,11 @@
 
 namespace qwsm::io {
 
-/// Text logs of Player's writelog driver.
+/// Text logs of Player's writelog driver and of its forerunners.
 ///
-///   1.x  time host port  interface index sensor_time  data   (file versions 0.0 and 0.1)
-///   2.x  time host robot interface index type subtype data   (0.2 and 0.3; 3.x writes the same)
+///             interface index sensor_time                      data   (before writelog)
+///   time host port  interface index sensor_time  data   (1.x: file versions 0.0 and 0.1)
+///   time host robot interface index type subtype data   (2.x: 0.2 and 0.3; 3.x writes the same)
 ///
 /// Of `laser` the plain scans (1:1), those with a pose (1:2) and the mounting (4:1) are understood,
 /// of `position` and `position2d` the state, of `truth` the pose.
@@ -32,6 +33,8 @@ class PlayerParser final : public LogParser {
 
   static std::optional<Header> ReadHeader(FieldReader& fields);
   ParsedLine ParseLaser(const Header& header, FieldReader fields);
+  ParsedLine ParseBeams(const Header& header, FieldReader fields);
+  ParsedLine Complete(const Header& header, Sweep sweep);
   ParsedLine ParseMounting(const Header& header, FieldReader fields);
   ParsedLine ParsePosition(const Header& header, FieldReader fields);
   static std::string NameOf(const Header& header);

@@ -28,6 +28,8 @@ constexpr std::size_t kBelowBins = 128;
 constexpr std::uint64_t kMinSpikeCount = 20;
 constexpr std::size_t kMinPlaces = 10;
 constexpr double kPlaceSpacingM = 0.1;
+constexpr std::size_t kSweepsWithoutOdometry = 10;
+constexpr std::size_t kSweepsOfARobotAtRest = 500;
 
 /// What a SICK LMS writes for "no echo" in its longest setting.
 constexpr float kLongestCommonM = 81.91F;
@@ -49,14 +51,18 @@ void RangeMaximumEstimator::Add(std::span<const float> ranges_m,
   }
 }
 
-/// Without odometry every tenth sweep has to do.
+/// A place is where the robot has moved to. Where odometry does not tell, or never moves, some of
+/// the sweeps have to do.
 bool RangeMaximumEstimator::IsNewPlace(const std::optional<Pose2>& T_odom_robot) {
-  if (!T_odom_robot) return sweeps_without_odometry_++ % 10 == 0;
-  if (T_odom_sampled_) {
-    const Eigen::Vector2d step_m = T_odom_robot->translation_m() - T_odom_sampled_->translation_m();
-    if (step_m.norm() < kPlaceSpacingM) return false;
-  }
-  T_odom_sampled_ = T_odom_robot;
+  ++sweeps_at_place_;
+  const bool moved =
+      T_odom_robot &&
+      (!T_odom_sampled_ ||
+       (T_odom_robot->translation_m() - T_odom_sampled_->translation_m()).norm() >= kPlaceSpacingM);
+  const std::size_t enough = T_odom_robot ? kSweepsOfARobotAtRest : kSweepsWithoutOdometry;
+  if (!moved && sweeps_at_place_ < enough && places_ > 0) return false;
+  if (T_odom_robot) T_odom_sampled_ = T_odom_robot;
+  sweeps_at_place_ = 0;
   return true;
 }
 

@@ -36,7 +36,7 @@ class RangeMaximumEstimator {
   std::vector<std::uint32_t> counts_;    // By range.
   std::vector<float> largest_m_;         // Reading in each bin.
   std::optional<Pose2> T_odom_sampled_;  // Where the last counted sweep was taken.
-  std::size_t sweeps_without_odometry_ = 0;
+  std::size_t sweeps_at_place_ = 0;
   std::size_t places_ = 0;
 };
 

@@ -37,6 +37,7 @@ void SweepCompleter::Observe(const Sweep& sweep, const std::optional<Pose2>& T_o
   const bool open = !decided_ && !sweep.mounting_known;
   if (open && T_sweep && sweep.T_odom_laser) laser.mounting.Add(*T_sweep, *sweep.T_odom_laser);
   if (decided_ && laser.observed >= laser.next_estimate) {
+    if (front_.empty()) front_ = sweep.reading.laser;  // There were no sweeps to decide from.
     if (!laser.decided) Choose(sweep.reading.laser, laser);
     laser.range_max_m = laser.range_maximum.Estimate();
     laser.next_estimate = 2 * laser.observed;
@@ -62,7 +63,7 @@ void SweepCompleter::Decide() {
 }
 
 bool SweepCompleter::IsWanted(const std::string& name, const Laser& laser) const {
-  if (options_.laser.empty()) return front_.empty() || name == front_;
+  if (options_.laser.empty()) return name == front_;
   return options_.laser == "all" || options_.laser == name || laser.sweeps.contains(options_.laser);
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "service/io/log_parser.hpp"
 #include "service/io/log_reader.hpp"
@@ -21,7 +22,7 @@ namespace qwsm::io {
 /// sweep after the other.
 class SweepCompleter {
  public:
-  explicit SweepCompleter(const LogOptions& options) : options_(options) {}
+  explicit SweepCompleter(LogOptions options) : options_(std::move(options)) {}
 
   /// Learns from a sweep, and from the odometry that came before it where it has none itself.
   void Observe(const Sweep& sweep, const std::optional<Pose2>& T_odom_robot);

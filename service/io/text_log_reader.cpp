@@ -197,8 +197,8 @@ void TextLogReader::Deliver(Message message) {
                             ++report_.other_scans;
                           }
                         },
-                        [&](OdometryReading& reading) { filler_.Push(reading); },
-                        [&](TruePoseReading& reading) { filler_.Push(std::move(reading)); }},
+                        [&](const OdometryReading& reading) { filler_.Push(reading); },
+                        [&](const TruePoseReading& reading) { filler_.Push(reading); }},
              message);
 }
 

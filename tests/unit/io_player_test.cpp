@@ -65,6 +65,41 @@ TEST(PlayerLog, ReadsFilesOfPlayerTwo) {
   EXPECT_EQ(log.scans[1].T_odom_robot, (Pose2{1.5, 2.0, 0.1}));
 }
 
+TEST(PlayerLog, ReadsBeamsWithTheirBearings) {
+  const LogContent log = ReadLogText(
+      "1075329039.144 intel0 7000 position 01 1075329039.034 +01.000 +00.000 -0.000 +0.000 +0.000 "
+      "+0.000\n"
+      "1075329039.148 intel0 7000 laser 00 1075329039.034 0.620 -1.571 0 0.630 0.000 0 8.183 1.571 "
+      "1\n");
+  EXPECT_TRUE(log.report.faults.empty());
+  ASSERT_EQ(log.scans.size(), 1U);
+  EXPECT_EQ(log.scans[0].scan.ranges_m, (std::vector{0.62F, 0.63F, 8.183F}));
+  EXPECT_NEAR(log.scans[0].scan.geometry.Bearing(0), -kPi / 2.0, 1e-3);
+  EXPECT_NEAR(log.scans[0].scan.geometry.Bearing(2), kPi / 2.0, 1e-3);
+  EXPECT_EQ(log.scans[0].T_odom_robot, (Pose2{1.0, 0.0, 0.0}));
+}
+
+TEST(PlayerLog, ReadsLinesThatBeginWithTheInterface) {
+  const LogContent log = ReadLogText(
+      "sync 00 1037838567.000\n"
+      "position 00 1037838567.100 1.0 2.0 0.5 0.0 0.0 0.0\n"
+      "laser 00 1037838567.200 1.0 -1.571 0 2.0 0.0 0 3.0 1.571 0\n");
+  EXPECT_EQ(log.report.format, "Player");
+  EXPECT_TRUE(log.report.faults.empty());
+  EXPECT_EQ(log.odometry.at(0).stamp, 1037838567100ms);
+  ASSERT_EQ(log.scans.size(), 1U);
+  EXPECT_EQ(log.scans[0].scan.stamp, 1037838567200ms);
+  EXPECT_EQ(log.scans[0].T_odom_robot, (Pose2{1.0, 2.0, 0.5}));
+}
+
+TEST(PlayerLog, RefusesBearingsThatAreNoSweep) {
+  const LogContent log =
+      ReadLogText("laser 00 1.0 1.0 -1.571 0 2.0 1.5 0 3.0 1.571 0\nlaser 00 1.0 1.0 -1.571\n");
+  ASSERT_EQ(log.report.faults.size(), 2U);
+  EXPECT_TRUE(log.report.faults[0].what.starts_with("laser: the stated bearings are no sweep"));
+  EXPECT_TRUE(log.report.faults[1].what.starts_with("laser: the line ends early"));
+}
+
 TEST(PlayerLog, ReadsTheTruePoseOfASimulator) {
   const LogContent log =
       ReadLogText("0000000001.000 host 6665 truth 00 0000000000.900 +01.000 +02.000 +0.500\n");
