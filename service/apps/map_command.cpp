@@ -92,6 +92,9 @@ ExitCode RunMap(const MapArguments& arguments) {
   io::WriteTextFile(folder / "metrics.json",
                     MetricsJson(statistics, mapper.map(), options.mapper.matcher));
   for (const std::string& line : source.Describe()) spdlog::info("{}", line);
+  if (statistics.scans() == 0 && result.end == ReplayEnd::kExhausted) {
+    throw UsageError("there is no scan in " + arguments.logs.front().string());
+  }
   if (!arguments.verbosity.quiet && !arguments.verbosity.json) {
     fmt::print(
         "{}results        {}\n", SummaryText(statistics, mapper.map()), folder.path().string());

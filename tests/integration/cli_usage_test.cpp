@@ -73,6 +73,15 @@ TEST(Usage, RefusesWhatIsNoLog) {
   EXPECT_NE(outcome.errors.find("garbage"), std::string::npos) << outcome.errors;
 }
 
+TEST(Usage, RefusesLogsWithoutScans) {
+  const TemporaryFolder folder;
+  const std::filesystem::path log = folder.path() / "odometry.log";
+  std::ofstream(log) << "ODOM 0 0 0 0 0 0 1 robot 1\nODOM 1 0 0 0 0 0 2 robot 2\n";
+  const Outcome outcome = RunProgram({"map", log, "--output", folder.path() / "results"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.errors, "qwsm: there is no scan in " + log.string() + "\n");
+}
+
 TEST(Usage, ReportsAllConfigurationProblemsBeforeAnythingIsDone) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "robot.yaml";

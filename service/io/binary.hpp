@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace qwsm::io {
+
+/// Puts numbers one after the other, little endian and unaligned, on any machine.
+class BinaryWriter {
+ public:
+  void Add(std::uint32_t value);
+  void Add(std::uint64_t value);
+  void Add(std::int64_t value);
+  void Add(float value);
+  void Add(double value);
+  /// Its length, then its bytes.
+  void Add(std::string_view text);
+
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+/// There are fewer bytes than what they claim to hold.
+class BinaryError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Takes them out again. @throws BinaryError at the end of the bytes, everywhere below.
+class BinaryReader {
+ public:
+  explicit BinaryReader(std::string_view bytes) : bytes_(bytes) {}
+
+  std::uint32_t Unsigned32();
+  std::uint64_t Unsigned64();
+  std::int64_t Signed64();
+  float Float();
+  double Double();
+  std::string_view Text();
+  /// A number of things of at least `bytes_each`, which are there: safe to allocate for.
+  std::size_t Count(std::size_t bytes_each);
+
+  std::size_t remaining() const { return bytes_.size() - at_; }
+
+ private:
+  std::string_view Take(std::size_t size);
+
+  std::string_view bytes_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace qwsm::io

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "qwsm/mapping/scan_map.hpp"
+
+namespace qwsm::io {
+
+/// A file that holds no map that can be used. The text names the file and says why: foreign, newer,
+/// truncated or damaged.
+class MapFileError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Saves a map with all that mapping needs to go on in it as if it had never stopped: options,
+/// relevant scans, and the points of the quadtree.
+///
+/// Layout, all numbers little endian: "QWSM map", version (u32), CRC-32 of the rest (u32), bytes of
+/// the rest (u64), and the rest: options, scans, points; see map_file.cpp.
+/// @throws WriteError where it cannot be written; a file of that name stays as it was then.
+void SaveMap(const std::filesystem::path& path, const ScanMap& map);
+
+/// Rebuilds the map scan by scan, as it was built first, and checks that the points are the saved
+/// ones. O(points log points). @throws MapFileError
+ScanMap LoadMap(const std::filesystem::path& path);
+
+/// The same in memory; `name` stands for the file in messages.
+std::string EncodeMap(const ScanMap& map);
+ScanMap DecodeMap(std::string_view bytes, std::string_view name);
+
+}  // namespace qwsm::io

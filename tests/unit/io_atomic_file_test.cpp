@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "service/io/atomic_file.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace qwsm::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string ReadFile(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+class AtomicFileTest : public ::testing::Test {
+ protected:
+  bool FolderHoldsOnly(const fs::path& file) const {
+    const fs::directory_iterator entries(folder_.path());
+    return std::all_of(begin(entries), end(entries), [&](const fs::directory_entry& entry) {
+      return entry.path() == file;
+    });
+  }
+
+  test::TemporaryFolder folder_;
+  fs::path file_ = folder_.path() / "result.txt";
+};
+
+TEST_F(AtomicFileTest, AppearsWholeWhenCommitted) {
+  const std::string text(200'000, 'x');
+  AtomicFile file(file_);
+  file.stream() << text;
+  EXPECT_FALSE(fs::exists(file_));
+  file.Commit();
+  EXPECT_EQ(ReadFile(file_), text);
+  EXPECT_TRUE(FolderHoldsOnly(file_));
+}
+
+TEST_F(AtomicFileTest, LeavesTheOldFileWhenGivenUp) {
+  WriteTextFile(file_, "old");
+  {
+    AtomicFile file(file_);
+    file.stream() << "new";
+  }
+  EXPECT_EQ(ReadFile(file_), "old");
+  EXPECT_TRUE(FolderHoldsOnly(file_));
+}
+
+TEST_F(AtomicFileTest, SaysWhyItCannotBeWritten) {
+  const fs::path nowhere = folder_.path() / "none" / "result.txt";
+  try {
+    AtomicFile file(nowhere);
+    FAIL();
+  } catch (const WriteError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              nowhere.string() + ": cannot be written: No such file or directory");
+  }
+}
+
+TEST_F(AtomicFileTest, SaysThatTheDiskIsFull) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
+  fs::create_symlink("/dev/full", file_.string() + ".part");
+  AtomicFile file(file_);
+  file.stream() << std::string(200'000, 'x');
+  EXPECT_THROW(file.ThrowIfFailed(), WriteError) << "known before the end";
+  try {
+    file.Commit();
+    FAIL();
+  } catch (const WriteError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              file_.string() + ": cannot be written: No space left on device");
+  }
+  EXPECT_FALSE(fs::exists(file_));
+}
+
+}  // namespace
+}  // namespace qwsm::io
