@@ -63,7 +63,11 @@ TEST(OccupancyGrid, IsFreeUpToAHitAndUnknownBehind) {
 TEST(OccupancyGrid, TakesTheWayOfAMissAsFreeUpToALimit) {
   OccupancyGridOptions options = OneMetreCells();
   options.miss_free_range_m = 3.0;
-  EXPECT_EQ(RowAhead({FourBeams({20.0F, 2.0F, 2.0F, 2.0F})}, options), "...????");
+  EXPECT_EQ(RowAhead({FourBeams({20.0F, 20.0F, 2.0F, 2.0F})}, options), "...????");
+}
+
+TEST(OccupancyGrid, TakesALoneMissAsALostEcho) {
+  EXPECT_EQ(RowAhead({FourBeams({20.0F, 2.0F, 2.0F, 2.0F})}, OneMetreCells()), ".??????");
 }
 
 TEST(OccupancyGrid, BelievesNoSurfaceBeyondTheUsableRange) {

@@ -42,6 +42,15 @@ std::optional<Sight> SightOf(float range_m,
   return std::nullopt;
 }
 
+// Whether the reading is a lone miss: an echo that was lost, and no sign of free space. Beams
+// that leave through a gap come in company.
+bool IsLostEcho(const LaserScan& scan, std::size_t beam) {
+  const auto is_miss = [&](std::size_t at) {
+    return at < scan.size() && StateOf(scan.ranges_m[at], scan.geometry) == BeamState::kMiss;
+  };
+  return is_miss(beam) && !is_miss(beam + 1) && !(beam > 0 && is_miss(beam - 1));
+}
+
 // Calls `visit(end_map_m, hit)` for every beam that says something.
 template <class Visit>
 void ForEachSight(const RelevantScan& scan, const OccupancyGridOptions& options, Visit visit) {
@@ -50,7 +59,7 @@ void ForEachSight(const RelevantScan& scan, const OccupancyGridOptions& options,
   if (!IsFinite(T_map_laser)) return;
   for (std::size_t beam = 0; beam < scan.scan.size(); ++beam) {
     const std::optional<Sight> sight = SightOf(scan.scan.ranges_m[beam], geometry, options);
-    if (!sight) continue;
+    if (!sight || IsLostEcho(scan.scan, beam)) continue;
     const double heading_rad = T_map_laser.theta_rad + geometry.Bearing(beam);
     const Eigen::Vector2d direction_map(std::cos(heading_rad), std::sin(heading_rad));
     visit(Eigen::Vector2d(T_map_laser.translation_m() + sight->range_m * direction_map),

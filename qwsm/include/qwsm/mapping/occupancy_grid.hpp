@@ -72,9 +72,10 @@ struct [[nodiscard]] OccupancyGridResult {
 };
 
 /// Renders what the scans saw. A scan counts once for every cell: as hit if a beam ended there,
-/// else as free if a beam passed through, so that walls seen at a grazing angle stay. The order of
-/// the scans does not matter where fewer than 65 536 of them look. Scans whose pose is not finite
-/// are left out. O(cells + sum over beams of range / cell), 9 bytes per cell.
+/// else as free if a beam passed through, so that walls seen at a grazing angle stay. A lone
+/// miss is taken as a lost echo, not as free space. The order of the scans does not matter where
+/// fewer than 65 536 of them look. Scans whose pose is not finite are left out. O(cells + sum over
+/// beams of range / cell), 9 bytes per cell.
 OccupancyGridResult RenderOccupancyGrid(std::span<const RelevantScan> scans,
                                         const OccupancyGridOptions& options = {});
 
