@@ -59,6 +59,8 @@ std::string_view Explain(FieldFault fault) {
       return "the time stamp is missing or absurd; it is to be seconds since an epoch";
     case FieldFault::kBadGeometry:
       return "the stated bearings are no sweep of a laser; correct field of view and resolution";
+    case FieldFault::kNoRotation:
+      return "the quaternion is all zero and stands for no rotation";
     case FieldFault::kSurplus:
       return "the line goes on after its last field; the count of readings may be wrong";
     case FieldFault::kTooLong:

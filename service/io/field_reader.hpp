@@ -23,6 +23,7 @@ enum class FieldFault {
   kBadCount,
   kBadStamp,
   kBadGeometry,
+  kNoRotation,
   kSurplus,
   kTooLong,
   kNotText,

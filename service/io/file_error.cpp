@@ -6,6 +6,7 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace qwsm::io {
 std::ifstream OpenForReading(const std::filesystem::path& path) {
@@ -18,16 +19,6 @@ std::ifstream OpenForReading(const std::filesystem::path& path) {
     throw std::runtime_error(path.string() + ": cannot be opened: " + std::strerror(errno));
   }
   return file;
-}
-
-void ThrowAtLine(std::string_view name,
-                 std::size_t line_number,
-                 FieldFault fault,
-                 std::string_view expected) {
-  std::string message(name);
-  message.append(":").append(std::to_string(line_number)).append(": ");
-  message.append(Explain(fault)).append("; ").append(expected);
-  throw std::runtime_error(message);
 }
 
 }  // namespace qwsm::io

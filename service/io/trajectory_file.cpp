@@ -2,33 +2,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/io/trajectory_file.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "service/io/atomic_file.hpp"
 #include "service/io/field_reader.hpp"
 #include "service/io/file_error.hpp"
-#include "service/io/line_reader.hpp"
 #include "service/io/number_text.hpp"
+#include "service/io/table_file.hpp"
 
 namespace qwsm::io {
 namespace {
 
-StampedPose2 ParseTumLine(FieldReader& fields) {
+/// The yaw of a quaternion of any length but none.
+std::optional<double> YawOf(const Eigen::Quaterniond& any_length) {
+  const double largest = any_length.coeffs().cwiseAbs().maxCoeff();
+  if (!(largest > 0.0)) return std::nullopt;
+  const Eigen::Quaterniond q(any_length.coeffs() / largest);  // Its squares can be summed.
+  return std::atan2(2.0 * (q.w() * q.z() + q.x() * q.y()),
+                    q.w() * q.w() + q.x() * q.x() - q.y() * q.y() - q.z() * q.z());
+}
+
+StampedPose2 ReadPose(FieldReader& fields) {
   StampedPose2 pose;
   pose.stamp = fields.Stamp();
   pose.T_map_robot.x_m = fields.Number();
   pose.T_map_robot.y_m = fields.Number();
   fields.Number();  // Height.
-  const double x = fields.Number();
-  const double y = fields.Number();
-  const double z = fields.Number();
-  const double w = fields.Number();
-  fields.ExpectEnd();
-  // Any length will do, but that of nothing.
-  const double squared_norm = x * x + y * y + z * z + w * w;
-  if (!fields.fault() && !(squared_norm > 0.0)) fields.Fail(FieldFault::kNotFinite);
-  pose.T_map_robot.theta_rad = std::atan2(2.0 * (w * z + x * y), w * w + x * x - y * y - z * z);
+  Eigen::Quaterniond attitude;
+  for (double* const part : {&attitude.x(), &attitude.y(), &attitude.z(), &attitude.w()}) {
+    *part = fields.Number();
+  }
+  const std::optional<double> yaw_rad = YawOf(attitude);
+  if (!yaw_rad) fields.Fail(FieldFault::kNoRotation);
+  pose.T_map_robot.theta_rad = yaw_rad.value_or(0.0);
   return pose;
 }
 
@@ -56,15 +65,9 @@ void WriteTumFile(const std::filesystem::path& path, const Trajectory& trajector
 
 Trajectory ReadTum(std::istream& stream, std::string_view name) {
   Trajectory trajectory;
-  LineReader lines{ByteSource(stream)};
-  while (const std::optional<Line> line = lines.Next()) {
-    FieldReader fields(line->text);
-    if (fields.AtEnd() || line->text.starts_with('#')) continue;
-    trajectory.push_back(ParseTumLine(fields));
-    if (fields.fault()) {
-      ThrowAtLine(name, line->number, *fields.fault(), "a line is 't x y z qx qy qz qw'");
-    }
-  }
+  ReadTable(stream, name, "a line is 't x y z qx qy qz qw'", [&](FieldReader& fields) {
+    trajectory.push_back(ReadPose(fields));
+  });
   return trajectory;
 }
 

@@ -38,6 +38,15 @@ TEST(TumTrajectory, TakesTheYawOfAPoseInSpace) {
   EXPECT_NEAR(ReadTum(stream, "test.tum").at(0).T_map_robot.theta_rad, 1.5707963, 1e-6);
 }
 
+TEST(TumTrajectory, TakesQuaternionsOfAnyLengthButNone) {
+  std::istringstream stream("1 0 0 0 0 0 1e200 1e200\n2 0 0 0 0 0 1e-300 1e-300\n");
+  for (const StampedPose2& pose : ReadTum(stream, "test.tum")) {
+    EXPECT_NEAR(pose.T_map_robot.theta_rad, 1.5707963, 1e-6);
+  }
+  std::istringstream zero("1 0 0 0 0 0 0 0\n");
+  EXPECT_THROW(ReadTum(zero, "test.tum"), std::runtime_error);
+}
+
 TEST(TumTrajectory, NamesTheLineThatIsNoPose) {
   std::istringstream stream("# t x y z qx qy qz qw\n\n1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0\n");
   try {
@@ -45,6 +54,17 @@ TEST(TumTrajectory, NamesTheLineThatIsNoPose) {
     FAIL() << "did not throw";
   } catch (const std::runtime_error& error) {
     EXPECT_TRUE(std::string(error.what()).starts_with("test.tum:4: the line ends early"));
+  }
+}
+
+TEST(TumTrajectory, NamesTheArchiveThatIsBroken) {
+  std::istringstream stream("\x1f\x8b is how gzip begins, and this is not");
+  try {
+    ReadTum(stream, "test.tum.gz");
+    FAIL() << "did not throw";
+  } catch (const std::runtime_error& error) {
+    EXPECT_TRUE(
+        std::string(error.what()).starts_with("test.tum.gz: the gzip archive is truncated"));
   }
 }
 
