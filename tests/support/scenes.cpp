@@ -10,6 +10,52 @@ namespace {
 constexpr double kCellM = 0.5;
 constexpr double kTableLegM = 0.04;
 
+constexpr std::string_view kRoom = R"(
+####################
+#            ##    #
+#     4  3   ##    #
+#                  #
+#o o               #
+#           2    ###
+#o o             ###
+#                  #
+#                  #
+#                  #
+#     ####     1   #
+#     ####         #
+#                  #
+#   5        6     #
+#                  #
+####################
+)";
+
+constexpr std::string_view kPark = R"(
+                      o             o
+
+                   5
+
+        6        o             4
+
+    o       o
+                              o
+
+
+o                       o
+                   o              3    o
+     7
+
+
+                                o
+  o
+                    o
+                o          o
+         8                       2
+             9
+      o       1
+o                                    o
+                               o
+)";
+
 constexpr std::string_view kTwoRooms = R"(
 ##################                    ##################
 #                #                    #   ##           #
@@ -78,6 +124,10 @@ constexpr std::string_view kOffices = R"(
 
 }  // namespace
 
+Scene FurnishedRoom() {
+  return Moved(SceneFromDrawing(kRoom, kCellM, kTableLegM), {4.0, 1.0, 0.25});
+}
+
 Scene TwoRoomsAndCorridor() {
   return Moved(SceneFromDrawing(kTwoRooms, kCellM, kTableLegM), {3.0, -7.0, 0.3});
 }
@@ -99,6 +149,12 @@ Scene LongCorridor() {
     scene.world.walls.push_back({.from_m = corridor_m[i - 1], .to_m = corridor_m[i]});
   }
   return Moved(scene, {-5.0, 12.0, -0.4});
+}
+
+Scene Park() {
+  constexpr double kParkCellM = 1.2;
+  constexpr double kTrunkM = 0.2;
+  return Moved(SceneFromDrawing(kPark, kParkCellM, kTrunkM), {-10.0, -10.0, 0.1});
 }
 
 Scene OfficeLoop() {

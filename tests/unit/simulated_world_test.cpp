@@ -132,34 +132,76 @@ TEST(SimulatedDrive, OdometryErrsAsToldHoweverOftenItIsSampled) {
   }
 }
 
-// A robot 0.5 m wide fits through every scene, and the laser sees something all the way.
-TEST(Scenes, LeaveRoomForTheirRoutes) {
-  for (const Scene& scene : {TwoRoomsAndCorridor(), LongCorridor(), OfficeLoop()}) {
+std::vector<Scene> IndoorScenes() {
+  return {FurnishedRoom(), TwoRoomsAndCorridor(), LongCorridor(), OfficeLoop()};
+}
+
+// Distances in 32 directions to what is nearest there.
+std::vector<std::optional<double>> ClearancesAround(const World& world,
+                                                    const Pose2& T_world_robot) {
+  std::vector<std::optional<double>> clearances_m;
+  for (int i = 0; i < 32; ++i) {
+    clearances_m.push_back(CastRay(world, T_world_robot.translation_m(), Towards(i * kPi / 16)));
+  }
+  return clearances_m;
+}
+
+TEST(Scenes, IndoorsAreClosed) {
+  for (const Scene& scene : IndoorScenes()) {
     SCOPED_TRACE("scene with " + std::to_string(scene.world.walls.size()) + " walls");
     for (const Pose2& T_world_robot : PosesAlong(scene.route_m, {})) {
-      for (int i = 0; i < 32; ++i) {
-        const std::optional<double> clearance_m =
-            CastRay(scene.world, T_world_robot.translation_m(), Towards(i * kPi / 16));
-        ASSERT_TRUE(clearance_m) << "the walls have a gap";
-        ASSERT_GT(*clearance_m, 0.25) << T_world_robot.translation_m().transpose();
+      for (const auto& clearance_m : ClearancesAround(scene.world, T_world_robot)) {
+        ASSERT_TRUE(clearance_m) << T_world_robot.translation_m().transpose();
+      }
+    }
+  }
+}
+
+TEST(Scenes, LeaveRoomForARobotHalfAMetreWide) {
+  std::vector<Scene> scenes = IndoorScenes();
+  scenes.push_back(Park());
+  for (const Scene& scene : scenes) {
+    SCOPED_TRACE("scene with " + std::to_string(scene.world.walls.size()) + " walls");
+    for (const Pose2& T_world_robot : PosesAlong(scene.route_m, {})) {
+      for (const auto& clearance_m : ClearancesAround(scene.world, T_world_robot)) {
+        ASSERT_GT(clearance_m.value_or(1e9), 0.25) << T_world_robot.translation_m().transpose();
       }
     }
   }
 }
 
 TEST(Scenes, ReturnToWhereTheyBegan) {
-  for (const Scene& scene : {TwoRoomsAndCorridor(), LongCorridor(), OfficeLoop()}) {
+  std::vector<Scene> scenes = IndoorScenes();
+  scenes.push_back(Park());
+  for (const Scene& scene : scenes) {
+    SCOPED_TRACE("scene with " + std::to_string(scene.world.walls.size()) + " walls");
     const std::vector<Pose2> poses = PosesAlong(scene.route_m, {});
-    double path_m = 0.0;
     double return_m = 1e9;
-    for (std::size_t i = 1; i < poses.size(); ++i) {
-      path_m += (poses[i].translation_m() - poses[i - 1].translation_m()).norm();
-      const double away_m = (poses[i].translation_m() - poses[0].translation_m()).norm();
-      if (path_m > 30.0) return_m = std::min(return_m, away_m);
+    for (std::size_t i = poses.size() / 2; i < poses.size(); ++i) {
+      const Eigen::Vector2d away_m = poses[i].translation_m() - poses[0].translation_m();
+      return_m = std::min(return_m, away_m.norm());
     }
-    EXPECT_GT(path_m, 50.0);
-    EXPECT_LT(return_m, 1.5);
+    EXPECT_LT(return_m, 2.5);
   }
+}
+
+// What the scene is for: little to see, but rarely nothing.
+TEST(Scenes, ParkShowsOneOrTwoTreesMostOfTheTime) {
+  const World park = Park().world;
+  int few = 0;
+  int none = 0;
+  const std::vector<Pose2> poses = PosesAlong(Park().route_m, {});
+  for (const Pose2& T_world_robot : poses) {
+    int seen = 0;
+    for (const Column& tree : park.columns) {
+      const Eigen::Vector2d p_robot_m = T_world_robot.Inverse() * tree.center_m;
+      if (p_robot_m.x() > 0.0 && p_robot_m.norm() < 11.0) ++seen;
+    }
+    if (seen == 1 || seen == 2) ++few;
+    if (seen == 0) ++none;
+  }
+  EXPECT_GT(few, static_cast<int>(poses.size()) / 2);
+  EXPECT_LT(none, static_cast<int>(poses.size()) / 10);
 }
 
 }  // namespace
