@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "qwsm/mapping/mapper.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -24,6 +26,21 @@ ScanLocatorOptions LocatorOptions(const MapperOptions& options) {
 // The prediction in the map's frame, uncertain only by the last motion: what a match is fused with.
 UncertainPose2 MotionInMap(const Pose2& T_map_last, const UncertainPose2& last_robot) {
   return UncertainPose2{.T_a_b = T_map_last} * last_robot;
+}
+
+// Covariance of a matched pose: as uncertain as the part of the map it was matched to, plus what is
+// left of its uncertainty relative to that part. Where the pairs say nothing, as along a corridor,
+// that is all of the prediction's.
+Eigen::Matrix3d FuseWithReference(const Eigen::Matrix3d& reference,
+                                  const Eigen::Matrix3d& predicted,
+                                  const Eigen::Matrix3d& motion,
+                                  const Eigen::Matrix3d& pair_information) {
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> excess(predicted - motion - reference);
+  const Eigen::Matrix3d relative = excess.eigenvectors() *
+                                       excess.eigenvalues().cwiseMax(0.0).asDiagonal() *
+                                       excess.eigenvectors().transpose() +
+                                   motion;
+  return reference + (pair_information + relative.inverse()).inverse();
 }
 
 std::vector<Eigen::Vector2d> ToMap(std::span<const Eigen::Vector2d> points_robot_m,
@@ -76,7 +93,7 @@ MappingStep Mapper::Process(const Observation& observation) {
   MappingStep step{.stamp = observation.scan.stamp};
   step.match = locator_.Locate(map_, points, predicted);
   step.map_robot = map_last_ * last_robot;
-  Judge(points, step);
+  Judge(points, predicted.covariance, step);
   if (options_.extend_map && IsRelevant(step)) Extend(observation, points, step);
 
   motion_.Remember(map_last_.T_a_b.Inverse() * step.map_robot.T_a_b, observation.T_odom_robot);
@@ -97,7 +114,9 @@ MappingStep Mapper::Begin(const Observation& observation, std::span<const ScanPo
 
 // Matched well: the match is the pose. Overlap low: the pose, and the map is extended. Bad: dead
 // reckoning (Visser et al. 2009, section 4).
-void Mapper::Judge(std::span<const ScanPoint> points, MappingStep& step) const {
+void Mapper::Judge(std::span<const ScanPoint> points,
+                   const Eigen::Matrix3d& motion_covariance,
+                   MappingStep& step) const {
   const MatchResult& match = step.match;
   const bool found =
       match.status == MatchStatus::kConverged || match.status == MatchStatus::kIterationLimit;
@@ -110,15 +129,18 @@ void Mapper::Judge(std::span<const ScanPoint> points, MappingStep& step) const {
   step.status = extends ? StepStatus::kExtended : StepStatus::kMatched;
   step.reason = extends ? "much of the scan is new" : "agrees with the map";
 
-  // The pose is as uncertain as the part of the map it was matched to, plus the match.
   const std::vector<Eigen::Vector2d> points_map =
       ToMap(ThinOut(points, kReferenceSpacing_m), match.T_ref_cur);
   const FrameCovariance reference = map_.CovarianceAround(points_map, kReferenceReach_m);
+  const Eigen::Matrix3d independent = match.information * options_.drift_information;
+  step.map_robot.covariance = FuseWithReference(reference.At(match.T_ref_cur.translation_m()),
+                                                step.map_robot.covariance,
+                                                motion_covariance,
+                                                independent);
   const double floor_m2 = options_.match_floor_m * options_.match_floor_m;
   const double floor_rad2 = options_.match_floor_rad * options_.match_floor_rad;
-  step.map_robot.T_a_b = match.T_ref_cur;
-  step.map_robot.covariance = reference.At(match.T_ref_cur.translation_m()) + match.covariance;
   step.map_robot.covariance.diagonal() += Eigen::Vector3d(floor_m2, floor_m2, floor_rad2);
+  step.map_robot.T_a_b = match.T_ref_cur;
 }
 
 bool Mapper::IsRelevant(const MappingStep& step) const {

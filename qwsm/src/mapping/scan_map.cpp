@@ -21,6 +21,7 @@ ScanId ScanMap::Insert(const LaserScan& scan,
     if (options_.insertion == InsertionRule::kNewSurface && !IsNewSurface(p_map)) continue;
     added.push_back({.p_map_m = p_map,
                      .normal_map = R_map_robot * normals_robot[i],
+                     .spacing_m = points[i].spacing_m,
                      .drift_m2 = covariances_.back().PositionVariance(p_map)});
   }
   // Only now: the points of one scan do not crowd each other out.

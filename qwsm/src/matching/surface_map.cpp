@@ -8,13 +8,6 @@
 #include "qwsm/geometry/moments.hpp"
 
 namespace qwsm {
-namespace {
-
-// A neighbourhood shorter than this shows no direction, only noise.
-constexpr double kMinLineVariance_m2 = 4e-4;
-
-}  // namespace
-
 SurfaceMap::SurfaceMap(const SurfaceMapOptions& options)
     : options_(options), quadtree_(options.quadtree), likelihood_(options.likelihood) {}
 
@@ -38,6 +31,7 @@ bool SurfaceMap::Insert(const MapPoint& point, ScanId scan) {
           point.normal_map.isZero()
               ? std::numeric_limits<float>::quiet_NaN()
               : static_cast<float>(std::atan2(point.normal_map.y(), point.normal_map.x())),
+      .spacing_m = static_cast<float>(point.spacing_m),
       .drift_m2 = static_cast<float>(point.drift_m2)};
   GatherNeighbors(insertion->id);
   likelihood_.Insert(point.p_map_m, point.drift_m2);
@@ -61,7 +55,8 @@ void SurfaceMap::RemoveScan(ScanId scan) {
   for (PointId id = 0; id < quadtree_.id_end(); ++id) {
     if (!quadtree_.Contains(id)) continue;
     Neighborhood& own = neighborhoods_[id];
-    own = {.own_normal_rad = own.own_normal_rad, .drift_m2 = own.drift_m2};
+    own = {
+        .own_normal_rad = own.own_normal_rad, .spacing_m = own.spacing_m, .drift_m2 = own.drift_m2};
     const Eigen::Vector2d p_m = quadtree_.Position(id);
     quadtree_.ForEachInRadius(
         p_m, options_.neighborhood_radius_m, [&](PointId other, const Eigen::Vector2d& other_m) {
@@ -80,22 +75,30 @@ Eigen::Vector2d SurfaceMap::OwnNormal(PointId id) const {
 Surface SurfaceMap::SurfaceAt(PointId id) const {
   const Neighborhood& n = neighborhoods_[id];
   const Eigen::Vector2d p_m = quadtree_.Position(id);
-  const bool is_crowded = n.count >= static_cast<std::uint32_t>(options_.min_neighbors);
-  if (!is_crowded && !std::isnan(n.own_normal_rad)) {
-    return {.mean_m = p_m, .normal = OwnNormal(id), .across_m2 = 0.0, .is_line = true};
-  }
   const double scale = 1.0 / static_cast<double>(n.count);
-  const double x = static_cast<double>(n.sum_x) * scale;
-  const double y = static_cast<double>(n.sum_y) * scale;
-  const PrincipalAxes axes = PrincipalAxesOf(static_cast<double>(n.sum_xx) * scale - x * x,
-                                             static_cast<double>(n.sum_xy) * scale - x * y,
-                                             static_cast<double>(n.sum_yy) * scale - y * y);
-  const bool is_line = is_crowded && axes.major_m2 > kMinLineVariance_m2 &&
-                       axes.minor_m2 < options_.max_line_aspect * axes.major_m2;
-  return {.mean_m = p_m + Eigen::Vector2d(x, y),
+  const Eigen::Vector2d mean = scale * Eigen::Vector2f(n.sum_x, n.sum_y).cast<double>();
+  const PrincipalAxes axes =
+      PrincipalAxesOf(static_cast<double>(n.sum_xx) * scale - mean.x() * mean.x(),
+                      static_cast<double>(n.sum_xy) * scale - mean.x() * mean.y(),
+                      static_cast<double>(n.sum_yy) * scale - mean.y() * mean.y());
+  const bool is_crowded = n.count >= static_cast<std::uint32_t>(options_.min_neighbors);
+  const bool is_line = is_crowded && axes.minor_m2 < options_.max_line_aspect * axes.major_m2;
+  if (is_line && axes.major_m2 > options_.min_line_m * options_.min_line_m) {
+    return {.mean_m = p_m + mean,
+            .normal = axes.minor_axis,
+            .across_m2 = axes.minor_m2,
+            .is_line = true};
+  }
+  if (!std::isnan(n.own_normal_rad) && (is_line || !is_crowded)) {
+    // Too few or too close together to show a direction better than the scan itself did.
+    const Eigen::Vector2d normal = OwnNormal(id);
+    return {.mean_m = p_m, .normal = normal, .across_m2 = 0.0, .is_line = true};
+  }
+  return {.mean_m = p_m + mean,
           .normal = axes.minor_axis,
-          .across_m2 = is_line ? axes.minor_m2 : 0.5 * (axes.minor_m2 + axes.major_m2),
-          .is_line = is_line};
+          .across_m2 = 0.5 * (axes.minor_m2 + axes.major_m2),
+          .spacing_m = is_crowded ? 0.0 : static_cast<double>(n.spacing_m),
+          .is_line = false};
 }
 
 }  // namespace qwsm

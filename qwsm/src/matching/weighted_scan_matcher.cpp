@@ -16,7 +16,7 @@ namespace {
 constexpr double kPairDistancePerError = 5.0;  // Pairs are sought as far as the error may reach.
 constexpr double kSmallestDoubt_m = 0.002;     // Below, annealing has ended.
 constexpr double kInlierSigmas = 3.0;
-// A uniform error of one beam spacing has this share of its square as variance.
+// A uniform error of one sample spacing has this share of its square as variance.
 constexpr double kUniformVariance = 1.0 / 12.0;
 // The mean of some stored readings carries about a quarter of the variance of one.
 constexpr double kStoredShareOfNoise = 0.25;
@@ -80,9 +80,11 @@ Eigen::Matrix2d ModelledInformation(const Surface& surface,
     return n * n.transpose() / variance_m2;
   }
   // No tangent exists: the correspondence error is isotropic, with the neighbourhood's extent.
-  const double isotropic_m2 = surface.across_m2 + range_m2 +
-                              options.small_object_m * options.small_object_m +
-                              kUniformVariance * point.spacing_m * point.spacing_m + doubt_m2;
+  const double isotropic_m2 =
+      surface.across_m2 + range_m2 + options.small_object_m * options.small_object_m +
+      kUniformVariance *
+          (point.spacing_m * point.spacing_m + surface.spacing_m * surface.spacing_m) +
+      doubt_m2;
   return (N_map + isotropic_m2 * Eigen::Matrix2d::Identity()).inverse();
 }
 
@@ -155,6 +157,24 @@ class Pairing {
   std::vector<Pair> pairs_;
 };
 
+// Takes back what pairs seem to say about a direction of which they say next to nothing: normals of
+// noisy walls are never quite parallel, and their errors would pass for a hold along a corridor
+// (Zhang, Kaess & Singh 2016).
+void DropFalseHold(double min_share, NormalEquations& equations) {
+  Eigen::Matrix3d& A = equations.A;
+  const Eigen::Vector2d cross = A.topRightCorner<2, 1>();
+  const Eigen::Matrix2d of_position =
+      A.topLeftCorner<2, 2>() - cross * cross.transpose() / std::max(A(2, 2), 1e-12);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
+  axes.computeDirect(of_position);
+  if (axes.eigenvalues()(0) >= min_share * axes.eigenvalues()(1)) return;
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  direction.head<2>() = axes.eigenvectors().col(0);
+  const Eigen::Matrix3d others = Eigen::Matrix3d::Identity() - direction * direction.transpose();
+  A = (others * A * others).eval();
+  equations.b = (others * equations.b).eval();
+}
+
 // Information of the pairs in real units. Identity weights know no units: the residuals give them.
 Eigen::Matrix3d PairInformation(const NormalEquations& equations,
                                 const WeightedScanMatcherOptions& options) {
@@ -197,7 +217,8 @@ MatchResult WeightedScanMatcher::Match(const SurfaceMap& reference,
   Doubt doubt{prior.start_error_m};
   while (result.iterations < options_.max_iterations) {
     ++result.iterations;
-    const NormalEquations pairs = pairing.Linearize(result.T_ref_cur, doubt);
+    NormalEquations pairs = pairing.Linearize(result.T_ref_cur, doubt);
+    DropFalseHold(options_.min_information_share, pairs);
     result.pairs = pairs.pairs;
     if (pairs.pairs < options_.min_pairs) {
       result.status = MatchStatus::kTooFewPairs;

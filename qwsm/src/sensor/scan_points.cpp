@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "qwsm/geometry/moments.hpp"
 
@@ -15,14 +17,17 @@ constexpr double kNormalReachSpacings = 2.2;  // or as many beam spacings where 
 constexpr double kGap_m = 0.15;               // Neighbouring points further apart, and
 constexpr double kGapSpacings = 6.0;          // more beam spacings apart, lie on two surfaces.
 constexpr double kMaxRoughness_m = 0.05;      // A wall is flatter than this.
-constexpr double kMaxAspect = 0.25;           // Across over along, as standard deviations.
+constexpr std::size_t kMaxBeamsAway = 2;      // Between neighbours, for a failed reading.
+constexpr double kInFront_m = 0.3;            // Nearer than its neighbours by this: another object.
+constexpr double kMaxTurn_rad = std::numbers::pi / 8.0;  // Of a straight surface, sparsely sampled.
+constexpr double kMaxAspect = 0.25;  // Across over along, as standard deviations.
 
 // Grows the neighbourhood of points[center] in one direction and returns its end (exclusive when
 // walking forward, inclusive when walking back).
 std::size_t NeighborhoodEnd(std::span<const ScanPoint> points, std::size_t center, bool forward) {
   const ScanPoint& c = points[center];
-  const double reach_m = std::max(kNormalReach_m, kNormalReachSpacings * c.spacing_m);
-  const double gap_m = std::max(kGap_m, kGapSpacings * c.spacing_m);
+  const double reach_m = std::max(kNormalReach_m, kNormalReachSpacings * c.arc_m);
+  const double gap_m = std::max(kGap_m, kGapSpacings * c.arc_m);
   std::size_t last = center;
   while (forward ? last + 1 < points.size() : last > 0) {
     const std::size_t next = forward ? last + 1 : last - 1;
@@ -34,7 +39,6 @@ std::size_t NeighborhoodEnd(std::span<const ScanPoint> points, std::size_t cente
 }
 
 Eigen::Vector2d NormalOf(std::span<const ScanPoint> neighbors) {
-  if (neighbors.size() < 3) return Eigen::Vector2d::Zero();
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (const ScanPoint& p : neighbors) mean += p.p_robot_m;
   mean /= static_cast<double>(neighbors.size());
@@ -48,6 +52,37 @@ Eigen::Vector2d NormalOf(std::span<const ScanPoint> neighbors) {
   const bool is_line = std::sqrt(axes.minor_m2) < kMaxRoughness_m &&
                        axes.minor_m2 < kMaxAspect * kMaxAspect * axes.major_m2;
   return is_line ? axes.minor_axis : Eigen::Vector2d::Zero();
+}
+
+// Distance from points[i] to the next sample of its surface. What stands in front of what its
+// neighbouring beams hit is an object no wider than a beam; the end of a wall that is seen at a
+// grazing angle is not, though its neighbours are as far away.
+double SurfaceSpacing(std::span<const ScanPoint> points, std::size_t i) {
+  const ScanPoint& p = points[i];
+  double nearest_m = std::numeric_limits<double>::infinity();
+  bool is_in_front = true;
+  const auto look_at = [&](const ScanPoint& neighbor, std::size_t beams_away) {
+    if (beams_away > kMaxBeamsAway) return;
+    nearest_m = std::min(nearest_m, (neighbor.p_robot_m - p.p_robot_m).norm());
+    if (neighbor.range_m < p.range_m + kInFront_m) is_in_front = false;
+  };
+  if (i > 0) look_at(points[i - 1], p.beam - points[i - 1].beam);
+  if (i + 1 < points.size()) look_at(points[i + 1], points[i + 1].beam - p.beam);
+  return is_in_front ? p.arc_m : std::max(p.arc_m, nearest_m);
+}
+
+// Tangent through the neighbouring beams' points, however far they are, if the surface goes
+// straight on there. Wanted at grazing incidence, where samples are sparse.
+Eigen::Vector2d NormalOfSparse(std::span<const ScanPoint> points, std::size_t i) {
+  if (i == 0 || i + 1 >= points.size()) return Eigen::Vector2d::Zero();
+  if (points[i + 1].beam - points[i - 1].beam > 2 * kMaxBeamsAway) return Eigen::Vector2d::Zero();
+  const Eigen::Vector2d before = points[i].p_robot_m - points[i - 1].p_robot_m;
+  const Eigen::Vector2d after = points[i + 1].p_robot_m - points[i].p_robot_m;
+  const double turn_rad =
+      std::atan2(before.x() * after.y() - before.y() * after.x(), before.dot(after));
+  if (std::abs(turn_rad) > kMaxTurn_rad) return Eigen::Vector2d::Zero();
+  const Eigen::Vector2d tangent = (before + after).normalized();
+  return {-tangent.y(), tangent.x()};
 }
 
 }  // namespace
@@ -65,9 +100,11 @@ std::vector<ScanPoint> ToPoints(const LaserScan& scan) {
     points.push_back({.p_robot_m = T_robot_laser.translation_m() + range_m * beam_robot,
                       .beam_robot = beam_robot,
                       .range_m = range_m,
-                      .spacing_m = range_m * step_rad,
+                      .arc_m = range_m * step_rad,
+                      .spacing_m = 0.0,
                       .beam = beam});
   }
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].spacing_m = SurfaceSpacing(points, i);
   return points;
 }
 
@@ -90,7 +127,8 @@ std::vector<Eigen::Vector2d> EstimateNormals(std::span<const ScanPoint> points) 
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::size_t first = NeighborhoodEnd(points, i, false);
     const std::size_t last = NeighborhoodEnd(points, i, true);
-    normals.push_back(NormalOf(points.subspan(first, last - first + 1)));
+    const std::span<const ScanPoint> around = points.subspan(first, last - first + 1);
+    normals.push_back(around.size() >= 3 ? NormalOf(around) : NormalOfSparse(points, i));
   }
   return normals;
 }

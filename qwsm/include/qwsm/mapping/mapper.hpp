@@ -41,8 +41,9 @@ struct MapperOptions {
   double relevant_rotation_rad = 0.35;
   double extend_below_overlap = 0.6;
   double min_overlap = 0.35;
-  double match_floor_m = 0.003;
-  double match_floor_rad = 0.0009;
+  double match_floor_m = 0.0005;
+  double match_floor_rad = 0.0001;
+  double drift_information = 1.7;
   bool extend_map = true;
 };
 
@@ -73,6 +74,11 @@ void Describe(Visitor& visit, MapperOptions& o) {
   visit("match_floor_rad",
         o.match_floor_rad,
         {.help = "sigma that no match of a heading goes below", .min = 0, .max = 1});
+  visit("drift_information",
+        o.drift_information,
+        {.help = "share of the pairs' information that counts for the drift",
+         .min = 1e-3,
+         .max = 10});
   visit("extend_map", o.extend_map, {.help = "false: only localize in the map as it is"});
 }
 
@@ -112,7 +118,9 @@ class Mapper {
 
  private:
   MappingStep Begin(const Observation& observation, std::span<const ScanPoint> points);
-  void Judge(std::span<const ScanPoint> points, MappingStep& step) const;
+  void Judge(std::span<const ScanPoint> points,
+             const Eigen::Matrix3d& motion_covariance,
+             MappingStep& step) const;
   bool IsRelevant(const MappingStep& step) const;
   void Extend(const Observation& observation, std::span<const ScanPoint> points, MappingStep& step);
 

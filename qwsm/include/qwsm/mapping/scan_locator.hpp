@@ -16,7 +16,7 @@ namespace qwsm {
 /// When a place counts as seen before, and where it is looked for.
 struct ReturnOptions {
   CorrelativeSearchOptions search{.prior_weight = 0.002, .lever_m = 8.0};
-  double caution = 3.0;
+  double caution = 6.0;
   double min_drift_m = 0.5;
   double max_drift_share = 0.5;
   double min_known_share = 0.5;

@@ -18,6 +18,7 @@ struct SurfaceMapOptions {
   double neighborhood_radius_m = 0.15;
   int min_neighbors = 4;
   double max_line_aspect = 0.3;
+  double min_line_m = 0.04;
 };
 
 template <class Visitor>
@@ -34,12 +35,18 @@ void Describe(Visitor& visit, SurfaceMapOptions& o) {
       "max_line_aspect",
       o.max_line_aspect,
       {.help = "a neighbourhood is a line below this ratio of its variances", .min = 0, .max = 1});
+  visit("min_line_m",
+        o.min_line_m,
+        {.help = "a neighbourhood of smaller sigma shows noise, not a direction",
+         .min = 0,
+         .max = 1});
 }
 
 /// A point to be stored.
 struct MapPoint {
   Eigen::Vector2d p_map_m = Eigen::Vector2d::Zero();
   Eigen::Vector2d normal_map = Eigen::Vector2d::Zero();  ///< Zero where the scan shows no line.
+  double spacing_m = 0.0;                                ///< To the next sample of its surface.
   double drift_m2 = 0.0;  ///< Variance of its position owing to the pose it was seen from.
 };
 
@@ -51,6 +58,7 @@ struct Surface {
   Eigen::Vector2d mean_m = Eigen::Vector2d::Zero();
   Eigen::Vector2d normal = Eigen::Vector2d::Zero();  ///< Unit vector; meaningful for a line only.
   double across_m2 = 0.0;  ///< Variance along the normal; for no line, the mean of both variances.
+  double spacing_m = 0.0;  ///< Between the samples of the surface where they are few, else 0.
   bool is_line = false;
 };
 
@@ -87,6 +95,7 @@ class SurfaceMap {
     float sum_yy = 0.0F;
     std::uint32_t count = 1;
     float own_normal_rad = 0.0F;  // NaN where the scan showed no line.
+    float spacing_m = 0.0F;
     float drift_m2 = 0.0F;
 
     void Add(const Eigen::Vector2d& offset_m);

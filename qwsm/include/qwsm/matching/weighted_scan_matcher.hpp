@@ -31,6 +31,7 @@ struct WeightedScanMatcherOptions {
   double outlier_sigmas = 4.0;
   double small_object_m = 0.05;
   double correlated_points = 3.0;
+  double min_information_share = 0.006;
   int min_pairs = 10;
   double max_sigma_m = 2.0;
 };
@@ -65,6 +66,11 @@ void Describe(Visitor& visit, WeightedScanMatcherOptions& o) {
       "correlated_points",
       o.correlated_points,
       {.help = "how many pairs say as much as one with independent errors", .min = 1, .max = 1000});
+  visit("min_information_share",
+        o.min_information_share,
+        {.help = "a direction with less of the information than this is left to the prior",
+         .min = 0,
+         .max = 1});
   visit("min_pairs", o.min_pairs, {.help = "fewer pairs are no match", .min = 3, .max = 10000});
   visit("max_sigma_m",
         o.max_sigma_m,

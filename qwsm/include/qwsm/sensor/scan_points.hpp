@@ -16,7 +16,8 @@ struct ScanPoint {
   Eigen::Vector2d p_robot_m;
   Eigen::Vector2d beam_robot;  ///< Unit vector from the laser to the point.
   double range_m = 0.0;
-  double spacing_m = 0.0;  ///< Arc from this beam to the next one at this range.
+  double arc_m = 0.0;      ///< From this beam to the next one at this range.
+  double spacing_m = 0.0;  ///< To the next sample of the same surface; arc_m for a small object.
   std::size_t beam = 0;    ///< Index of the beam in its scan.
 };
 
