@@ -96,6 +96,7 @@ ExitCode Run(int argc, const char* const* argv) {
   program.get_formatter()->label("SUBCOMMAND", "COMMAND");
 
   std::vector<Command> commands{AddMapCommand(program),
+                                AddLocalizeCommand(program),
                                 AddEvalCommand(program),
                                 AddConvertCommand(program),
                                 AddSimCommand(program)};

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "qwsm/mapping/mapper.hpp"
+#include "qwsm/mapping/occupancy_grid.hpp"
 
 namespace qwsm::config {
 
@@ -32,12 +33,14 @@ void Describe(Visitor& visit, LogOptions& o) {
 struct ProgramOptions {
   LogOptions log;
   MapperOptions mapper;
+  OccupancyGridOptions rendering;
 };
 
 template <class Visitor>
 void Describe(Visitor& visit, ProgramOptions& o) {
   visit("log", o.log, {.help = "reading of logs"});
   visit("mapper", o.mapper, {.help = "matching scans and extending the map"});
+  visit("rendering", o.rendering, {.help = "the occupancy map that is drawn of the result"});
 }
 
 }  // namespace qwsm::config

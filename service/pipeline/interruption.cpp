@@ -35,6 +35,7 @@ Interruption::Interruption() {
   interrupted = false;
   struct sigaction action {};
   action.sa_handler = HandleSignal;
+  action.sa_flags = SA_RESTART;  // What is being written is written whole.
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, &old_interrupt_);
   sigaction(SIGTERM, &action, &old_terminate_);

@@ -16,12 +16,22 @@ LogSource::LogSource(const std::vector<std::filesystem::path>& logs,
 }
 
 std::optional<Observation> LogSource::Next() {
+  std::optional<Observation> observation = ahead_ ? std::exchange(ahead_, std::nullopt) : Read();
+  if (observation) ++scans_;
+  return observation;
+}
+
+const Observation* LogSource::Peek() {
+  if (!ahead_) ahead_ = Read();
+  return ahead_ ? &*ahead_ : nullptr;
+}
+
+std::optional<Observation> LogSource::Read() {
   while (current_ < readers_.size()) {
     std::optional<io::LogRecord> record = readers_[current_]->Next();
     if (!record) {
       ++current_;
     } else if (auto* reading = std::get_if<io::ScanReading>(&*record)) {
-      ++scans_;
       return Observation{.scan = std::move(reading->scan), .T_odom_robot = reading->T_odom_robot};
     }
   }

@@ -24,13 +24,19 @@ class LogSource final : public ScanSource {
   std::optional<Observation> Next() override;
   SourceProgress progress() const override;
 
-  /// What was found in the logs so far, one line each, and a line per kind of fault.
-  std::vector<std::string> Describe() const;
+  /// What Next() will give; null at the end.
+  const Observation* Peek();
+
+  /// A line per log, and one per kind of fault.
+  std::vector<std::string> Describe() const override;
 
  private:
+  std::optional<Observation> Read();
+
   std::vector<std::unique_ptr<io::LogReader>> readers_;
   std::size_t current_ = 0;
   std::size_t scans_ = 0;
+  std::optional<Observation> ahead_;  // Peeked at.
 };
 
 }  // namespace qwsm::pipeline

@@ -23,7 +23,8 @@ ReplayResult Replay(ScanSource& source,
     if (!observation) return {.end = ReplayEnd::kExhausted, .failure = {}};
 
     const auto start = std::chrono::steady_clock::now();
-    TimedStep timed{.step = mapper.Process(*observation)};
+    TimedStep timed{.step = mapper.Process(*observation),
+                    .T_odom_robot = observation->T_odom_robot};
     timed.duration = std::chrono::steady_clock::now() - start;
     for (StepSink* sink : sinks) sink->Take(timed);
   }

@@ -17,13 +17,13 @@ double ScansPerSecond(const RunStatistics& run) {
   return time_s > 0.0 ? static_cast<double>(run.scans()) / time_s : 0.0;
 }
 
+}  // namespace
+
 std::string_view NameOf(MatcherKind matcher) {
   const auto found =
       std::ranges::find(Names(matcher), matcher, [](const auto& named) { return named.second; });
   return found->first;
 }
-
-}  // namespace
 
 std::string MetricsJson(const RunStatistics& run, const ScanMap& map, MatcherKind matcher) {
   const PointQuadtreeStatistics points = map.surfaces().quadtree().Statistics();

@@ -3,10 +3,14 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "service/pipeline/run_statistics.hpp"
 
 namespace qwsm::pipeline {
+
+/// As it is given after --matcher.
+std::string_view NameOf(MatcherKind matcher);
 
 /// The figures of a run as JSON; every name ends in its unit. Names are only ever added.
 std::string MetricsJson(const RunStatistics& run, const ScanMap& map, MatcherKind matcher);

@@ -10,20 +10,12 @@
 #include "service/pipeline/scan_table_sink.hpp"
 
 namespace qwsm::pipeline {
-namespace {
-
-bool IsMatch(StepStatus status) {
-  return status == StepStatus::kMatched || status == StepStatus::kExtended;
-}
-
-}  // namespace
-
 void RunStatistics::Take(const TimedStep& timed) {
   const MappingStep& step = timed.step;
   durations_ms_.push_back(std::chrono::duration<double, std::milli>(timed.duration).count());
   ++count_of_status_[static_cast<std::size_t>(step.status)];
   if (step.relevant) ++relevant_;
-  if (IsMatch(step.status)) {
+  if (HasMatch(step.status)) {
     residual_sum_mm_ += step.match.mean_residual_m * 1e3;
     trace_sum_m2_ += PositionTrace_m2(step.match);
   }

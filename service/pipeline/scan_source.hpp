@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "qwsm/mapping/observation.hpp"
 
@@ -28,6 +30,9 @@ class ScanSource {
   virtual std::optional<Observation> Next() = 0;
 
   virtual SourceProgress progress() const = 0;
+
+  /// What was found so far, in lines for the record of the run.
+  virtual std::vector<std::string> Describe() const { return {}; }
 };
 
 }  // namespace qwsm::pipeline

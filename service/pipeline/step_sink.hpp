@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 
 #include "qwsm/mapping/mapper.hpp"
 
@@ -12,7 +13,13 @@ namespace qwsm::pipeline {
 struct TimedStep {
   MappingStep step;
   std::chrono::nanoseconds duration{};
+  std::optional<Pose2> T_odom_robot{};  ///< What it was asked with.
 };
+
+/// Whether the pose comes from a match.
+inline bool HasMatch(StepStatus status) {
+  return status == StepStatus::kMatched || status == StepStatus::kExtended;
+}
 
 /// Takes the mapper's answers: files, topics, a display.
 class StepSink {

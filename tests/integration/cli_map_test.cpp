@@ -3,6 +3,7 @@
 //
 // `qwsm map` as its users run it.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -44,6 +45,11 @@ TEST_F(MapCommand, LeavesAllResults) {
   EXPECT_NE(ReadFile(results_ / "metrics.json").find("\"scans\": 40"), std::string::npos);
   EXPECT_NE(ReadFile(results_ / "config.yaml").find("matcher: q-wsm"), std::string::npos);
   EXPECT_NE(ReadFile(results_ / "run.log").find("40 scans"), std::string::npos);
+  for (const char* picture : {"map.png", "trajectory.png", "residual.png"}) {
+    EXPECT_TRUE(ReadFile(results_ / picture).starts_with("\x89PNG")) << picture;
+  }
+  EXPECT_TRUE(ReadFile(results_ / "map.pgm").starts_with("P5"));
+  EXPECT_NE(ReadFile(results_ / "map.yaml").find("map.pgm"), std::string::npos);
   for (const fs::directory_entry& entry : fs::directory_iterator(results_)) {
     EXPECT_NE(entry.path().extension(), ".part");
   }
@@ -63,7 +69,7 @@ TEST_F(MapCommand, FollowsTheRobot) {
 TEST_F(MapCommand, GivesTheSameFromAPipe) {
   RunProgram({"map", log_, "--output", results_});
   const fs::path piped = folder_.path() / "piped";
-  const Outcome outcome = Program({"map", "-", "--output", piped}, log_).Wait();
+  const Outcome outcome = Program({"map", "-", "--output", piped}, {.input = log_}).Wait();
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_EQ(ReadFile(piped / "trajectory.tum"), ReadFile(results_ / "trajectory.tum"));
 }
@@ -96,6 +102,75 @@ TEST_F(MapCommand, ReplacesItsOwnResultsOnly) {
   EXPECT_EQ(RunProgram({"map", log_, "--output", foreign, "--force"}).exit_code, 0);
   EXPECT_EQ(ReadFile(foreign / "chapter1.tex"), "Introduction");
   EXPECT_EQ(CountLines(foreign / "trajectory.tum"), kScans);
+}
+
+TEST_F(MapCommand, DoesNothingWhenDry) {
+  const Outcome outcome = RunProgram({"map", log_, "--output", results_, "--dry-run"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_EQ(outcome.output, "would map " + log_.string() + "\ninto " + results_.string() + "\n");
+  EXPECT_FALSE(fs::exists(results_));
+}
+
+TEST_F(MapCommand, KeepsWhatCameBeforeAFault) {
+  std::ofstream(log_, std::ios::app) << "FLASER 3 1.0 nonsense\n";
+  const Outcome outcome =
+      RunProgram({"map", log_, "--output", results_, "--set", "log.strict=true"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.errors.find("room.log:41: "), std::string::npos) << outcome.errors;
+  EXPECT_EQ(CountLines(results_ / "trajectory.tum"), kScans);
+  EXPECT_EQ(RunProgram({"map", log_, "--output", results_}).exit_code, 0)
+      << "skipped when not strict";
+}
+
+TEST_F(MapCommand, SaysThatTheDiskIsFull) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
+  fs::create_directory(results_);
+  fs::create_symlink("/dev/full", results_ / "scans.csv.part");
+  const Outcome outcome = RunProgram({"map", log_, "--output", results_, "--force"});
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_EQ(outcome.errors,
+            "qwsm: " + (results_ / "scans.csv").string() +
+                ": cannot be written: No space left on device\n");
+}
+
+/// Runs that are interrupted while somebody reads what they print, and so cannot end before.
+class InterruptedMapCommand : public MapCommand {
+ protected:
+  void SetUp() override {
+    WriteRoomLog(log_, 1000);
+    ASSERT_EQ(mkfifo(pipe_.c_str(), 0600), 0);
+  }
+
+  fs::path pipe_ = folder_.path() / "pipe";
+};
+
+TEST_F(InterruptedMapCommand, WritesAllResultsOfWhatItDid) {
+  Program program({"map", log_, "--output", results_, "--json"}, {.output = pipe_});
+  std::ifstream lines(pipe_);
+  std::string line;
+  std::getline(lines, line);
+  program.Signal(SIGINT);
+  std::size_t count = 1;
+  while (std::getline(lines, line)) ++count;
+  const Outcome outcome = program.Wait();
+  EXPECT_EQ(outcome.exit_code, 130);
+  EXPECT_NE(outcome.errors.find("interrupted"), std::string::npos) << outcome.errors;
+  EXPECT_LT(count, 1000U);
+  EXPECT_EQ(CountLines(results_ / "trajectory.tum"), count);
+  EXPECT_EQ(CountLines(results_ / "scans.csv"), count + 1);
+  EXPECT_TRUE(fs::exists(results_ / "metrics.json"));
+  EXPECT_TRUE(fs::exists(results_ / "map.png"));
+}
+
+TEST_F(InterruptedMapCommand, QuitsWhenInterruptedTwice) {
+  Program program({"map", log_, "--output", results_, "--json"}, {.output = pipe_});
+  std::ifstream lines(pipe_);
+  std::string line;
+  std::getline(lines, line);
+  program.Signal(SIGINT);
+  program.Signal(SIGTERM);
+  EXPECT_EQ(program.Wait().exit_code, 130);
+  EXPECT_FALSE(fs::exists(results_ / "trajectory.tum"));
 }
 
 }  // namespace

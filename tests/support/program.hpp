@@ -36,12 +36,17 @@ struct Outcome {
   std::string errors;
 };
 
-/// The program qwsm as its own process, in a folder of its own.
+/// Where a program reads and writes, if not nowhere and into its outcome.
+struct Redirection {
+  std::filesystem::path input = "/dev/null";
+  std::filesystem::path output{};
+};
+
+/// The program qwsm as its own process.
 class Program {
  public:
-  explicit Program(std::vector<std::string> arguments) { Start(std::move(arguments), "/dev/null"); }
-  Program(std::vector<std::string> arguments, const std::filesystem::path& input) {
-    Start(std::move(arguments), input);
+  explicit Program(std::vector<std::string> arguments, const Redirection& redirection = {}) {
+    Start(std::move(arguments), redirection);
   }
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
@@ -61,7 +66,7 @@ class Program {
   }
 
  private:
-  void Start(std::vector<std::string> arguments, const std::filesystem::path& input) {
+  void Start(std::vector<std::string> arguments, const Redirection& redirection) {
     arguments.insert(arguments.begin(), ProgramPath());
     std::vector<char*> argv;
     for (std::string& argument : arguments) argv.push_back(argument.data());
@@ -69,8 +74,11 @@ class Program {
     process_ = fork();
     if (process_ < 0) throw std::runtime_error("cannot fork");
     if (process_ > 0) return;
-    Redirect(STDIN_FILENO, input, O_RDONLY);
-    Redirect(STDOUT_FILENO, streams_.path() / "output", O_WRONLY | O_CREAT);
+    Redirect(STDIN_FILENO, redirection.input, O_RDONLY);
+    const bool captured = redirection.output.empty();
+    Redirect(STDOUT_FILENO,
+             captured ? streams_.path() / "output" : redirection.output,
+             O_WRONLY | O_CREAT);
     Redirect(STDERR_FILENO, streams_.path() / "errors", O_WRONLY | O_CREAT);
     execv(argv.front(), argv.data());
     _exit(127);

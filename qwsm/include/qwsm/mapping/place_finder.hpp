@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "qwsm/mapping/scan_map.hpp"
+#include "qwsm/matching/correlative_search.hpp"
+#include "qwsm/sensor/scan_points.hpp"
+
+namespace qwsm {
+
+struct PlaceFinderOptions {
+  double min_score = 0.4;
+  double rival_distance_m = 1.0;
+  double rival_margin = 0.05;
+  double spacing_m = 0.15;
+};
+
+template <class Visitor>
+void Describe(Visitor& visit, PlaceFinderOptions& o) {
+  visit("min_score",
+        o.min_score,
+        {.help = "a scan that fits no place better is not found", .min = 0, .max = 1});
+  visit("rival_distance_m",
+        o.rival_distance_m,
+        {.help = "places this far apart are different ones", .min = 0.1, .max = 100});
+  visit("rival_margin",
+        o.rival_margin,
+        {.help = "a place that fits so little worse may be the right one", .min = 0, .max = 1});
+  visit("spacing_m",
+        o.spacing_m,
+        {.help = "points of the scan this near count once", .min = 0.01, .max = 10});
+}
+
+/// A place of a map where a scan fits.
+struct FoundPlace {
+  FoundPose best;
+  std::optional<FoundPose> rival;  ///< Another place where it fits about as well.
+};
+
+/// Where in a map a scan was taken, knowing nothing but the map: the best of all positions where
+/// the robot has been, give or take the distance between relevant scans, and all headings.
+/// O(area of the map) in the worst case, usually a small fraction of it (branch and bound).
+std::optional<FoundPlace> FindPlace(const ScanMap& map,
+                                    std::span<const ScanPoint> points,
+                                    const PlaceFinderOptions& options = {});
+
+}  // namespace qwsm

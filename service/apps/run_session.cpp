@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/apps/run_session.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+
+#include "service/apps/messages.hpp"
+#include "service/apps/version.hpp"
+#include "service/io/atomic_file.hpp"
+#include "service/pipeline/interruption.hpp"
+#include "service/pipeline/json_lines_sink.hpp"
+#include "service/pipeline/progress_display.hpp"
+#include "service/pipeline/run_report.hpp"
+
+namespace qwsm::apps {
+
+using namespace pipeline;
+
+void AddRunArguments(CLI::App& parser, RunArguments& arguments) {
+  parser.add_option("LOG", arguments.logs, "logs, parts of one recording; - is standard input")
+      ->required()
+      ->type_name("");
+  parser.add_option("-o,--output", arguments.output, "folder for the results; else results/<time>")
+      ->type_name("DIR");
+  parser.add_flag("--force", arguments.force, "write into a folder that holds other things");
+  parser.add_flag("-n,--dry-run", arguments.dry_run, "check everything, do nothing");
+  AddConfiguration(parser, arguments.sources);
+  AddVerbosity(parser, arguments.verbosity, "one JSON object per scan on standard output");
+}
+
+std::unique_ptr<LogSource> OpenLogs(const RunArguments& arguments,
+                                    const config::LogOptions& options) {
+  auto source = std::make_unique<LogSource>(arguments.logs, LogOptionsOf(options));
+  if (source->Peek() == nullptr) {
+    throw UsageError("there is no scan in " + arguments.logs.front().string());
+  }
+  return source;
+}
+
+ExitCode TellPlan(const std::string& what, const RunArguments& arguments) {
+  if (arguments.output) ResultsFolder::Check(*arguments.output, arguments.force);
+  for (const std::filesystem::path& log : arguments.logs) {
+    fmt::print("would {} {}\n", what, log.string());
+  }
+  fmt::print("into {}\n", arguments.output.value_or("results/<time>").string());
+  return ExitCode::kDone;
+}
+
+RunSession::RunSession(const RunArguments& arguments, const config::ProgramOptions& options)
+    : verbosity_(arguments.verbosity),
+      folder_(arguments.output ? ResultsFolder(*arguments.output, arguments.force)
+                               : ResultsFolder::ForNow("results")) {
+  CopyMessagesTo(folder_ / "run.log");
+  spdlog::info("version {}", Version());
+  io::WriteTextFile(folder_ / "config.yaml", config::DumpOptions(options));
+}
+
+ReplayResult RunSession::Run(const std::string& task,
+                             ScanSource& source,
+                             Mapper& mapper,
+                             StepSink& sink) const {
+  ProgressDisplay progress(
+      task, source, verbosity_.quiet ? ProgressStyle::kNone : StyleFor(stderr));
+  JsonLinesSink json(stdout);
+  std::vector<StepSink*> sinks{&sink, &progress};
+  if (verbosity_.json) sinks.push_back(&json);
+  const Interruption interruption;
+  ReplayResult result = Replay(source, mapper, sinks, [&] { return interruption.requested(); });
+  progress.Clear();
+  for (const std::string& line : source.Describe()) spdlog::info("{}", line);
+  return result;
+}
+
+void RunSession::Summarize(const RunStatistics& statistics, const Mapper& mapper) const {
+  if (verbosity_.quiet || verbosity_.json) return;
+  fmt::print(
+      "{}results        {}\n", SummaryText(statistics, mapper.map()), folder_.path().string());
+}
+
+ExitCode Conclude(const ReplayResult& result) {
+  switch (result.end) {
+    case ReplayEnd::kExhausted:
+      return ExitCode::kDone;
+    case ReplayEnd::kInterrupted:
+      return ExitCode::kInterrupted;
+    case ReplayEnd::kSourceFailed:
+      break;
+  }
+  spdlog::error("{}", result.failure);
+  return ExitCode::kUsage;
+}
+
+}  // namespace qwsm::apps

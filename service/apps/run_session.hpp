@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "service/apps/command.hpp"
+#include "service/pipeline/log_source.hpp"
+#include "service/pipeline/replay.hpp"
+#include "service/pipeline/results_folder.hpp"
+#include "service/pipeline/run_statistics.hpp"
+
+namespace qwsm::apps {
+
+/// Arguments of all commands that run a mapper over logs.
+struct RunArguments {
+  std::vector<std::filesystem::path> logs;
+  std::optional<std::filesystem::path> output;
+  config::OptionSources sources;
+  Verbosity verbosity;
+  bool force = false;
+  bool dry_run = false;
+};
+
+void AddRunArguments(CLI::App& parser, RunArguments& arguments);
+
+/// Opens the logs. @throws std::runtime_error where one is no log, or there is no scan in them.
+std::unique_ptr<pipeline::LogSource> OpenLogs(const RunArguments& arguments,
+                                              const config::LogOptions& options);
+
+/// Tells what would have been done, for --dry-run.
+ExitCode TellPlan(const std::string& what, const RunArguments& arguments);
+
+/// One run of a command: its folder is ready, its messages and configuration are recorded there.
+class RunSession {
+ public:
+  /// @throws io::WriteError where the folder cannot be had.
+  RunSession(const RunArguments& arguments, const config::ProgramOptions& options);
+
+  const pipeline::ResultsFolder& folder() const { return folder_; }
+
+  /// Runs all scans through the mapper into the sink, with progress and messages as asked for.
+  pipeline::ReplayResult Run(const std::string& task,
+                             pipeline::ScanSource& source,
+                             Mapper& mapper,
+                             pipeline::StepSink& sink) const;
+
+  /// Tells what came out, if a person reads standard output.
+  void Summarize(const pipeline::RunStatistics& statistics, const Mapper& mapper) const;
+
+ private:
+  Verbosity verbosity_;
+  pipeline::ResultsFolder folder_;
+};
+
+/// The exit code a replay that ended so leads to; says why it failed.
+ExitCode Conclude(const pipeline::ReplayResult& result);
+
+}  // namespace qwsm::apps

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/results_writer.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <array>
+#include <cmath>
+
+#include "service/io/atomic_file.hpp"
+#include "service/io/map_picture.hpp"
+#include "service/io/residual_plot.hpp"
+#include "service/io/ros_map_file.hpp"
+#include "service/pipeline/run_report.hpp"
+
+namespace qwsm::pipeline {
+
+ResultsWriter::ResultsWriter(const ResultsFolder& folder)
+    : folder_(folder), trajectory_(folder / "trajectory.tum"), table_(folder / "scans.csv") {}
+
+void ResultsWriter::Take(const TimedStep& timed) {
+  trajectory_.Take(timed);
+  table_.Take(timed);
+  statistics_.Take(timed);
+  history_.Take(timed);
+}
+
+void ResultsWriter::Finish(const Mapper& mapper, const OccupancyGridOptions& rendering) {
+  trajectory_.Commit();
+  table_.Commit();
+  const MatcherKind matcher = mapper.options().matcher;
+  io::WriteTextFile(folder_ / "metrics.json", MetricsJson(statistics_, mapper.map(), matcher));
+  const std::array<io::ResidualSeries, 1> series{
+      {{.name = std::string(NameOf(matcher)), .residual_mm = history_.residuals_mm()}}};
+  io::WriteResidualPlot(folder_ / "residual.png", series);
+  DrawMap(mapper, rendering);
+}
+
+void ResultsWriter::DrawMap(const Mapper& mapper, const OccupancyGridOptions& rendering) const {
+  const std::optional<OccupancyGrid> grid = RenderOrWarn(mapper.map(), rendering);
+  if (!grid) return;
+  io::WriteRosMap(folder_ / "map.yaml", *grid);
+  io::WriteMapPicture(folder_ / "map.png", *grid);
+  io::WriteTrajectoryPicture(folder_ / "trajectory.png", *grid, history_.overlay());
+}
+
+std::optional<OccupancyGrid> RenderOrWarn(const ScanMap& map, OccupancyGridOptions rendering) {
+  OccupancyGridResult result = RenderOccupancyGrid(map.scans(), rendering);
+  if (result.status == RenderStatus::kTooLarge && std::isfinite(result.smallest_cell_m)) {
+    spdlog::warn("the map of {:.0f} x {:.0f} m is drawn with cells of {:.2g} m, not {:.2g} m",
+                 result.extent_x_m,
+                 result.extent_y_m,
+                 result.smallest_cell_m,
+                 rendering.cell_m);
+    rendering.cell_m = result.smallest_cell_m;
+    result = RenderOccupancyGrid(map.scans(), rendering);
+  }
+  if (result.status == RenderStatus::kRendered) return std::move(result.grid);
+  spdlog::warn("no map is drawn: {}",
+               result.status == RenderStatus::kNothingMeasured ? "no scan shows anything"
+                                                               : "it is too large");
+  return std::nullopt;
+}
+
+}  // namespace qwsm::pipeline

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// `qwsm localize` as its users run it.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "service/io/trajectory_file.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/room_log.hpp"
+
+namespace qwsm::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kScans = 60;
+constexpr int kFirst = 45;  // Where the second drive begins.
+
+class LocalizeCommand : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    WriteRoomLog(log_, kScans);
+    const Outcome outcome =
+        RunProgram({"map", log_, "-o", folder_.path() / "mapped", "--save-map", map_});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+    CutLog();
+  }
+
+  /// A log that begins in the middle of the drive.
+  void CutLog() const {
+    std::ifstream whole(log_);
+    std::ofstream part(part_);
+    std::string line;
+    for (int scan = 0; std::getline(whole, line); ++scan) {
+      if (scan >= kFirst) part << line << '\n';
+    }
+  }
+
+  void ExpectOnThePath() const {
+    const Trajectory mapped = io::ReadTumFile(folder_.path() / "mapped/trajectory.tum");
+    const Trajectory localized = io::ReadTumFile(results_ / "trajectory.tum");
+    ASSERT_EQ(localized.size(), static_cast<std::size_t>(kScans - kFirst));
+    for (std::size_t i = 0; i < localized.size(); ++i) {
+      const Pose2& expected = mapped[i + kFirst].T_map_robot;
+      const Pose2 off = expected.Inverse() * localized[i].T_map_robot;
+      EXPECT_LT(off.translation_m().norm(), 0.03) << i;
+      EXPECT_LT(std::abs(off.theta_rad), 0.02) << i;
+    }
+  }
+
+  TemporaryFolder folder_;
+  fs::path log_ = folder_.path() / "room.log";
+  fs::path part_ = folder_.path() / "part.log";
+  fs::path map_ = folder_.path() / "room.qwsm";
+  fs::path results_ = folder_.path() / "localized";
+};
+
+TEST_F(LocalizeCommand, FindsOutWhereItStarts) {
+  const Outcome outcome = RunProgram({"localize", "--map", map_, part_, "-o", results_});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  ExpectOnThePath();
+}
+
+TEST_F(LocalizeCommand, StartsWhereItIsTold) {
+  const Pose2 T_map_start = PoseInRoom(0).Inverse() * PoseInRoom(kFirst);
+  const Outcome outcome = RunProgram({"localize",
+                                      "--map",
+                                      map_,
+                                      part_,
+                                      "-o",
+                                      results_,
+                                      "--at",
+                                      std::to_string(T_map_start.x_m),
+                                      std::to_string(T_map_start.y_m),
+                                      std::to_string(RadiansToDegrees(T_map_start.theta_rad))});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  ExpectOnThePath();
+}
+
+TEST_F(LocalizeCommand, LeavesTheMapAsItIs) {
+  const std::string before = ReadFile(map_);
+  RunProgram({"localize", "--map", map_, part_, "-o", results_});
+  EXPECT_EQ(ReadFile(map_), before);
+  EXPECT_NE(ReadFile(results_ / "metrics.json").find("\"relevant\": 0"), std::string::npos);
+}
+
+TEST_F(LocalizeCommand, RefusesDamagedAndForeignMaps) {
+  std::string bytes = ReadFile(map_);
+  bytes[bytes.size() / 2] ^= 1;
+  std::ofstream(map_, std::ios::binary) << bytes;
+  const Outcome damaged = RunProgram({"localize", "--map", map_, part_, "-o", results_});
+  EXPECT_EQ(damaged.exit_code, 2);
+  EXPECT_EQ(damaged.errors, "qwsm: " + map_.string() + ": is damaged: its checksum is wrong\n");
+  const Outcome foreign = RunProgram({"localize", "--map", log_, part_, "-o", results_});
+  EXPECT_EQ(foreign.exit_code, 2);
+  EXPECT_EQ(foreign.errors, "qwsm: " + log_.string() + ": is no map of qwsm\n");
+  EXPECT_FALSE(fs::exists(results_));
+}
+
+}  // namespace
+}  // namespace qwsm::test
