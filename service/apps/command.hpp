@@ -60,6 +60,7 @@ void AddScenarioSettings(CLI::App& parser, std::vector<std::string>& settings);
 // One per command, each in a file of its own.
 Command AddMapCommand(CLI::App& program);
 Command AddLocalizeCommand(CLI::App& program);
+Command AddCompareCommand(CLI::App& program);
 Command AddEvalCommand(CLI::App& program);
 Command AddConvertCommand(CLI::App& program);
 Command AddSimCommand(CLI::App& program);

@@ -97,6 +97,7 @@ ExitCode Run(int argc, const char* const* argv) {
 
   std::vector<Command> commands{AddMapCommand(program),
                                 AddLocalizeCommand(program),
+                                AddCompareCommand(program),
                                 AddEvalCommand(program),
                                 AddConvertCommand(program),
                                 AddSimCommand(program)};

@@ -6,6 +6,7 @@
 #include <spdlog/spdlog.h>
 
 #include <cstdio>
+#include <utility>
 
 #include "service/apps/messages.hpp"
 #include "service/apps/version.hpp"
@@ -19,7 +20,7 @@ namespace qwsm::apps {
 
 using namespace pipeline;
 
-void AddRunArguments(CLI::App& parser, RunArguments& arguments) {
+void AddRunArguments(CLI::App& parser, RunArguments& arguments, const std::string& json_help) {
   parser.add_option("LOG", arguments.logs, "logs, parts of one recording; - is standard input")
       ->required()
       ->type_name("");
@@ -28,7 +29,7 @@ void AddRunArguments(CLI::App& parser, RunArguments& arguments) {
   parser.add_flag("--force", arguments.force, "write into a folder that holds other things");
   parser.add_flag("-n,--dry-run", arguments.dry_run, "check everything, do nothing");
   AddConfiguration(parser, arguments.sources);
-  AddVerbosity(parser, arguments.verbosity, "one JSON object per scan on standard output");
+  AddVerbosity(parser, arguments.verbosity, json_help);
 }
 
 std::unique_ptr<LogSource> OpenLogs(const RunArguments& arguments,
@@ -62,13 +63,20 @@ ReplayResult RunSession::Run(const std::string& task,
                              ScanSource& source,
                              Mapper& mapper,
                              StepSink& sink) const {
+  JsonLinesSink json(stdout);
+  std::vector<StepSink*> sinks{&sink};
+  if (verbosity_.json) sinks.push_back(&json);
+  return Run(task, source, {{.mapper = &mapper, .sinks = std::move(sinks)}});
+}
+
+ReplayResult RunSession::Run(const std::string& task,
+                             ScanSource& source,
+                             std::vector<MappingRun> runs) const {
   ProgressDisplay progress(
       task, source, verbosity_.quiet ? ProgressStyle::kNone : StyleFor(stderr));
-  JsonLinesSink json(stdout);
-  std::vector<StepSink*> sinks{&sink, &progress};
-  if (verbosity_.json) sinks.push_back(&json);
+  runs.back().sinks.push_back(&progress);  // Once per scan.
   const Interruption interruption;
-  ReplayResult result = Replay(source, mapper, sinks, [&] { return interruption.requested(); });
+  ReplayResult result = Replay(source, runs, [&] { return interruption.requested(); });
   progress.Clear();
   for (const std::string& line : source.Describe()) spdlog::info("{}", line);
   return result;

@@ -26,7 +26,10 @@ struct RunArguments {
   bool dry_run = false;
 };
 
-void AddRunArguments(CLI::App& parser, RunArguments& arguments);
+/// @param json_help what --json does.
+void AddRunArguments(CLI::App& parser,
+                     RunArguments& arguments,
+                     const std::string& json_help = "one JSON object per scan on standard output");
 
 /// Opens the logs. @throws std::runtime_error where one is no log, or there is no scan in them.
 std::unique_ptr<pipeline::LogSource> OpenLogs(const RunArguments& arguments,
@@ -48,6 +51,11 @@ class RunSession {
                              pipeline::ScanSource& source,
                              Mapper& mapper,
                              pipeline::StepSink& sink) const;
+
+  /// The same with several mappers, which take turns; their sinks are all there is for answers.
+  pipeline::ReplayResult Run(const std::string& task,
+                             pipeline::ScanSource& source,
+                             std::vector<pipeline::MappingRun> runs) const;
 
   /// Tells what came out, if a person reads standard output.
   void Summarize(const pipeline::RunStatistics& statistics, const Mapper& mapper) const;

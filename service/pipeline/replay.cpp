@@ -8,10 +8,20 @@
 #include "service/io/log_reader.hpp"
 
 namespace qwsm::pipeline {
+namespace {
+
+void Answer(const Observation& observation, const MappingRun& run) {
+  const auto start = std::chrono::steady_clock::now();
+  TimedStep timed{.step = run.mapper->Process(observation),
+                  .T_odom_robot = observation.T_odom_robot};
+  timed.duration = std::chrono::steady_clock::now() - start;
+  for (StepSink* sink : run.sinks) sink->Take(timed);
+}
+
+}  // namespace
 
 ReplayResult Replay(ScanSource& source,
-                    Mapper& mapper,
-                    std::span<StepSink* const> sinks,
+                    std::span<const MappingRun> runs,
                     const std::function<bool()>& stop) {
   while (!stop()) {
     std::optional<Observation> observation;
@@ -21,12 +31,7 @@ ReplayResult Replay(ScanSource& source,
       return {.end = ReplayEnd::kSourceFailed, .failure = error.what()};
     }
     if (!observation) return {.end = ReplayEnd::kExhausted, .failure = {}};
-
-    const auto start = std::chrono::steady_clock::now();
-    TimedStep timed{.step = mapper.Process(*observation),
-                    .T_odom_robot = observation->T_odom_robot};
-    timed.duration = std::chrono::steady_clock::now() - start;
-    for (StepSink* sink : sinks) sink->Take(timed);
+    for (const MappingRun& run : runs) Answer(*observation, run);
   }
   return {.end = ReplayEnd::kInterrupted, .failure = {}};
 }

@@ -5,12 +5,19 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "qwsm/mapping/mapper.hpp"
 #include "service/pipeline/scan_source.hpp"
 #include "service/pipeline/step_sink.hpp"
 
 namespace qwsm::pipeline {
+
+/// A mapper, and who takes its answers.
+struct MappingRun {
+  Mapper* mapper = nullptr;
+  std::vector<StepSink*> sinks;
+};
 
 /// Why a replay ended.
 enum class ReplayEnd { kExhausted, kInterrupted, kSourceFailed };
@@ -20,13 +27,13 @@ struct ReplayResult {
   std::string failure;  ///< What the source said when it failed.
 };
 
-/// Feeds the mapper with all the source has, as fast as it can, and hands every answer to all
-/// sinks. A source that fails half way ends the replay but not the program: what came before is
-/// worth keeping. Sinks that fail throw.
+/// Feeds the mappers with all the source has, as fast as they can, and hands every answer to the
+/// sinks. Several mappers take turns, scan by scan, so that their times can be compared. A source
+/// that fails half way ends the replay but not the program: what came before is worth keeping.
+/// Sinks that fail throw.
 /// @param stop asked before every scan; when true, the replay ends.
 ReplayResult Replay(ScanSource& source,
-                    Mapper& mapper,
-                    std::span<StepSink* const> sinks,
+                    std::span<const MappingRun> runs,
                     const std::function<bool()>& stop);
 
 }  // namespace qwsm::pipeline

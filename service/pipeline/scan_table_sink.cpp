@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "service/io/number_text.hpp"
+#include "service/io/csv_row.hpp"
 
 namespace qwsm::pipeline {
 namespace {
@@ -13,31 +13,6 @@ constexpr std::string_view kHeader =
     "stamp_s,x_m,y_m,theta_rad,"
     "cov_xx_m2,cov_xy_m2,cov_xtheta_m_rad,cov_yy_m2,cov_ytheta_m_rad,cov_thetatheta_rad2,"
     "status,reason,relevant,pairs,overlap,residual_mm,trace,iterations,ms\n";
-
-/// One line of the table.
-class Row {
- public:
-  void Add(double value) {
-    io::AppendNumber(text_, value);
-    text_ += ',';
-  }
-  void Add(Timestamp stamp) {
-    io::AppendStamp(text_, stamp);
-    text_ += ',';
-  }
-  /// @pre no comma or quote in it: our own words.
-  void Add(std::string_view word) {
-    text_ += word;
-    text_ += ',';
-  }
-  const std::string& Finish() {
-    text_.back() = '\n';
-    return text_;
-  }
-
- private:
-  std::string text_;
-};
 
 }  // namespace
 
@@ -52,7 +27,7 @@ ScanTableSink::ScanTableSink(const std::filesystem::path& path) : file_(path) {
 void ScanTableSink::Take(const TimedStep& timed) {
   const MappingStep& step = timed.step;
   const Pose2& T_map_robot = step.map_robot.T_a_b;
-  Row row;
+  io::CsvRow row;
   row.Add(step.stamp);
   for (const double value : {T_map_robot.x_m, T_map_robot.y_m, T_map_robot.theta_rad})
     row.Add(value);

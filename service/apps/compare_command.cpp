@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <array>
+#include <memory>
+
+#include "service/apps/command.hpp"
+#include "service/apps/messages.hpp"
+#include "service/apps/run_session.hpp"
+#include "service/pipeline/comparison_report.hpp"
+#include "service/pipeline/matcher_contest.hpp"
+
+namespace qwsm::apps {
+namespace {
+
+/// The first one is compared with each of the others.
+constexpr std::array kMatchers = {MatcherKind::kQWsm, MatcherKind::kWsm, MatcherKind::kIcp};
+
+ExitCode RunCompare(const RunArguments& arguments) {
+  StartMessages(arguments.verbosity);
+  const auto options = config::LoadOptions<config::ProgramOptions>(arguments.sources);
+  const auto source = OpenLogs(arguments, options.log);
+  if (arguments.dry_run) return TellPlan("compare matchers on", arguments);
+
+  const RunSession session(arguments, options);
+  pipeline::MatcherContest contest(options.mapper, kMatchers, session.folder());
+  const pipeline::ReplayResult end = session.Run("compare", *source, contest.runs());
+  contest.Finish(options.rendering);
+  if (arguments.verbosity.json) {
+    fmt::print("{}", pipeline::ComparisonJson(contest.contestants()));
+  } else if (!arguments.verbosity.quiet) {
+    fmt::print("{}\nresults        {}\n",
+               pipeline::ComparisonText(contest.contestants()),
+               session.folder().path().string());
+  }
+  return Conclude(end);
+}
+
+}  // namespace
+
+Command AddCompareCommand(CLI::App& program) {
+  CLI::App* parser = program.add_subcommand("compare", "q-wsm beside wsm and icp on the same logs");
+  auto arguments = std::make_shared<RunArguments>();
+  parser->footer(
+      "  qwsm compare intel.log.gz                        tables, and results in results/latest\n"
+      "  qwsm compare intel.log --output intel            intel/q-wsm, intel/wsm, intel/icp ...\n"
+      "  qwsm compare intel.log --json                    figures for programs");
+  AddRunArguments(*parser, *arguments, "all figures as JSON on standard output");
+  return {.parser = parser, .run = [arguments] { return RunCompare(*arguments); }};
+}
+
+}  // namespace qwsm::apps
