@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "qwsm/mapping/scan_map.hpp"
 
+#include <utility>
+
 namespace qwsm {
 
 ScanMap::ScanMap(const ScanMapOptions& options) : options_(options), surfaces_(options.surfaces) {}
@@ -9,23 +11,34 @@ ScanMap::ScanMap(const ScanMapOptions& options) : options_(options), surfaces_(o
 ScanId ScanMap::Insert(const LaserScan& scan,
                        std::span<const ScanPoint> points,
                        const UncertainPose2& map_robot) {
-  const auto id = static_cast<ScanId>(scans_.size());
-  scans_.push_back({.id = id, .scan = scan, .map_robot = map_robot});
-  covariances_.push_back(FrameCovariance::Of(map_robot));
+  return Add(Prepare(scan, points, map_robot));
+}
+
+MapAddition ScanMap::Prepare(const LaserScan& scan,
+                             std::span<const ScanPoint> points,
+                             const UncertainPose2& map_robot) const {
+  MapAddition addition{.scan = scan, .map_robot = map_robot, .points = {}};
+  addition.points.reserve(points.size());
+  const FrameCovariance covariance = FrameCovariance::Of(map_robot);
   const std::vector<Eigen::Vector2d> normals_robot = EstimateNormals(points);
   const Eigen::Matrix2d R_map_robot = map_robot.T_a_b.Rotation();
-  std::vector<MapPoint> added;
-  added.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector2d p_map = map_robot.T_a_b * points[i].p_robot_m;
     if (options_.insertion == InsertionRule::kNewSurface && !IsNewSurface(p_map)) continue;
-    added.push_back({.p_map_m = p_map,
-                     .normal_map = R_map_robot * normals_robot[i],
-                     .spacing_m = points[i].spacing_m,
-                     .drift_m2 = covariances_.back().PositionVariance(p_map)});
+    addition.points.push_back({.p_map_m = p_map,
+                               .normal_map = R_map_robot * normals_robot[i],
+                               .spacing_m = points[i].spacing_m,
+                               .drift_m2 = covariance.PositionVariance(p_map)});
   }
+  return addition;
+}
+
+ScanId ScanMap::Add(MapAddition addition) {
+  const auto id = static_cast<ScanId>(scans_.size());
   // Only now: the points of one scan do not crowd each other out.
-  for (const MapPoint& point : added) surfaces_.Insert(point, id);
+  for (const MapPoint& point : addition.points) surfaces_.Insert(point, id);
+  covariances_.push_back(FrameCovariance::Of(addition.map_robot));
+  scans_.push_back({.id = id, .scan = std::move(addition.scan), .map_robot = addition.map_robot});
   return id;
 }
 

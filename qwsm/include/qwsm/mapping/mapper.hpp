@@ -2,109 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
-#include <span>
-#include <string_view>
-#include <utility>
-
-#include "qwsm/mapping/motion_model.hpp"
+#include "qwsm/mapping/mapper_options.hpp"
+#include "qwsm/mapping/mapping_step.hpp"
 #include "qwsm/mapping/observation.hpp"
-#include "qwsm/mapping/recent_scans.hpp"
-#include "qwsm/mapping/scan_locator.hpp"
+#include "qwsm/mapping/robot_tracker.hpp"
 #include "qwsm/mapping/scan_map.hpp"
 
 namespace qwsm {
 
-/// What a scan is matched with, and how.
-enum class MatcherKind {
-  kQWsm,  ///< Weighted, against the quadtree of all relevant scans (Visser et al. 2009).
-  kWsm,   ///< Weighted, against the last relevant scan only: the paper's incremental baseline.
-  kIcp,   ///< Plain point-to-point ICP against the last relevant scan.
-};
-
-inline std::span<const std::pair<std::string_view, MatcherKind>> Names(MatcherKind) {
-  static constexpr std::array<std::pair<std::string_view, MatcherKind>, 3> kNames = {{
-      {"q-wsm", MatcherKind::kQWsm},
-      {"wsm", MatcherKind::kWsm},
-      {"icp", MatcherKind::kIcp},
-  }};
-  return kNames;
-}
-
-struct MapperOptions {
-  MatcherKind matcher = MatcherKind::kQWsm;
-  MotionNoise motion;
-  ScanLocatorOptions locator;
-  ScanMapOptions map;
-  RecentScansOptions surroundings;
-  double relevant_translation_m = 0.5;
-  double relevant_rotation_rad = 0.35;
-  double extend_below_overlap = 0.6;
-  double min_overlap = 0.35;
-  double match_floor_m = 0.0005;
-  double match_floor_rad = 0.0001;
-  double drift_information = 1.7;
-  bool extend_map = true;
-};
-
-template <class Visitor>
-void Describe(Visitor& visit, MapperOptions& o) {
-  visit("matcher", o.matcher, {.help = "q-wsm: all relevant scans; wsm, icp: the last one"});
-  visit("motion", o.motion, {.help = "errors of odometry"});
-  visit("locator", o.locator, {.help = "finding a scan in the map"});
-  visit("map", o.map, {.help = "what is stored of relevant scans"});
-  visit("surroundings", o.surroundings, {.help = "what is compared with places seen long ago"});
-  visit("relevant_translation_m",
-        o.relevant_translation_m,
-        {.help = "a scan is relevant when the robot moved this far since the last one",
-         .min = 0,
-         .max = 100});
-  visit("relevant_rotation_rad",
-        o.relevant_rotation_rad,
-        {.help = "or turned this far", .min = 0, .max = 3.2});
-  visit("extend_below_overlap",
-        o.extend_below_overlap,
-        {.help = "or when less than this share of it agrees with the map", .min = 0, .max = 1});
-  visit("min_overlap",
-        o.min_overlap,
-        {.help = "with less agreement the pose is dead reckoned", .min = 0, .max = 1});
-  visit("match_floor_m",
-        o.match_floor_m,
-        {.help = "sigma that no match of a position goes below", .min = 0, .max = 1});
-  visit("match_floor_rad",
-        o.match_floor_rad,
-        {.help = "sigma that no match of a heading goes below", .min = 0, .max = 1});
-  visit("drift_information",
-        o.drift_information,
-        {.help = "share of the pairs' information that counts for the drift",
-         .min = 1e-3,
-         .max = 10});
-  visit("extend_map", o.extend_map, {.help = "false: only localize in the map as it is"});
-}
-
-/// Where a pose comes from.
-enum class StepStatus {
-  kFirst,         ///< The first scan: it defines the map's frame.
-  kMatched,       ///< The match is the pose.
-  kExtended,      ///< The match is the pose, and much of the scan is new to the map.
-  kDeadReckoned,  ///< The match was bad: the pose is the prediction.
-};
-
-std::string_view Name(StepStatus status);
-
-/// The mapper's answer to one observation.
-struct MappingStep {
-  Timestamp stamp{};
-  UncertainPose2 map_robot{};  ///< Covariance of all error since the start.
-  StepStatus status = StepStatus::kFirst;
-  std::string_view reason{};  ///< Why that status, in words.
-  MatchResult match{};        ///< Covariance of the match alone.
-  bool relevant = false;      ///< The map was extended with this scan.
-};
-
-/// Incremental mapping (Visser et al. 2009, sections 3 and 4): each scan is matched with the union
-/// of all relevant scans before it, and relevant ones extend the map. What was found is never
-/// corrected afterwards. Deterministic; reads no clock.
+/// Incremental mapping (Visser et al. 2009, sections 3 and 4) by one robot: each scan is matched
+/// with the union of all relevant scans before it, and relevant ones extend the map. What was found
+/// is never corrected afterwards. Deterministic; reads no clock.
 class Mapper {
  public:
   explicit Mapper(const MapperOptions& options = {});
@@ -114,23 +22,11 @@ class Mapper {
   MappingStep Process(const Observation& observation);
 
   const ScanMap& map() const { return map_; }
-  const MapperOptions& options() const { return options_; }
+  const MapperOptions& options() const { return tracker_.options(); }
 
  private:
-  MappingStep Begin(const Observation& observation, std::span<const ScanPoint> points);
-  void Judge(std::span<const ScanPoint> points,
-             const Eigen::Matrix3d& motion_covariance,
-             MappingStep& step) const;
-  bool IsRelevant(const MappingStep& step) const;
-  void Extend(const Observation& observation, std::span<const ScanPoint> points, MappingStep& step);
-
-  MapperOptions options_;
-  MotionModel motion_;
-  ScanLocator locator_;
+  RobotTracker tracker_;
   ScanMap map_;
-  RecentScans recent_;
-  UncertainPose2 map_last_;  // Pose at the last scan.
-  Pose2 T_map_relevant_;     // Pose at the last relevant scan.
 };
 
 }  // namespace qwsm

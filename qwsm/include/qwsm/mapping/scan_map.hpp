@@ -49,6 +49,13 @@ void Describe(Visitor& visit, ScanMapOptions& o) {
         {.help = "new-surface: ... lie this many older points", .min = 1, .max = 1000});
 }
 
+/// What a relevant scan adds to a map.
+struct MapAddition {
+  LaserScan scan;
+  UncertainPose2 map_robot;
+  std::vector<MapPoint> points;  ///< Those of its points that are stored.
+};
+
 /// The union of all relevant scans: their points, searchable, and the scans themselves.
 class ScanMap {
  public:
@@ -63,6 +70,11 @@ class ScanMap {
   ScanId Insert(const LaserScan& scan,
                 std::span<const ScanPoint> points,
                 const UncertainPose2& map_robot);
+  /// The same in two steps: what would be added to the map as it is now, and adding it.
+  MapAddition Prepare(const LaserScan& scan,
+                      std::span<const ScanPoint> points,
+                      const UncertainPose2& map_robot) const;
+  ScanId Add(MapAddition addition);
   /// Forgets all points, but not the scans: what follows is matched to what is inserted next.
   void ForgetPoints();
 

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string_view>
+
+#include "qwsm/geometry/pose2.hpp"
+#include "qwsm/matching/match_result.hpp"
+#include "qwsm/sensor/laser_scan.hpp"
+
+namespace qwsm {
+
+/// Where a pose comes from.
+enum class StepStatus {
+  kFirst,         ///< The first scan: it defines the map's frame.
+  kMatched,       ///< The match is the pose.
+  kExtended,      ///< The match is the pose, and much of the scan is new to the map.
+  kDeadReckoned,  ///< The match was bad: the pose is the prediction.
+};
+
+std::string_view Name(StepStatus status);
+
+/// The mapper's answer to one observation.
+struct MappingStep {
+  Timestamp stamp{};
+  UncertainPose2 map_robot{};  ///< Covariance of all error since the start.
+  StepStatus status = StepStatus::kFirst;
+  std::string_view reason{};  ///< Why that status, in words.
+  MatchResult match{};        ///< Covariance of the match alone.
+  bool relevant = false;      ///< The map was extended with this scan.
+};
+
+}  // namespace qwsm

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "qwsm/mapping/mapper_options.hpp"
+#include "qwsm/mapping/mapping_step.hpp"
+#include "qwsm/mapping/motion_model.hpp"
+#include "qwsm/mapping/observation.hpp"
+#include "qwsm/mapping/recent_scans.hpp"
+#include "qwsm/mapping/scan_locator.hpp"
+#include "qwsm/mapping/scan_map.hpp"
+
+namespace qwsm {
+
+/// Follows one robot through a map that it does not own: several robots may share it, each with a
+/// tracker of its own. The map is only read, so that trackers may work in parallel; to extend it
+/// with the relevant scans is the caller's business. Deterministic; reads no clock.
+class RobotTracker {
+ public:
+  explicit RobotTracker(const MapperOptions& options = {});
+
+  /// Tells where the robot is, before its first scan or when it was put elsewhere.
+  /// @param T_odom_robot odometry at that place, if it is known and goes on from there.
+  void PlaceAt(const UncertainPose2& map_robot, const std::optional<Pose2>& T_odom_robot = {});
+
+  /// Odometry may have begun anew since the last scan: at the next one the tracker believes in the
+  /// motion it tells only if the scan agrees better with the map there than where the robot was.
+  void DoubtOdometry() { is_odometry_doubted_ = true; }
+
+  /// Where the robot is. If the step is relevant, the map ought to be extended with the scan.
+  /// @param points the scan's points, as ToPoints() gives them.
+  MappingStep Track(const ScanMap& map,
+                    const Observation& observation,
+                    std::span<const ScanPoint> points);
+
+  /// The pose at the last scan, or as told since.
+  const UncertainPose2& map_robot() const { return map_last_; }
+  const MapperOptions& options() const { return options_; }
+
+ private:
+  void Begin(const Observation& observation, MappingStep& step) const;
+  void Locate(const ScanMap& map,
+              const Observation& observation,
+              std::span<const ScanPoint> points,
+              MappingStep& step) const;
+  UncertainPose2 InMap(const UncertainPose2& last_robot) const;
+  void Judge(const ScanMap& map,
+             std::span<const ScanPoint> points,
+             const Eigen::Matrix3d& motion_covariance,
+             MappingStep& step) const;
+  bool IsRelevant(std::span<const ScanPoint> points, const MappingStep& step) const;
+  void FindReturn(const ScanMap& map, std::span<const ScanPoint> points, MappingStep& step);
+  void Remember(const Observation& observation, const MappingStep& step);
+
+  MapperOptions options_;
+  MotionModel motion_;
+  ScanLocator locator_;
+  RecentScans recent_;
+  UncertainPose2 map_last_;              // Pose at the last scan.
+  std::optional<Pose2> T_map_relevant_;  // Pose at the last relevant scan.
+  bool is_told_ = false;                 // The last pose was told, not found.
+  bool is_odometry_doubted_ = false;
+};
+
+}  // namespace qwsm

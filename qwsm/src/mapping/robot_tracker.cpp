@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "qwsm/mapping/robot_tracker.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace qwsm {
+namespace {
+
+constexpr double kReferenceReach_m = 0.2;    // Stored points this near are what a scan matched.
+constexpr double kReferenceSpacing_m = 0.3;  // Enough to tell which scans they came from.
+
+ScanLocatorOptions LocatorOptions(const MapperOptions& options) {
+  ScanLocatorOptions locator = options.locator;
+  if (options.matcher == MatcherKind::kIcp) {
+    locator.matcher.weighting = PairWeighting::kIdentity;
+  }
+  return locator;
+}
+
+// The prediction in the map's frame, uncertain only by the last motion: what a match is fused with.
+UncertainPose2 MotionInMap(const Pose2& T_map_last, const UncertainPose2& last_robot) {
+  return UncertainPose2{.T_a_b = T_map_last} * last_robot;
+}
+
+// Covariance of a matched pose: as uncertain as the part of the map it was matched to, plus what is
+// left of its uncertainty relative to that part. Where the pairs say nothing, as along a corridor,
+// that is all of the prediction's.
+Eigen::Matrix3d FuseWithReference(const Eigen::Matrix3d& reference,
+                                  const Eigen::Matrix3d& predicted,
+                                  const Eigen::Matrix3d& motion,
+                                  const Eigen::Matrix3d& pair_information) {
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> excess(predicted - motion - reference);
+  const Eigen::Matrix3d relative = excess.eigenvectors() *
+                                       excess.eigenvalues().cwiseMax(0.0).asDiagonal() *
+                                       excess.eigenvectors().transpose() +
+                                   motion;
+  return reference + (pair_information + relative.inverse()).inverse();
+}
+
+std::vector<Eigen::Vector2d> ToMap(std::span<const Eigen::Vector2d> points_robot_m,
+                                   const Pose2& T_map_robot) {
+  std::vector<Eigen::Vector2d> points_map_m;
+  points_map_m.reserve(points_robot_m.size());
+  for (const Eigen::Vector2d& p_robot : points_robot_m)
+    points_map_m.push_back(T_map_robot * p_robot);
+  return points_map_m;
+}
+
+}  // namespace
+
+std::string_view Name(StepStatus status) {
+  switch (status) {
+    case StepStatus::kFirst:
+      return "first";
+    case StepStatus::kMatched:
+      return "matched";
+    case StepStatus::kExtended:
+      return "extended";
+    case StepStatus::kDeadReckoned:
+      return "dead-reckoned";
+  }
+  return "unknown";
+}
+
+RobotTracker::RobotTracker(const MapperOptions& options)
+    : options_(options),
+      motion_(options.motion),
+      locator_(LocatorOptions(options)),
+      recent_(options.surroundings) {}
+
+void RobotTracker::PlaceAt(const UncertainPose2& map_robot,
+                           const std::optional<Pose2>& T_odom_robot) {
+  motion_.Remember({}, T_odom_robot);
+  recent_.Clear();
+  map_last_ = map_robot;
+  T_map_relevant_.reset();
+  is_told_ = true;
+}
+
+MappingStep RobotTracker::Track(const ScanMap& map,
+                                const Observation& observation,
+                                std::span<const ScanPoint> points) {
+  MappingStep step{.stamp = observation.scan.stamp};
+  if (map.empty()) {
+    Begin(observation, step);
+  } else {
+    Locate(map, observation, points, step);
+  }
+  step.relevant = IsRelevant(points, step);
+  if (step.relevant) FindReturn(map, points, step);
+  Remember(observation, step);
+  return step;
+}
+
+void RobotTracker::Begin(const Observation& observation, MappingStep& step) const {
+  // Unless it was told, the first pose is the odometry's, so that both frames begin together.
+  step.reason = "first scan";
+  step.map_robot =
+      is_told_ ? map_last_ : UncertainPose2{.T_a_b = observation.T_odom_robot.value_or(Pose2{})};
+  step.match.T_ref_cur = step.map_robot.T_a_b;
+}
+
+void RobotTracker::Locate(const ScanMap& map,
+                          const Observation& observation,
+                          std::span<const ScanPoint> points,
+                          MappingStep& step) const {
+  UncertainPose2 last_robot = motion_.Predict(observation.T_odom_robot);
+  step.match = locator_.Locate(map, points, InMap(last_robot));
+  if (is_odometry_doubted_) {
+    const UncertainPose2 without_odometry = motion_.Predict(std::nullopt);
+    const MatchResult other = locator_.Locate(map, points, InMap(without_odometry));
+    if (other.overlap >= step.match.overlap) {
+      last_robot = without_odometry;
+      step.match = other;
+    }
+  }
+  step.map_robot = map_last_ * last_robot;
+  Judge(map, points, InMap(last_robot).covariance, step);
+}
+
+// What a match is fused with: uncertain only by the last motion, unless the last pose was not found
+// but told.
+UncertainPose2 RobotTracker::InMap(const UncertainPose2& last_robot) const {
+  return is_told_ ? map_last_ * last_robot : MotionInMap(map_last_.T_a_b, last_robot);
+}
+
+// Matched well: the match is the pose. Overlap low: the pose, and the map is extended. Bad: dead
+// reckoning (Visser et al. 2009, section 4).
+void RobotTracker::Judge(const ScanMap& map,
+                         std::span<const ScanPoint> points,
+                         const Eigen::Matrix3d& motion_covariance,
+                         MappingStep& step) const {
+  const MatchResult& match = step.match;
+  const bool found =
+      match.status == MatchStatus::kConverged || match.status == MatchStatus::kIterationLimit;
+  if (!found || match.overlap < options_.min_overlap) {
+    step.status = StepStatus::kDeadReckoned;
+    step.reason = found ? "too little of the scan agrees with the map" : Name(match.status);
+    return;
+  }
+  const bool extends = match.overlap < options_.extend_below_overlap;
+  step.status = extends ? StepStatus::kExtended : StepStatus::kMatched;
+  step.reason = extends ? "much of the scan is new" : "agrees with the map";
+
+  const std::vector<Eigen::Vector2d> points_map =
+      ToMap(ThinOut(points, kReferenceSpacing_m), match.T_ref_cur);
+  const FrameCovariance reference = map.CovarianceAround(points_map, kReferenceReach_m);
+  const Eigen::Matrix3d independent = match.information * options_.drift_information;
+  step.map_robot.covariance = FuseWithReference(reference.At(match.T_ref_cur.translation_m()),
+                                                step.map_robot.covariance,
+                                                motion_covariance,
+                                                independent);
+  const double floor_m2 = options_.match_floor_m * options_.match_floor_m;
+  const double floor_rad2 = options_.match_floor_rad * options_.match_floor_rad;
+  step.map_robot.covariance.diagonal() += Eigen::Vector3d(floor_m2, floor_m2, floor_rad2);
+  step.map_robot.T_a_b = match.T_ref_cur;
+}
+
+bool RobotTracker::IsRelevant(std::span<const ScanPoint> points, const MappingStep& step) const {
+  if (step.status == StepStatus::kFirst) return !points.empty();
+  if (!options_.extend_map) return false;
+  if (!T_map_relevant_) return true;
+  const Pose2 moved = T_map_relevant_->Inverse() * step.map_robot.T_a_b;
+  return moved.translation_m().norm() > options_.relevant_translation_m ||
+         std::abs(moved.theta_rad) > options_.relevant_rotation_rad;
+}
+
+void RobotTracker::FindReturn(const ScanMap& map,
+                              std::span<const ScanPoint> points,
+                              MappingStep& step) {
+  recent_.Add(step.map_robot.T_a_b, points);
+  if (options_.matcher != MatcherKind::kQWsm) return;
+  const auto back =
+      locator_.FindReturn(map, points, recent_.PointsAround(step.map_robot.T_a_b), step.map_robot);
+  if (!back) return;
+  step.match = *back;
+  step.reason = "back at a known place";
+  step.map_robot.T_a_b = back->T_ref_cur;
+  step.map_robot.covariance = back->covariance;
+  recent_.Clear();
+}
+
+void RobotTracker::Remember(const Observation& observation, const MappingStep& step) {
+  const bool is_first = step.status == StepStatus::kFirst;
+  motion_.Remember(is_first ? Pose2{} : map_last_.T_a_b.Inverse() * step.map_robot.T_a_b,
+                   observation.T_odom_robot);
+  map_last_ = step.map_robot;
+  if (step.relevant) T_map_relevant_ = step.map_robot.T_a_b;
+  is_told_ = is_told_ && is_first && !step.relevant;
+  is_odometry_doubted_ = false;
+}
+
+}  // namespace qwsm
