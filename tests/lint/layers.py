@@ -3,7 +3,8 @@
 """Who may include what.
 
     service/apps                       composition
-    service/pipeline                   threads, queues, sources and sinks
+    service/pipeline                   sources and sinks
+    service/team                       sessions, queues, threads, the shared map
     service/config  service/io  service/dds
     qwsm (2D)   slam6d (3D)   sim (Box2D)
     Eigen and the standard library
@@ -25,8 +26,9 @@ MAY_USE = {
     "service/config": LIBRARIES,
     "service/io": {"qwsm", "slam6d"},
     "service/dds": {"qwsm", "slam6d", "idl"},
-    "service/pipeline": LIBRARIES | BORDER,
-    "service/apps": LIBRARIES | BORDER | {"service/pipeline"},
+    "service/team": {"qwsm", "service/io"},
+    "service/pipeline": LIBRARIES | BORDER | {"service/team"},
+    "service/apps": LIBRARIES | BORDER | {"service/team", "service/pipeline"},
 }
 
 # Third-party library: how its headers are recognised, and the layers that may include it.

@@ -9,30 +9,13 @@
 #include "qwsm/mapping/mapper.hpp"
 #include "service/io/atomic_file.hpp"
 #include "service/io/map_file.hpp"
-#include "tests/support/room_log.hpp"
+#include "tests/support/room_drive.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace qwsm::io {
 namespace {
 
-Observation ObservationInRoom(int scan) {
-  Observation observation;
-  observation.scan.stamp = std::chrono::milliseconds(100 * scan);
-  observation.scan.geometry = {.first_bearing_rad = -1.5F,
-                               .bearing_step_rad = 0.02F,
-                               .range_min_m = 0.02F,
-                               .range_max_m = 30.0F,
-                               .T_robot_laser = {0.1, 0.0, 0.0}};
-  const Pose2 T_world_robot = test::PoseInRoom(scan);
-  const Pose2 T_world_laser = T_world_robot * observation.scan.geometry.T_robot_laser;
-  for (std::size_t beam = 0; beam < 150; ++beam) {
-    const double bearing_rad = T_world_laser.theta_rad + observation.scan.geometry.Bearing(beam);
-    observation.scan.ranges_m.push_back(
-        static_cast<float>(test::RangeInRoom_m(T_world_laser.translation_m(), bearing_rad)));
-  }
-  observation.T_odom_robot = T_world_robot;
-  return observation;
-}
+using test::ObservationInRoom;
 
 ScanMap MapOfRoom() {
   MapperOptions options;

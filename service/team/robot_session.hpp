@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "qwsm/mapping/robot_tracker.hpp"
+#include "service/team/latency_histogram.hpp"
+#include "service/team/odometry_buffer.hpp"
+#include "service/team/scan_queue.hpp"
+#include "service/team/stamp_guard.hpp"
+#include "service/team/team_map.hpp"
+#include "service/team/team_options.hpp"
+#include "service/team/team_sink.hpp"
+#include "service/team/worker_pool.hpp"
+
+namespace qwsm::team {
+
+/// What a session is given by the service that keeps it.
+struct SessionContext {
+  std::string service;  ///< For the keys of its relevant scans.
+  TeamMap& map;
+  TeamSink& sink;
+  /// Puts a relevant scan into the map, the journal and the network.
+  std::function<void(const TeamScan&, std::span<const ScanPoint>)> extend;
+};
+
+/// One robot: takes its messages from any thread, answers its scans one by one in a worker.
+///
+/// Where it starts: as told; else where it was last, if the map has scans of it; else as
+/// configured; else, where the map is empty, at the origin of its odometry; else where its scan
+/// fits the map and fits nowhere else. Until one of these tells, its scans are counted but not
+/// answered.
+class RobotSession final : public Lane {
+ public:
+  RobotSession(std::string name,
+               const SessionOptions& options,
+               const MapperOptions& mapper,
+               SessionContext context);
+
+  const std::string& name() const { return name_; }
+
+  /// Where the robot starts if nothing better is known.
+  void SetStart(const UncertainPose2& map_robot);
+  /// Its publisher is there, again.
+  void Join();
+  /// Its publisher is gone: it will come back where it left.
+  void Lose();
+
+  /// @return false if it was refused. A scan that is taken may still be dropped for newer ones.
+  bool TakeScan(LaserScan scan);
+  void TakeOdometry(Timestamp stamp, const Pose2& T_odom_robot);
+  /// Whether scans are to wait for odometry. They are, from the first reading on.
+  void ExpectOdometry(bool expected);
+  /// Somebody says where the robot is now.
+  void PlaceAt(const UncertainPose2& map_robot);
+
+  RobotStatus Status() const;
+
+  std::optional<Time> ReadyAt() const override;
+  void RunOne() override;
+
+ private:
+  struct Arrival {
+    LaserScan scan;
+    Time arrived{};
+  };
+  struct Work {
+    Arrival arrival;
+    std::optional<Pose2> T_odom_robot;
+    std::optional<UncertainPose2> told;
+    bool is_interrupted = false;  // The robot, or its clock, was away since the last scan.
+  };
+
+  std::optional<Work> Take();
+  bool AwaitsOdometry(const LaserScan& scan) const;
+  void Answer(Work& work, std::span<const ScanPoint> points);
+  bool Place(const ScanMap& map, const Work& work, std::span<const ScanPoint> points);
+  bool FindPlaceIn(const ScanMap& map, Timestamp stamp, std::span<const ScanPoint> points);
+  void WatchOdometry(const Work& work);
+  void Count(const Work& work, const MappingStep& step, std::chrono::nanoseconds matching);
+  void Tell(bool is_warning, std::string_view text) const;
+
+  const std::string name_;
+  const SessionOptions options_;
+  const SessionContext context_;
+
+  mutable std::mutex mutex_;  // Guards what follows.
+  RobotState state_ = RobotState::kExpected;
+  StampGuard guard_;
+  OdometryBuffer odometry_;
+  bool expects_odometry_ = false;
+  ScanQueue<Arrival> queue_;
+  std::optional<UncertainPose2> told_;
+  std::optional<UncertainPose2> start_;
+  bool is_interrupted_ = false;
+  SessionCounts counts_;
+  LatencyHistogram matching_;
+  LatencyHistogram latency_;
+  UncertainPose2 map_robot_;
+  Timestamp stamp_{};
+
+  // Of the worker alone.
+  RobotTracker tracker_;
+  bool is_placed_ = false;
+  std::optional<Timestamp> looked_for_place_;
+  std::optional<Pose2> T_odom_last_;
+  Timestamp last_stamp_{};
+  std::uint64_t sequence_ = 0;
+};
+
+}  // namespace qwsm::team

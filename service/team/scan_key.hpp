@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace qwsm::team {
+
+/// What tells one relevant scan from all others, wherever it was heard of.
+struct ScanKey {
+  std::string service;         ///< That matched it; see TeamService::identity().
+  std::string robot;           ///< That took it, by its namespace.
+  std::uint64_t sequence = 0;  ///< Counts the service's relevant scans of that robot, from 1.
+
+  friend auto operator<=>(const ScanKey&, const ScanKey&) = default;
+};
+
+struct ScanKeyHash {
+  std::size_t operator()(const ScanKey& key) const {
+    constexpr std::size_t kFactor = 1'000'003;
+    const std::hash<std::string> text;
+    return (text(key.service) * kFactor + text(key.robot)) * kFactor +
+           static_cast<std::size_t>(key.sequence);
+  }
+};
+
+}  // namespace qwsm::team

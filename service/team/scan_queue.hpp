@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <utility>
+
+namespace qwsm::team {
+
+/// A bounded queue in which the newest wins: when it is full the oldest is dropped, and counted.
+/// A pose for the scan of a moment ago is worth more than one for the scan of a second ago.
+template <class Scan>
+class ScanQueue {
+ public:
+  /// @pre capacity > 0
+  explicit ScanQueue(std::size_t capacity) : capacity_(capacity) { assert(capacity > 0); }
+
+  void Push(Scan scan) {
+    if (scans_.size() == capacity_) {
+      scans_.pop_front();
+      ++dropped_;
+    }
+    scans_.push_back(std::move(scan));
+  }
+  /// @pre !empty()
+  Scan Pop() {
+    Scan scan = std::move(scans_.front());
+    scans_.pop_front();
+    return scan;
+  }
+  /// The oldest. @pre !empty()
+  const Scan& front() const { return scans_.front(); }
+  bool empty() const { return scans_.empty(); }
+  std::size_t size() const { return scans_.size(); }
+  std::uint64_t dropped() const { return dropped_; }
+
+ private:
+  std::size_t capacity_;
+  std::deque<Scan> scans_;
+  std::uint64_t dropped_ = 0;
+};
+
+}  // namespace qwsm::team

@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/team/team_service.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <random>
+#include <thread>
+#include <tuple>
+#include <utility>
+
+namespace qwsm::team {
+namespace {
+
+using std::chrono::steady_clock;
+
+// More come from a mistake or an attack.
+constexpr std::size_t kMaxRobots = 256;
+
+std::string NewIdentity(const std::string& name) {
+  return fmt::format("{}-{:08x}", name, std::random_device{}());
+}
+
+TeamServiceOptions WithQuadtree(TeamServiceOptions options) {
+  options.mapper.matcher = MatcherKind::kQWsm;
+  return options;
+}
+
+int ThreadCount(int wanted) {
+  return wanted > 0 ? wanted : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+UncertainPose2 StartOf(const RobotStartOptions& robot) {
+  UncertainPose2 start{.T_a_b = {robot.x_m, robot.y_m, NormalizeAngle(robot.heading_rad)}};
+  start.covariance.diagonal() =
+      Eigen::Vector3d(robot.sigma_m, robot.sigma_m, robot.sigma_rad).cwiseAbs2();
+  return start;
+}
+
+}  // namespace
+
+TeamService::TeamService(const TeamServiceOptions& options,
+                         TeamSink& sink,
+                         const std::filesystem::path& /*journal*/)
+    : options_(WithQuadtree(options)),
+      sink_(sink),
+      begun_(steady_clock::now()),
+      identity_(NewIdentity(options.team.service)),
+      maps_(options.team.map, options.mapper.map) {
+  for (const RobotStartOptions& robot : options_.team.robots) {
+    SessionOf(robot.name)->SetStart(StartOf(robot));
+  }
+}
+
+TeamService::~TeamService() { Stop(); }
+
+void TeamService::Start() {
+  const TeamOptions& team = options_.team;
+  {
+    const std::lock_guard lock(mutex_);
+    workers_ = std::make_unique<WorkerPool>(ThreadCount(team.threads));
+    for (const auto& [robot, session] : sessions_) workers_->Add(session);
+  }
+  const std::chrono::duration<double> map_period(team.map_period_s);
+  const std::chrono::duration<double> status_period(team.status_period_s);
+  if (team.map_period_s > 0.0) {
+    painting_ = std::make_unique<PeriodicTask>(map_period, true, [this] { PaintMaps(); });
+  }
+  reporting_ =
+      std::make_unique<PeriodicTask>(status_period, false, [this] { sink_.TakeStatus(Status()); });
+}
+
+void TeamService::Stop() {
+  painting_.reset();
+  reporting_.reset();
+  if (workers_) workers_->Stop();
+}
+
+void TeamService::WaitUntilIdle() {
+  if (workers_) workers_->WaitUntilIdle();
+}
+
+void TeamService::Join(std::string_view robot) {
+  if (const auto session = SessionOf(robot)) session->Join();
+}
+
+void TeamService::Lose(std::string_view robot) {
+  if (const auto session = Find(robot)) session->Lose();
+}
+
+bool TeamService::TakeScan(std::string_view robot, LaserScan scan) {
+  const auto session = SessionOf(robot);
+  if (!session || !session->TakeScan(std::move(scan))) return false;
+  Wake();
+  return true;
+}
+
+void TeamService::TakeOdometry(std::string_view robot, Timestamp stamp, const Pose2& T_odom_robot) {
+  const auto session = SessionOf(robot);
+  if (!session) return;
+  session->TakeOdometry(stamp, T_odom_robot);
+  Wake();
+}
+
+void TeamService::ExpectOdometry(std::string_view robot, bool expected) {
+  if (const auto session = SessionOf(robot)) session->ExpectOdometry(expected);
+}
+
+void TeamService::PlaceAt(std::string_view robot, const UncertainPose2& map_robot) {
+  if (const auto session = SessionOf(robot)) session->PlaceAt(map_robot);
+}
+
+void TeamService::TakeIn(std::vector<TeamScan> scans) {
+  std::ranges::sort(
+      scans, {}, [](const TeamScan& scan) { return std::tie(scan.scan.stamp, scan.key); });
+  for (const TeamScan& scan : scans) TakeInOne(scan);
+}
+
+void TeamService::TakeInOne(const TeamScan& scan) {
+  if (!ObjectionTo(scan).empty()) {
+    ++refused_;
+    return;
+  }
+  const std::lock_guard lock(extension_);
+  if (!maps_.Of(scan.key.robot)->Insert(scan, ToPoints(scan.scan))) {
+    ++duplicates_;
+    return;
+  }
+  ++taken_in_;
+}
+
+void TeamService::Extend(const TeamScan& scan, std::span<const ScanPoint> points) {
+  std::shared_ptr<const MapAddition> addition;
+  {
+    const std::lock_guard lock(extension_);
+    addition = maps_.Of(scan.key.robot)->Insert(scan, points);
+  }
+  if (!addition) return;
+  sink_.TakeRelevantScan(scan);
+  std::vector<Eigen::Vector2d> points_map_m;
+  points_map_m.reserve(addition->points.size());
+  for (const MapPoint& point : addition->points) points_map_m.push_back(point.p_map_m);
+  sink_.TakeNewPoints(
+      {.robot = scan.key.robot, .stamp = scan.scan.stamp, .points_map_m = points_map_m});
+}
+
+TeamStatus TeamService::Status() const {
+  TeamStatus status{.service = identity_, .uptime = steady_clock::now() - begun_};
+  {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [robot, session] : sessions_) status.robots.push_back(session->Status());
+  }
+  status.map = StatusOfMaps();
+  return status;
+}
+
+MapStatus TeamService::StatusOfMaps() const {
+  MapStatus status{
+      .taken_in = taken_in_.load(), .duplicates = duplicates_.load(), .refused = refused_.load()};
+  for (const TeamMaps::NamedMap& named : maps_.All()) {
+    const TeamMap::State::View map = named.map->Read();
+    status.scans += map->scans().size();
+    status.points += map->surfaces().quadtree().size();
+  }
+  return status;
+}
+
+void TeamService::PaintMaps() {
+  for (const TeamMaps::NamedMap& named : maps_.All()) {
+    MapPainter& painter = painters_.try_emplace(named.robot, options_.rendering).first->second;
+    const std::optional<OccupancyGrid> grid = painter.Paint(*named.map);
+    if (grid) sink_.TakeMap({.robot = named.robot, .stamp = painter.newest(), .grid = *grid});
+    if (!painter.trouble().empty()) {
+      sink_.TakeEvent({.robot = named.robot, .is_warning = true, .text = painter.trouble()});
+    }
+  }
+}
+
+std::shared_ptr<RobotSession> TeamService::Find(std::string_view robot) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = sessions_.find(robot);
+  return found == sessions_.end() ? nullptr : found->second;
+}
+
+std::shared_ptr<RobotSession> TeamService::SessionOf(std::string_view robot) {
+  const std::lock_guard lock(mutex_);
+  if (const auto known = sessions_.find(robot); known != sessions_.end()) return known->second;
+  if (sessions_.size() >= kMaxRobots) return nullptr;
+  const auto extend = [this](const TeamScan& scan, std::span<const ScanPoint> points) {
+    Extend(scan, points);
+  };
+  auto session = std::make_shared<RobotSession>(
+      std::string(robot),
+      options_.team.session,
+      options_.mapper,
+      SessionContext{
+          .service = identity_, .map = *maps_.Of(robot), .sink = sink_, .extend = extend});
+  if (workers_) workers_->Add(session);
+  return sessions_[session->name()] = session;
+}
+
+void TeamService::Wake() {
+  const std::lock_guard lock(mutex_);
+  if (workers_) workers_->Wake();
+}
+
+}  // namespace qwsm::team

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "qwsm/mapping/mapper_options.hpp"
+#include "qwsm/mapping/occupancy_grid.hpp"
+#include "service/team/map_painter.hpp"
+#include "service/team/periodic_task.hpp"
+#include "service/team/robot_session.hpp"
+#include "service/team/team_maps.hpp"
+#include "service/team/team_options.hpp"
+#include "service/team/team_sink.hpp"
+#include "service/team/worker_pool.hpp"
+
+namespace qwsm::team {
+
+struct TeamServiceOptions {
+  TeamOptions team;
+  MapperOptions mapper;  ///< Its matcher is q-wsm, whatever it says.
+  OccupancyGridOptions rendering;
+};
+
+/// Maps with a team of robots: takes their scans and odometry, answers each scan with a pose, keeps
+/// their one map (or one map each) and shares it with other services.
+///
+/// All functions may be called from any thread, but not from the sink. A robot is known by its
+/// namespace, such as `robot1`, or "" for the only one.
+class TeamService {
+ public:
+  /// @param sink outlives this.
+  /// @param journal where relevant scans are kept; the map begins with those in it. Empty: nowhere.
+  /// @throws io::JournalError where it cannot be opened or is no journal.
+  TeamService(const TeamServiceOptions& options,
+              TeamSink& sink,
+              const std::filesystem::path& journal = {});
+  /// Stops.
+  ~TeamService();
+  TeamService(const TeamService&) = delete;
+  TeamService& operator=(const TeamService&) = delete;
+
+  /// Hands what is in the journal to the sink, for the other services, and starts to work. What
+  /// arrives before waits.
+  void Start();
+  /// Finishes the matches at work, saves what is to be saved, and works no more. What waits in
+  /// queues is left out.
+  void Stop();
+  /// Waits until every scan that was taken is answered or dropped, and all is on disk that can be.
+  void WaitUntilIdle();
+
+  /// The name of the service in the keys of its relevant scans: that of the options and a random
+  /// number, which the journal keeps. So a service that comes back with its memory continues its
+  /// numbers, and one without does not take old numbers for new scans.
+  const std::string& identity() const { return identity_; }
+
+  /// A robot's publisher is there. What takes messages of a robot makes it join as well.
+  void Join(std::string_view robot);
+  /// It is gone.
+  void Lose(std::string_view robot);
+  /// @return false if the scan was refused: malformed, late or a duplicate. See its counts.
+  bool TakeScan(std::string_view robot, LaserScan scan);
+  void TakeOdometry(std::string_view robot, Timestamp stamp, const Pose2& T_odom_robot);
+  /// Whether somebody publishes its odometry: only then do scans wait for it.
+  void ExpectOdometry(std::string_view robot, bool expected);
+  void PlaceAt(std::string_view robot, const UncertainPose2& map_robot);
+
+  /// Takes in relevant scans of other services, several at once where they are there: they are
+  /// inserted by stamp, so that services that start late get the same map from the same scans.
+  /// What is known already, or came from this service, is passed over.
+  void TakeIn(std::vector<TeamScan> scans);
+
+  TeamStatus Status() const;
+  /// The map a robot is matched against; the team's where all share one.
+  std::shared_ptr<const TeamMap> MapOf(std::string_view robot) { return maps_.Of(robot); }
+
+ private:
+  std::shared_ptr<RobotSession> Find(std::string_view robot) const;
+  std::shared_ptr<RobotSession> SessionOf(std::string_view robot);
+  void Wake();
+  void Extend(const TeamScan& scan, std::span<const ScanPoint> points);
+  void TakeInOne(const TeamScan& scan);
+  void PaintMaps();
+  MapStatus StatusOfMaps() const;
+
+  const TeamServiceOptions options_;
+  TeamSink& sink_;
+  const std::chrono::steady_clock::time_point begun_;
+  std::string identity_;
+  TeamMaps maps_;
+  std::mutex extension_;  // Keeps the journal in the order of the map.
+  std::atomic<std::uint64_t> taken_in_ = 0;
+  std::atomic<std::uint64_t> duplicates_ = 0;
+  std::atomic<std::uint64_t> refused_ = 0;
+
+  mutable std::mutex mutex_;  // Of the list; sessions look after themselves.
+  std::map<std::string, std::shared_ptr<RobotSession>, std::less<>> sessions_;
+  std::map<std::string, MapPainter> painters_;  // Of the task that paints.
+
+  std::unique_ptr<WorkerPool> workers_;
+  std::unique_ptr<PeriodicTask> painting_;
+  std::unique_ptr<PeriodicTask> reporting_;
+};
+
+}  // namespace qwsm::team

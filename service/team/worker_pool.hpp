@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <thread>
+#include <vector>
+
+namespace qwsm::team {
+
+/// Work that is done piece by piece in order, such as one robot's scans.
+class Lane {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  Lane() = default;
+  Lane(const Lane&) = delete;
+  Lane& operator=(const Lane&) = delete;
+  virtual ~Lane() = default;
+
+  /// From when on the next piece can be done; nothing where there is none. Any thread may ask.
+  virtual std::optional<Time> ReadyAt() const = 0;
+  /// Does the next piece, if there is still one. Called by one thread at a time. Must not throw.
+  virtual void RunOne() = 0;
+};
+
+/// Threads that work on lanes: each lane in order, the lanes side by side, what has waited longest
+/// first.
+class WorkerPool {
+ public:
+  /// @pre threads > 0
+  explicit WorkerPool(int threads);
+  /// Stops.
+  ~WorkerPool();
+  WorkerPool(const WorkerPool&) = delete;
+  WorkerPool& operator=(const WorkerPool&) = delete;
+
+  /// The lane is kept until the pool goes.
+  void Add(std::shared_ptr<Lane> lane);
+  /// There may be something new to do.
+  void Wake();
+  /// Waits until no lane has anything to do, now or later.
+  void WaitUntilIdle();
+  /// Lets the pieces at work be finished, and begins no more.
+  void Stop();
+
+ private:
+  struct Entry {
+    std::shared_ptr<Lane> lane;
+    bool is_running = false;
+  };
+  struct Choice {
+    Entry* entry = nullptr;  // The one to run, once it is time.
+    Lane::Time ready_at{};
+  };
+
+  void Work(const std::stop_token& stop);
+  Choice NextOf() const;
+  bool IsIdle() const;
+
+  mutable std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::vector<std::unique_ptr<Entry>> entries_;
+  std::vector<std::jthread> threads_;  // Last: they use all of the above.
+};
+
+}  // namespace qwsm::team

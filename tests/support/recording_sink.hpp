@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "service/team/team_sink.hpp"
+
+namespace qwsm::test {
+
+/// Keeps all that a team service tells.
+class RecordingSink : public team::TeamSink {
+ public:
+  void TakeAnswer(const team::RobotAnswer& answer) override {
+    const std::lock_guard lock(mutex_);
+    steps_[std::string(answer.robot)].push_back(answer.step);
+  }
+  void TakeRelevantScan(const team::TeamScan& scan) override {
+    const std::lock_guard lock(mutex_);
+    relevant_.push_back(scan);
+  }
+  void TakeNewPoints(const team::NewPoints& points) override {
+    const std::lock_guard lock(mutex_);
+    new_points_ += points.points_map_m.size();
+  }
+  void TakeMap(const team::MapPicture& map) override {
+    const std::lock_guard lock(mutex_);
+    maps_[std::string(map.robot)] = map.grid;
+  }
+  void TakeStatus(const team::TeamStatus& status) override {
+    const std::lock_guard lock(mutex_);
+    statuses_.push_back(status);
+  }
+  void TakeEvent(const team::TeamEvent& event) override {
+    const std::lock_guard lock(mutex_);
+    events_.push_back(std::string(event.robot) + ": " + std::string(event.text));
+  }
+
+  std::vector<MappingStep> steps(const std::string& robot) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = steps_.find(robot);
+    return found == steps_.end() ? std::vector<MappingStep>() : found->second;
+  }
+  std::vector<team::TeamScan> relevant() const {
+    const std::lock_guard lock(mutex_);
+    return relevant_;
+  }
+  std::size_t new_points() const {
+    const std::lock_guard lock(mutex_);
+    return new_points_;
+  }
+  std::map<std::string, OccupancyGrid> maps() const {
+    const std::lock_guard lock(mutex_);
+    return maps_;
+  }
+  std::size_t statuses() const {
+    const std::lock_guard lock(mutex_);
+    return statuses_.size();
+  }
+  bool HasEvent(const std::string& event) const {
+    const std::lock_guard lock(mutex_);
+    return std::ranges::find(events_, event) != events_.end();
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::map<std::string, std::vector<MappingStep>> steps_;
+  std::vector<team::TeamScan> relevant_;
+  std::size_t new_points_ = 0;
+  std::map<std::string, OccupancyGrid> maps_;
+  std::vector<team::TeamStatus> statuses_;
+  std::vector<std::string> events_;
+};
+
+}  // namespace qwsm::test

@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/team/team_service.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "qwsm/mapping/mapper.hpp"
+#include "service/io/map_file.hpp"
+#include "tests/support/recording_sink.hpp"
+#include "tests/support/room_drive.hpp"
+
+namespace qwsm::team {
+namespace {
+
+constexpr int kScans = 120;
+
+TeamServiceOptions LosslessOptions() {
+  TeamServiceOptions options;
+  options.team.session.queue_scans = 1000;
+  options.team.session.odometry_wait_s = 10.0;
+  options.team.map_period_s = 0.0;
+  return options;
+}
+
+void Give(TeamService& service, const std::string& robot, int first, int count) {
+  for (int scan = first; scan < first + count; ++scan) {
+    const Observation observation = test::ObservationInRoom(scan);
+    service.TakeOdometry(robot, observation.scan.stamp, *observation.T_odom_robot);
+    EXPECT_TRUE(service.TakeScan(robot, observation.scan));
+  }
+}
+
+RobotStatus StatusOf(const TeamService& service, const std::string& robot) {
+  for (const RobotStatus& status : service.Status().robots) {
+    if (status.name == robot) return status;
+  }
+  return {};
+}
+
+TEST(TeamService, AnswersARobotBitForBitAsTheMapperDoes) {
+  test::RecordingSink sink;
+  TeamService service(LosslessOptions(), sink);
+  service.Start();
+  Give(service, "robot1", 0, kScans);
+  service.WaitUntilIdle();
+  service.Stop();
+
+  Mapper mapper;
+  const std::vector<MappingStep> steps = sink.steps("robot1");
+  ASSERT_EQ(steps.size(), kScans);
+  for (int scan = 0; scan < kScans; ++scan) {
+    SCOPED_TRACE(scan);
+    const MappingStep& answer = steps[static_cast<std::size_t>(scan)];
+    const MappingStep step = mapper.Process(test::ObservationInRoom(scan));
+    EXPECT_EQ(answer.stamp, step.stamp);
+    EXPECT_EQ(answer.map_robot.T_a_b, step.map_robot.T_a_b);
+    EXPECT_EQ(answer.map_robot.covariance, step.map_robot.covariance);
+    EXPECT_EQ(answer.relevant, step.relevant);
+  }
+  EXPECT_EQ(io::EncodeMap(*service.MapOf("robot1")->Read()), io::EncodeMap(mapper.map()));
+  EXPECT_EQ(sink.relevant().size(), mapper.map().scans().size());
+  EXPECT_GT(sink.new_points(), 0U);
+}
+
+TEST(TeamService, CountsEveryScanThatIsDroppedForNewerOnes) {
+  test::RecordingSink sink;
+  TeamServiceOptions options = LosslessOptions();
+  options.team.session.queue_scans = 3;
+  TeamService service(options, sink);
+  Give(service, "robot1", 0, 10);  // Before the start: all have to wait.
+  service.Start();
+  service.WaitUntilIdle();
+  const RobotStatus status = StatusOf(service, "robot1");
+  EXPECT_EQ(status.counts.scans, 10U);
+  EXPECT_EQ(status.counts.dropped, 7U);
+  EXPECT_EQ(status.counts.answered, 3U);
+  ASSERT_EQ(sink.steps("robot1").size(), 3U);
+  EXPECT_EQ(sink.steps("robot1").front().stamp, test::ObservationInRoom(7).scan.stamp);
+}
+
+TEST(TeamService, RefusesAndCountsDuplicatesLateAndMalformedScans) {
+  test::RecordingSink sink;
+  TeamService service(LosslessOptions(), sink);
+  const LaserScan scan = test::ObservationInRoom(8).scan;
+  EXPECT_TRUE(service.TakeScan("robot1", scan));
+  EXPECT_FALSE(service.TakeScan("robot1", scan));
+  EXPECT_FALSE(service.TakeScan("robot1", test::ObservationInRoom(5).scan));
+  LaserScan malformed = test::ObservationInRoom(9).scan;
+  malformed.geometry.bearing_step_rad = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(service.TakeScan("robot1", malformed));
+  const SessionCounts counts = StatusOf(service, "robot1").counts;
+  EXPECT_EQ(counts.scans, 4U);
+  EXPECT_EQ(counts.duplicates, 1U);
+  EXPECT_EQ(counts.late, 1U);
+  EXPECT_EQ(counts.malformed, 1U);
+}
+
+TEST(TeamService, LetsALostRobotComeBackWhereItLeftThoughItsOdometryBeganAnew) {
+  test::RecordingSink sink;
+  TeamService service(LosslessOptions(), sink);
+  service.Start();
+  Give(service, "robot1", 0, 60);
+  service.WaitUntilIdle();
+  service.Lose("robot1");
+  EXPECT_EQ(StatusOf(service, "robot1").state, RobotState::kLost);
+
+  const Pose2 T_odom_start = test::PoseInRoom(60);
+  for (int scan = 60; scan < 80; ++scan) {
+    const Observation observation = test::ObservationInRoom(scan);
+    service.TakeOdometry(
+        "robot1", observation.scan.stamp, T_odom_start.Inverse() * *observation.T_odom_robot);
+    service.TakeScan("robot1", observation.scan);
+  }
+  service.WaitUntilIdle();
+  const RobotStatus status = StatusOf(service, "robot1");
+  EXPECT_EQ(status.state, RobotState::kTracked);
+  EXPECT_EQ(status.counts.dead_reckoned, 0U);
+  const Pose2 error = test::PoseInRoom(79).Inverse() * status.map_robot.T_a_b;
+  EXPECT_LT(error.translation_m().norm(), 0.05);
+}
+
+TEST(TeamService, FindsASecondRobotInTheMapOfTheFirst) {
+  test::RecordingSink sink;
+  TeamService service(LosslessOptions(), sink);
+  service.Start();
+  Give(service, "robot1", 0, 126);
+  service.WaitUntilIdle();
+  for (int scan = 30; scan < 40; ++scan) {  // With no odometry and no start.
+    service.TakeScan("robot2", test::ObservationInRoom(scan).scan);
+  }
+  service.WaitUntilIdle();
+  const RobotStatus status = StatusOf(service, "robot2");
+  ASSERT_EQ(status.counts.answered, 10U);
+  EXPECT_TRUE(sink.HasEvent("robot2: was found in the map"));
+  const Pose2 error = test::PoseInRoom(39).Inverse() * status.map_robot.T_a_b;
+  EXPECT_LT(error.translation_m().norm(), 0.05);
+}
+
+TEST(TeamService, StartsARobotWhereItIsTold) {
+  test::RecordingSink sink;
+  TeamServiceOptions options = LosslessOptions();
+  options.team.robots.push_back({.name = "robot1", .x_m = 3.0, .y_m = -2.0});
+  TeamService service(options, sink);
+  service.Start();
+  service.TakeScan("robot1", test::ObservationInRoom(0).scan);
+  service.WaitUntilIdle();
+  EXPECT_EQ(sink.steps("robot1").at(0).map_robot.T_a_b, (Pose2{3.0, -2.0, 0.0}));
+}
+
+TEST(TeamService, KeepsAMapForEachRobotWhereAsked) {
+  test::RecordingSink sink;
+  TeamServiceOptions options = LosslessOptions();
+  options.team.map = MapSharing::kEachRobot;
+  TeamService service(options, sink);
+  service.Start();
+  Give(service, "robot1", 0, 20);
+  Give(service, "robot2", 0, 20);
+  service.WaitUntilIdle();
+  EXPECT_EQ(io::EncodeMap(*service.MapOf("robot1")->Read()),
+            io::EncodeMap(*service.MapOf("robot2")->Read()));
+}
+
+TEST(TeamService, TakesInWhatOtherServicesShareOnceAndInOneOrder) {
+  test::RecordingSink of_first;
+  TeamService first(LosslessOptions(), of_first);
+  first.Start();
+  Give(first, "robot1", 0, kScans);
+  first.WaitUntilIdle();
+
+  std::vector<TeamScan> shared = of_first.relevant();
+  std::ranges::reverse(shared);
+  shared.push_back(shared.front());
+  shared.push_back(shared.front());
+  shared.back().key.sequence = 1000;
+  shared.back().map_robot.T_a_b.x_m = 1e300;
+  test::RecordingSink of_second;
+  TeamService second(LosslessOptions(), of_second);
+  second.TakeIn(shared);
+  EXPECT_EQ(io::EncodeMap(*second.MapOf("robot1")->Read()),
+            io::EncodeMap(*first.MapOf("robot1")->Read()));
+  const MapStatus status = second.Status().map;
+  EXPECT_EQ(status.taken_in, shared.size() - 2);
+  EXPECT_EQ(status.duplicates, 1U);
+  EXPECT_EQ(status.refused, 1U);
+}
+
+TEST(TeamService, DrawsTheMapAndTellsItsStateAgainAndAgain) {
+  test::RecordingSink sink;
+  TeamServiceOptions options = LosslessOptions();
+  options.team.map_period_s = 0.01;
+  options.team.status_period_s = 0.01;
+  TeamService service(options, sink);
+  service.Start();
+  Give(service, "robot1", 0, 20);
+  service.WaitUntilIdle();
+  while (sink.maps().empty() || sink.statuses() < 3) std::this_thread::yield();
+  EXPECT_GT(sink.maps().at("").width, 100);
+}
+
+}  // namespace
+}  // namespace qwsm::team
