@@ -54,9 +54,6 @@ MatcherKind MatcherNamed(const std::string& name);
 /// How logs are read; their faults become messages.
 io::LogOptions LogOptionsOf(const config::LogOptions& options);
 
-/// Adds --seed and --duration, which become settings of a scenario.
-void AddScenarioSettings(CLI::App& parser, std::vector<std::string>& settings);
-
 // One per command, each in a file of its own.
 Command AddMapCommand(CLI::App& program);
 Command AddLocalizeCommand(CLI::App& program);

@@ -26,7 +26,7 @@ ExitCode RunCompare(const RunArguments& arguments) {
   const RunSession session(arguments, options);
   pipeline::MatcherContest contest(options.mapper, kMatchers, session.folder());
   const pipeline::ReplayResult end = session.Run("compare", *source, contest.runs());
-  contest.Finish(options.rendering);
+  contest.Finish(options.rendering, source->truth());
   if (arguments.verbosity.json) {
     fmt::print("{}", pipeline::ComparisonJson(contest.contestants()));
   } else if (!arguments.verbosity.quiet) {

@@ -82,7 +82,7 @@ ExitCode RunLocalize(const LocalizeArguments& arguments) {
   pipeline::ResultsWriter results(session.folder());
   const pipeline::ReplayResult end = session.Run("localize", *source, mapper, results);
   results.Finish(mapper, options.rendering);
-  session.Summarize(results.statistics(), mapper);
+  session.Summarize(results, mapper);
   return Conclude(end);
 }
 

@@ -1,15 +1,23 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "service/apps/command.hpp"
 #include "service/apps/messages.hpp"
 #include "service/apps/run_session.hpp"
+#include "service/apps/scenario_arguments.hpp"
+#include "service/config/suggestion.hpp"
+#include "service/io/atomic_file.hpp"
 #include "service/io/map_file.hpp"
 #include "service/pipeline/results_writer.hpp"
+#include "service/pipeline/simulator_source.hpp"
 
 namespace qwsm::apps {
 namespace {
@@ -18,6 +26,10 @@ struct MapArguments {
   RunArguments run;
   std::optional<std::string> matcher;
   std::optional<std::filesystem::path> save_map;
+  ScenarioArguments simulated;  ///< Instead of logs, if it names a scenario.
+  std::optional<std::string> robot;
+
+  bool is_simulated() const { return !simulated.scenario.empty(); }
 };
 
 config::ProgramOptions LoadOptions(const MapArguments& arguments) {
@@ -29,19 +41,69 @@ config::ProgramOptions LoadOptions(const MapArguments& arguments) {
   return options;
 }
 
-ExitCode RunMap(const MapArguments& arguments) {
+void CheckSource(const MapArguments& arguments) {
+  if (arguments.is_simulated() != arguments.run.logs.empty()) {
+    throw UsageError("map needs either logs or --sim SCENARIO");
+  }
+  const ScenarioArguments& simulated = arguments.simulated;
+  if (!arguments.is_simulated() && (simulated.seed || simulated.duration_s || arguments.robot)) {
+    throw UsageError("--seed, --duration and --robot belong to --sim SCENARIO");
+  }
+}
+
+/// Of the robot of that name, or of the first one.
+std::size_t RobotNamed(const std::optional<std::string>& name,
+                       const sim::ScenarioOptions& scenario) {
+  if (!name) return 0;
+  std::vector<std::string> names;
+  for (const sim::RobotOptions& robot : scenario.robots) names.push_back(robot.name);
+  const auto found = std::ranges::find(names, *name);
+  if (found == names.end()) {
+    throw UsageError(fmt::format("--robot: the scenario has {}, not '{}'{}",
+                                 fmt::join(names, ", "),
+                                 *name,
+                                 config::DidYouMean(*name, names)));
+  }
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+/// Where the scans come from; of a simulation, the scenario too.
+struct Origin {
+  std::unique_ptr<pipeline::ScanSource> source;
+  std::optional<sim::ScenarioOptions> scenario;
+};
+
+Origin OpenOrigin(const MapArguments& arguments, const config::LogOptions& log) {
+  if (!arguments.is_simulated()) return {.source = OpenLogs(arguments.run, log), .scenario = {}};
+  const sim::ScenarioOptions scenario = LoadScenario(arguments.simulated);
+  const std::size_t robot = RobotNamed(arguments.robot, scenario);
+  return {.source = std::make_unique<pipeline::SimulatorSource>(scenario, robot),
+          .scenario = scenario};
+}
+
+ExitCode RunMap(MapArguments arguments) {
   StartMessages(arguments.run.verbosity);
+  CheckSource(arguments);
+  if (arguments.is_simulated()) {
+    arguments.simulated.settings = TakeScenarioSettings(arguments.run.sources.settings);
+  }
   const config::ProgramOptions options = LoadOptions(arguments);
-  const auto source = OpenLogs(arguments.run, options.log);
-  if (arguments.run.dry_run) return TellPlan("map", arguments.run);
+  const Origin origin = OpenOrigin(arguments, options.log);
+  if (arguments.run.dry_run) {
+    if (arguments.is_simulated()) arguments.run.logs = {arguments.simulated.scenario};
+    return TellPlan("map", arguments.run);
+  }
 
   const RunSession session(arguments.run, options);
+  if (origin.scenario) {
+    io::WriteTextFile(session.folder() / "scenario.yaml", config::DumpOptions(*origin.scenario));
+  }
   Mapper mapper(options.mapper);
   pipeline::ResultsWriter results(session.folder());
-  const pipeline::ReplayResult end = session.Run("map", *source, mapper, results);
-  results.Finish(mapper, options.rendering);
+  const pipeline::ReplayResult end = session.Run("map", *origin.source, mapper, results);
+  results.Finish(mapper, options.rendering, origin.source->truth());
   if (arguments.save_map) io::SaveMap(*arguments.save_map, mapper.map());
-  session.Summarize(results.statistics(), mapper);
+  session.Summarize(results, mapper);
   return Conclude(end);
 }
 
@@ -56,11 +118,22 @@ Command AddMapCommand(CLI::App& program) {
       "  qwsm map intel.log --matcher wsm                 the incremental baseline\n"
       "  qwsm map intel.log --save-map intel.qwsm         to localize in later\n"
       "  qwsm map robot.log --set mapper.motion.rotation_per_rotation=0.5\n"
+      "  qwsm map --sim office --seed 7                   a simulated robot, with the truth\n"
       "  zcat *.log.gz | qwsm map - --quiet               from a pipe");
-  AddRunArguments(*parser, arguments->run);
+  AddRunArguments(*parser, arguments->run)->required(false);
   parser->add_option("--matcher", arguments->matcher, "q-wsm, wsm or icp")->type_name("NAME");
   parser->add_option("--save-map", arguments->save_map, "the map, for qwsm localize")
       ->type_name("FILE");
+  parser
+      ->add_option("--sim",
+                   arguments->simulated.scenario,
+                   "run this scenario instead of reading logs; --set takes its options, too")
+      ->type_name("SCENARIO")
+      ->group("Simulation");
+  AddScenarioSettings(*parser, arguments->simulated);
+  parser->add_option("--robot", arguments->robot, "of several robots, that of this name")
+      ->type_name("NAME")
+      ->group("Simulation");
   return {.parser = parser, .run = [arguments] { return RunMap(*arguments); }};
 }
 

@@ -20,16 +20,20 @@ namespace qwsm::apps {
 
 using namespace pipeline;
 
-void AddRunArguments(CLI::App& parser, RunArguments& arguments, const std::string& json_help) {
-  parser.add_option("LOG", arguments.logs, "logs, parts of one recording; - is standard input")
-      ->required()
-      ->type_name("");
+CLI::Option* AddRunArguments(CLI::App& parser,
+                             RunArguments& arguments,
+                             const std::string& json_help) {
+  CLI::Option* logs =
+      parser.add_option("LOG", arguments.logs, "logs, parts of one recording; - is standard input")
+          ->required()
+          ->type_name("");
   parser.add_option("-o,--output", arguments.output, "folder for the results; else results/<time>")
       ->type_name("DIR");
   parser.add_flag("--force", arguments.force, "write into a folder that holds other things");
   parser.add_flag("-n,--dry-run", arguments.dry_run, "check everything, do nothing");
   AddConfiguration(parser, arguments.sources);
   AddVerbosity(parser, arguments.verbosity, json_help);
+  return logs;
 }
 
 std::unique_ptr<LogSource> OpenLogs(const RunArguments& arguments,
@@ -82,10 +86,11 @@ ReplayResult RunSession::Run(const std::string& task,
   return result;
 }
 
-void RunSession::Summarize(const RunStatistics& statistics, const Mapper& mapper) const {
+void RunSession::Summarize(const ResultsWriter& results, const Mapper& mapper) const {
   if (verbosity_.quiet || verbosity_.json) return;
-  fmt::print(
-      "{}results        {}\n", SummaryText(statistics, mapper.map()), folder_.path().string());
+  fmt::print("{}results        {}\n",
+             SummaryText(results.statistics(), mapper.map(), results.truth_report()),
+             folder_.path().string());
 }
 
 ExitCode Conclude(const ReplayResult& result) {

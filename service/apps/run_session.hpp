@@ -12,7 +12,7 @@
 #include "service/pipeline/log_source.hpp"
 #include "service/pipeline/replay.hpp"
 #include "service/pipeline/results_folder.hpp"
-#include "service/pipeline/run_statistics.hpp"
+#include "service/pipeline/results_writer.hpp"
 
 namespace qwsm::apps {
 
@@ -27,9 +27,11 @@ struct RunArguments {
 };
 
 /// @param json_help what --json does.
-void AddRunArguments(CLI::App& parser,
-                     RunArguments& arguments,
-                     const std::string& json_help = "one JSON object per scan on standard output");
+/// @returns the argument LOG, which is required.
+CLI::Option* AddRunArguments(
+    CLI::App& parser,
+    RunArguments& arguments,
+    const std::string& json_help = "one JSON object per scan on standard output");
 
 /// Opens the logs. @throws std::runtime_error where one is no log, or there is no scan in them.
 std::unique_ptr<pipeline::LogSource> OpenLogs(const RunArguments& arguments,
@@ -58,7 +60,7 @@ class RunSession {
                              std::vector<pipeline::MappingRun> runs) const;
 
   /// Tells what came out, if a person reads standard output.
-  void Summarize(const pipeline::RunStatistics& statistics, const Mapper& mapper) const;
+  void Summarize(const pipeline::ResultsWriter& results, const Mapper& mapper) const;
 
  private:
   Verbosity verbosity_;

@@ -11,8 +11,8 @@
 
 #include "service/apps/command.hpp"
 #include "service/apps/messages.hpp"
+#include "service/apps/scenario_arguments.hpp"
 #include "service/apps/version.hpp"
-#include "service/config/scenario_file.hpp"
 #include "service/io/atomic_file.hpp"
 #include "service/pipeline/interruption.hpp"
 #include "service/pipeline/results_folder.hpp"
@@ -26,9 +26,8 @@ namespace fs = std::filesystem;
 using namespace pipeline;
 
 struct SimArguments {
-  std::string scenario;
+  ScenarioArguments scenario;
   std::optional<fs::path> output;
-  std::vector<std::string> settings;
   std::optional<double> real_time_factor;
   Verbosity verbosity;
   bool force = false;
@@ -45,8 +44,7 @@ SimulatedLogs OpenLogs(const sim::Simulation& simulation, const ResultsFolder& f
 
 ExitCode RunSim(const SimArguments& arguments) {
   StartMessages(arguments.verbosity);
-  const auto scenario = config::LoadOptions<sim::ScenarioOptions>(
-      {.file = config::FindScenario(arguments.scenario), .settings = arguments.settings});
+  const sim::ScenarioOptions scenario = LoadScenario(arguments.scenario);
   sim::Simulation simulation(scenario);
   const ResultsFolder folder = arguments.output ? ResultsFolder(*arguments.output, arguments.force)
                                                 : ResultsFolder::ForNow("results");
@@ -80,24 +78,6 @@ ExitCode RunSim(const SimArguments& arguments) {
 
 }  // namespace
 
-void AddScenarioSettings(CLI::App& parser, std::vector<std::string>& settings) {
-  // Through the settings, so that they are checked like what a file says.
-  parser
-      .add_option_function<std::string>(
-          "--seed",
-          [&settings](const std::string& seed) { settings.push_back("seed=" + seed); },
-          "another seed than the scenario's")
-      ->type_name("N")
-      ->group("Simulation");
-  parser
-      .add_option_function<std::string>(
-          "--duration",
-          [&settings](const std::string& time) { settings.push_back("duration_s=" + time); },
-          "simulated seconds at most")
-      ->type_name("S")
-      ->group("Simulation");
-}
-
 Command AddSimCommand(CLI::App& program) {
   CLI::App* parser = program.add_subcommand("sim", "logs of simulated robots, with the truth");
   auto arguments = std::make_shared<SimArguments>();
@@ -109,7 +89,7 @@ Command AddSimCommand(CLI::App& program) {
       "  qwsm sim team --speed 1                      in real time");
   parser
       ->add_option("SCENARIO",
-                   arguments->scenario,
+                   arguments->scenario.scenario,
                    "a YAML file, or park, corridor, office, rubble, campus or team")
       ->required()
       ->type_name("");
@@ -117,8 +97,10 @@ Command AddSimCommand(CLI::App& program) {
       ->add_option("-o,--output", arguments->output, "folder for the results; else results/<time>")
       ->type_name("DIR");
   parser->add_flag("--force", arguments->force, "write into a folder that holds other things");
-  AddScenarioSettings(*parser, arguments->settings);
-  parser->add_option("--set", arguments->settings, "one option of the scenario; may be repeated")
+  AddScenarioSettings(*parser, arguments->scenario);
+  parser
+      ->add_option(
+          "--set", arguments->scenario.settings, "one option of the scenario; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false)
       ->group("Simulation");

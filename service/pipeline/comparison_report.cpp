@@ -96,8 +96,10 @@ std::string ComparisonCsv(const std::list<Contestant>& contestants) {
 std::string ComparisonJson(const std::list<Contestant>& contestants) {
   Json json;
   for (const Contestant& contestant : contestants) {
-    json["matchers"].push_back(Json::parse(MetricsJson(
-        contestant.results.statistics(), contestant.mapper.map(), contestant.matcher())));
+    json["matchers"].push_back(Json::parse(MetricsJson(contestant.results.statistics(),
+                                                       contestant.mapper.map(),
+                                                       contestant.matcher(),
+                                                       contestant.results.truth_report())));
   }
   for (const Duel& duel : Duels(contestants)) {
     const MatcherComparison& comparison = duel.comparison;

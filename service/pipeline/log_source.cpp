@@ -33,6 +33,8 @@ std::optional<Observation> LogSource::Read() {
       ++current_;
     } else if (auto* reading = std::get_if<io::ScanReading>(&*record)) {
       return Observation{.scan = std::move(reading->scan), .T_odom_robot = reading->T_odom_robot};
+    } else if (const auto* pose = std::get_if<io::TruePoseReading>(&*record)) {
+      truth_.push_back({.stamp = pose->stamp, .T_map_robot = pose->T_world_robot});
     }
   }
   return std::nullopt;

@@ -23,6 +23,7 @@ class LogSource final : public ScanSource {
   /// @throws io::LogError where a log is damaged, after everything before the damage was given.
   std::optional<Observation> Next() override;
   SourceProgress progress() const override;
+  const Trajectory& truth() const override { return truth_; }
 
   /// What Next() will give; null at the end.
   const Observation* Peek();
@@ -37,6 +38,7 @@ class LogSource final : public ScanSource {
   std::size_t current_ = 0;
   std::size_t scans_ = 0;
   std::optional<Observation> ahead_;  // Peeked at.
+  Trajectory truth_;
 };
 
 }  // namespace qwsm::pipeline

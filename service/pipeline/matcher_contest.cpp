@@ -31,10 +31,10 @@ std::vector<MappingRun> MatcherContest::runs() {
   return runs;
 }
 
-void MatcherContest::Finish(const OccupancyGridOptions& rendering) {
+void MatcherContest::Finish(const OccupancyGridOptions& rendering, const Trajectory& truth) {
   std::vector<io::ResidualSeries> residuals;
   for (Contestant& contestant : contestants_) {
-    contestant.results.Finish(contestant.mapper, rendering);
+    contestant.results.Finish(contestant.mapper, rendering, truth);
     // The first matcher stands in front, as in the paper.
     residuals.insert(residuals.begin(),
                      {.name = std::string(NameOf(contestant.matcher())),

@@ -41,7 +41,8 @@ class MatcherContest {
 
   /// Writes every matcher's results, and what compares them: figures per scan (comparison.csv), on
   /// average (metrics.json), and residuals as in the paper's Figure 4 (residual.png).
-  void Finish(const OccupancyGridOptions& rendering);
+  /// @param truth of the robot in a frame of its own; empty where it is not known.
+  void Finish(const OccupancyGridOptions& rendering, const Trajectory& truth = {});
 
  private:
   ResultsFolder folder_;

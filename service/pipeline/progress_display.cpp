@@ -46,10 +46,18 @@ std::string ProgressLine(const std::string& task,
   }
   line += fmt::format("  {}{} scans", WithThousands(progress.scans), total);
   if (elapsed.count() > 0.0) line += fmt::format("  {:.0f} scan/s", scans / elapsed.count());
+  if (progress.simulated) line += "  " + SimulatedTimeText(*progress.simulated, elapsed);
   if (has_share) {
     line += "  ETA " + MinutesAndSeconds(elapsed.count() * (1.0 / *progress.share - 1.0));
   }
   return line + fmt::format("  dropped {}", progress.dropped);
+}
+
+std::string SimulatedTimeText(std::chrono::duration<double> simulated,
+                              std::chrono::duration<double> elapsed) {
+  std::string text = fmt::format("{:.0f} s simulated", simulated.count());
+  if (elapsed.count() > 0.0) text += fmt::format("  {:.3g} x real time", simulated / elapsed);
+  return text;
 }
 
 ProgressStyle StyleFor(std::FILE* stream) {

@@ -17,6 +17,10 @@ std::string ProgressLine(const std::string& task,
                          const SourceProgress& progress,
                          std::chrono::duration<double> elapsed);
 
+/// `504 s simulated  3100 x real time`.
+std::string SimulatedTimeText(std::chrono::duration<double> simulated,
+                              std::chrono::duration<double> elapsed);
+
 /// 4210 as `4 210`.
 std::string WithThousands(std::size_t number);
 

@@ -6,11 +6,13 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "service/io/atomic_file.hpp"
 #include "service/io/map_picture.hpp"
 #include "service/io/residual_plot.hpp"
 #include "service/io/ros_map_file.hpp"
+#include "service/io/trajectory_file.hpp"
 #include "service/pipeline/run_report.hpp"
 
 namespace qwsm::pipeline {
@@ -25,23 +27,34 @@ void ResultsWriter::Take(const TimedStep& timed) {
   history_.Take(timed);
 }
 
-void ResultsWriter::Finish(const Mapper& mapper, const OccupancyGridOptions& rendering) {
+void ResultsWriter::Finish(const Mapper& mapper,
+                           const OccupancyGridOptions& rendering,
+                           const Trajectory& truth) {
   trajectory_.Commit();
   table_.Commit();
   const MatcherKind matcher = mapper.options().matcher;
-  io::WriteTextFile(folder_ / "metrics.json", MetricsJson(statistics_, mapper.map(), matcher));
+  const std::vector<io::PathPose>& path = history_.overlay().path;
+  const Trajectory truth_in_map = TruthInMap(path, truth);
+  truth_report_ = CompareWithTruth(path, truth);
+  if (!truth_in_map.empty()) io::WriteTumFile(folder_ / "truth.tum", truth_in_map);
+  io::WriteTextFile(folder_ / "metrics.json",
+                    MetricsJson(statistics_, mapper.map(), matcher, truth_report_));
   const std::array<io::ResidualSeries, 1> series{
       {{.name = std::string(NameOf(matcher)), .residual_mm = history_.residuals_mm()}}};
   io::WriteResidualPlot(folder_ / "residual.png", series);
-  DrawMap(mapper, rendering);
+  DrawMap(mapper, rendering, truth_in_map);
 }
 
-void ResultsWriter::DrawMap(const Mapper& mapper, const OccupancyGridOptions& rendering) const {
+void ResultsWriter::DrawMap(const Mapper& mapper,
+                            const OccupancyGridOptions& rendering,
+                            Trajectory truth_in_map) const {
   const std::optional<OccupancyGrid> grid = RenderOrWarn(mapper.map(), rendering);
   if (!grid) return;
   io::WriteRosMap(folder_ / "map.yaml", *grid);
   io::WriteMapPicture(folder_ / "map.png", *grid);
-  io::WriteTrajectoryPicture(folder_ / "trajectory.png", *grid, history_.overlay());
+  io::MapOverlay overlay = history_.overlay();
+  overlay.truth = std::move(truth_in_map);
+  io::WriteTrajectoryPicture(folder_ / "trajectory.png", *grid, overlay);
 }
 
 std::optional<OccupancyGrid> RenderOrWarn(const ScanMap& map, OccupancyGridOptions rendering) {

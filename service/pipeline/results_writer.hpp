@@ -10,6 +10,7 @@
 #include "service/pipeline/run_statistics.hpp"
 #include "service/pipeline/scan_table_sink.hpp"
 #include "service/pipeline/trajectory_sink.hpp"
+#include "service/pipeline/truth_report.hpp"
 
 namespace qwsm::pipeline {
 
@@ -23,18 +24,26 @@ class ResultsWriter final : public StepSink {
   void Take(const TimedStep& timed) override;
 
   /// Writes what can only be known at the end. Whatever cannot be drawn is warned of.
-  void Finish(const Mapper& mapper, const OccupancyGridOptions& rendering);
+  /// @param truth of the robot in a frame of its own; empty where it is not known.
+  void Finish(const Mapper& mapper,
+              const OccupancyGridOptions& rendering,
+              const Trajectory& truth = {});
 
   const RunStatistics& statistics() const { return statistics_; }
+  /// After Finish(), where the truth is known.
+  const std::optional<TruthReport>& truth_report() const { return truth_report_; }
 
  private:
-  void DrawMap(const Mapper& mapper, const OccupancyGridOptions& rendering) const;
+  void DrawMap(const Mapper& mapper,
+               const OccupancyGridOptions& rendering,
+               Trajectory truth_in_map) const;
 
   ResultsFolder folder_;
   TrajectorySink trajectory_;
   ScanTableSink table_;
   RunStatistics statistics_;
   RunHistory history_;
+  std::optional<TruthReport> truth_report_;
 };
 
 /// The map at the wanted cell size, or, with a warning, at the smallest one that can be rendered;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "qwsm/geometry/angle.hpp"
 #include "service/pipeline/progress_display.hpp"
 
 namespace qwsm::pipeline {
@@ -17,6 +18,15 @@ double ScansPerSecond(const RunStatistics& run) {
   return time_s > 0.0 ? static_cast<double>(run.scans()) / time_s : 0.0;
 }
 
+void AddTo(nlohmann::ordered_json& json, const TruthReport& truth) {
+  json["ate_rmse_m"] = truth.ate_rmse_m;
+  json["ate_from_start_rmse_m"] = truth.ate_from_start_rmse_m;
+  json["heading_rmse_deg"] = RadiansToDegrees(truth.heading_rmse_rad);
+  json["loop_gap_m"] = truth.loop_gap_m;
+  json["nees"] = truth.nees.mean;
+  json["share_in_95_percent_ellipsoid"] = truth.nees.share_in_95_percent_ellipsoid;
+}
+
 }  // namespace
 
 std::string_view NameOf(MatcherKind matcher) {
@@ -25,7 +35,10 @@ std::string_view NameOf(MatcherKind matcher) {
   return found->first;
 }
 
-std::string MetricsJson(const RunStatistics& run, const ScanMap& map, MatcherKind matcher) {
+std::string MetricsJson(const RunStatistics& run,
+                        const ScanMap& map,
+                        MatcherKind matcher,
+                        const std::optional<TruthReport>& truth) {
   const PointQuadtreeStatistics points = map.surfaces().quadtree().Statistics();
   nlohmann::ordered_json json;
   json["matcher"] = NameOf(matcher);
@@ -48,10 +61,13 @@ std::string MetricsJson(const RunStatistics& run, const ScanMap& map, MatcherKin
   json["map"]["quadtree_nodes"] = points.nodes;
   json["map"]["quadtree_depth"] = points.depth;
   json["map"]["quadtree_bytes"] = points.bytes;
+  if (truth) AddTo(json, *truth);
   return json.dump(2) + "\n";
 }
 
-std::string SummaryText(const RunStatistics& run, const ScanMap& map) {
+std::string SummaryText(const RunStatistics& run,
+                        const ScanMap& map,
+                        const std::optional<TruthReport>& truth) {
   const PointQuadtreeStatistics points = map.surfaces().quadtree().Statistics();
   std::string text = fmt::format("scans          {}", WithThousands(run.scans()));
   if (run.scans() == 0) return text + "\n";
@@ -71,6 +87,13 @@ std::string SummaryText(const RunStatistics& run, const ScanMap& map) {
                       WithThousands(points.points),
                       WithThousands(map.scans().size()),
                       static_cast<double>(points.bytes) * 1e-6);
+  if (truth) {
+    text += fmt::format(
+        "truth          ATE {:.3f} m rmse, {:.3f} m from tip to tail; NEES {:.2f} (3 is right)\n",
+        truth->ate_rmse_m,
+        truth->loop_gap_m,
+        truth->nees.mean);
+  }
   return text;
 }
 

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "service/pipeline/run_statistics.hpp"
+#include "service/pipeline/truth_report.hpp"
 
 namespace qwsm::pipeline {
 
@@ -13,9 +15,14 @@ namespace qwsm::pipeline {
 std::string_view NameOf(MatcherKind matcher);
 
 /// The figures of a run as JSON; every name ends in its unit. Names are only ever added.
-std::string MetricsJson(const RunStatistics& run, const ScanMap& map, MatcherKind matcher);
+std::string MetricsJson(const RunStatistics& run,
+                        const ScanMap& map,
+                        MatcherKind matcher,
+                        const std::optional<TruthReport>& truth);
 
 /// The same in a few lines for people.
-std::string SummaryText(const RunStatistics& run, const ScanMap& map);
+std::string SummaryText(const RunStatistics& run,
+                        const ScanMap& map,
+                        const std::optional<TruthReport>& truth);
 
 }  // namespace qwsm::pipeline

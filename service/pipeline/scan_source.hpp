@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "qwsm/mapping/observation.hpp"
+#include "qwsm/metrics/stamped_pose.hpp"
 
 namespace qwsm::pipeline {
 
@@ -16,6 +18,8 @@ struct SourceProgress {
   std::size_t scans = 0;          ///< Given so far.
   std::size_t dropped = 0;        ///< Lost on the way here: malformed, or a full queue.
   std::optional<double> share{};  ///< Of all there is, 0..1; unknown for what has no known end.
+  /// Of a simulation.
+  std::optional<std::chrono::duration<double>> simulated{};
 };
 
 /// Where observations come from: a log, a simulator, a robot.
@@ -30,6 +34,12 @@ class ScanSource {
   virtual std::optional<Observation> Next() = 0;
 
   virtual SourceProgress progress() const = 0;
+
+  /// True poses in some frame of their own, of the scans given so far; empty where unknown.
+  virtual const Trajectory& truth() const {
+    static const Trajectory kUnknown;
+    return kUnknown;
+  }
 
   /// What was found so far, in lines for the record of the run.
   virtual std::vector<std::string> Describe() const { return {}; }

@@ -22,13 +22,10 @@ bool RunSimulation(sim::Simulation& simulation,
 
 std::string SimulationProgressLine(const sim::Simulation& simulation,
                                    std::chrono::duration<double> elapsed) {
-  const double simulated_s = std::chrono::duration<double>(simulation.now()).count();
   const double share = simulation.share_done();
-  std::string line =
-      fmt::format("sim  {:2.0f} %  {:.0f} s simulated", std::floor(100.0 * share), simulated_s);
-  if (elapsed.count() > 0.0) {
-    line += fmt::format("  {:.3g} x real time", simulated_s / elapsed.count());
-  }
+  std::string line = fmt::format("sim  {:2.0f} %  {}",
+                                 std::floor(100.0 * share),
+                                 SimulatedTimeText(simulation.now(), elapsed));
   if (share > 0.0) line += "  ETA " + MinutesAndSeconds(elapsed.count() * (1.0 / share - 1.0));
   return line;
 }

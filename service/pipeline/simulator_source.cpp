@@ -14,7 +14,8 @@ std::optional<Observation> SimulatorSource::Next() {
 }
 
 SourceProgress SimulatorSource::progress() const {
-  return {.scans = truth_.size(), .share = simulation_.share_done()};
+  return {
+      .scans = truth_.size(), .share = simulation_.share_done(), .simulated = simulation_.now()};
 }
 
 }  // namespace qwsm::pipeline

@@ -22,7 +22,7 @@ class SimulatorSource final : public ScanSource {
   SourceProgress progress() const override;
 
   /// The true pose in the world at every scan given so far.
-  const Trajectory& truth() const { return truth_; }
+  const Trajectory& truth() const override { return truth_; }
   const sim::Simulation& simulation() const { return simulation_; }
 
  private:

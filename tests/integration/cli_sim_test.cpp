@@ -68,6 +68,12 @@ TEST_F(SimCommand, GivesTheSameForTheSameSeedOnly) {
   EXPECT_NE(ReadFile(File("a", "robot.log")), ReadFile(File("c", "robot.log")));
 }
 
+TEST_F(SimCommand, KeepsTheSeedWhereOtherSettingsAreGiven) {
+  Simulate("park", {"--seed", "2", "--duration", "3", "--set", "ground.everywhere=floor"}, "a");
+  EXPECT_NE(ReadFile(File("a", "scenario.yaml")).find("seed: 2"), std::string::npos);
+  EXPECT_NE(ReadFile(File("a", "scenario.yaml")).find("duration_s: 3"), std::string::npos);
+}
+
 TEST_F(SimCommand, CanBeRunAgainFromWhatItLeft) {
   Simulate("office", {"--duration", "5", "--set", "robots[0].laser.beams=91"}, "a");
   const Outcome outcome = Simulate(File("a", "scenario.yaml"), {}, "b");

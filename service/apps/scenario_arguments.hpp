@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/scenario.hpp"
+
+namespace qwsm::apps {
+
+/// Which scenario is run, and with which changes.
+struct ScenarioArguments {
+  std::string scenario;               ///< A file, or the name of a shipped one.
+  std::vector<std::string> settings;  ///< `key=value`, as given after --set.
+  std::optional<std::string> seed;
+  std::optional<std::string> duration_s;
+};
+
+/// Adds --seed and --duration.
+void AddScenarioSettings(CLI::App& parser, ScenarioArguments& arguments);
+
+/// The scenario with all changes. @throws config::ConfigError naming every problem at once.
+sim::ScenarioOptions LoadScenario(const ScenarioArguments& arguments);
+
+/// Takes those `key=value` out of `settings` whose key is an option of scenarios.
+std::vector<std::string> TakeScenarioSettings(std::vector<std::string>& settings);
+
+}  // namespace qwsm::apps
