@@ -5,19 +5,19 @@
 #include <cassert>
 #include <memory>
 
-#include "slam6d/src/icp/point_minimizer.hpp"
-#include "slam6d/src/icp/surfel_minimizer.hpp"
+#include "slam6d/src/icp/point_pairs.hpp"
+#include "slam6d/src/icp/surfel_pairs.hpp"
 
 namespace slam6d {
 namespace {
 
-std::unique_ptr<IcpMinimizer> MakeMinimizer(const ScanModel& ref,
+std::unique_ptr<IcpMinimizer> MakeMinimizer(std::span<const IcpReference> references,
                                             const ScanModel& cur,
                                             const IcpOptions& options) {
   if (options.metric == IcpMetric::kPointToPoint) {
-    return std::make_unique<PointMinimizer>(ref.tree, cur.points, options);
+    return std::make_unique<JointMinimizer<PointPairs>>(references, cur, options);
   }
-  return std::make_unique<SurfelMinimizer>(ref, cur, options);
+  return std::make_unique<JointMinimizer<SurfelPairs>>(references, cur, options);
 }
 
 bool IsSmall(const Pose3& before, const Pose3& after, const IcpOptions& options) {
@@ -30,7 +30,7 @@ IcpResult Stop(IcpResult result, IcpStatus status, const IcpMinimizer& minimizer
   result.status = status;
   result.search = minimizer.statistics();
   if (status == IcpStatus::kConverged || status == IcpStatus::kIterationLimit) {
-    result.covariance = minimizer.Covariance(result.T_ref_cur);
+    result.covariance = minimizer.Covariance();
   }
   return result;
 }
@@ -56,10 +56,19 @@ IcpResult Align(const ScanModel& ref,
                 const Pose3& T_ref_cur_guess,
                 const IcpOptions& options,
                 IcpTrace* trace) {
-  assert(IsFinite(T_ref_cur_guess) && "the guess is a pose");
-  const std::unique_ptr<IcpMinimizer> minimizer = MakeMinimizer(ref, cur, options);
-  IcpResult result{.T_ref_cur = T_ref_cur_guess};
-  if (trace != nullptr) trace->assign(1, T_ref_cur_guess);
+  const IcpReference reference{.model = &ref, .T_map_ref = {}};
+  return Align(std::span(&reference, 1), cur, T_ref_cur_guess, options, trace);
+}
+
+IcpResult Align(std::span<const IcpReference> references,
+                const ScanModel& cur,
+                const Pose3& T_map_cur_guess,
+                const IcpOptions& options,
+                IcpTrace* trace) {
+  assert(IsFinite(T_map_cur_guess) && "the guess is a pose");
+  const std::unique_ptr<IcpMinimizer> minimizer = MakeMinimizer(references, cur, options);
+  IcpResult result{.T_ref_cur = T_map_cur_guess};
+  if (trace != nullptr) trace->assign(1, T_map_cur_guess);
   for (result.iterations = 1; result.iterations <= options.max_iterations; ++result.iterations) {
     const IcpStep step = minimizer->Iterate(result.T_ref_cur, result.iterations);
     result.pairs = step.pairs;
@@ -67,10 +76,10 @@ IcpResult Align(const ScanModel& ref,
     if (step.pairs < static_cast<std::size_t>(options.min_pairs)) {
       return Stop(result, IcpStatus::kTooFewPairs, *minimizer);
     }
-    if (!step.motion_ref) return Stop(result, IcpStatus::kDegenerate, *minimizer);
+    if (!step.motion_map) return Stop(result, IcpStatus::kDegenerate, *minimizer);
 
     const Pose3 before = result.T_ref_cur;
-    result.T_ref_cur = *step.motion_ref * before;
+    result.T_ref_cur = *step.motion_map * before;
     result.T_ref_cur.rotation = NearestRotation(result.T_ref_cur.rotation);
     if (trace != nullptr) trace->push_back(result.T_ref_cur);
     if (step.settled && IsSmall(before, result.T_ref_cur, options)) {

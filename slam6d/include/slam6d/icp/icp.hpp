@@ -116,4 +116,18 @@ IcpResult Align(const ScanModel& ref,
                 const IcpOptions& options,
                 IcpTrace* trace = nullptr);
 
+/// A scan that stands still in the frame map.
+struct IcpReference {
+  const ScanModel* model;
+  Pose3 T_map_ref;
+};
+
+/// Aligns `cur` with all references at once: each of its points is paired in every one of them.
+/// `ref` stands for map in the result.
+IcpResult Align(std::span<const IcpReference> references,
+                const ScanModel& cur,
+                const Pose3& T_map_cur_guess,
+                const IcpOptions& options,
+                IcpTrace* trace = nullptr);
+
 }  // namespace slam6d

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "slam6d/src/icp/point_minimizer.hpp"
+#include "slam6d/src/icp/point_pairs.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -47,20 +46,49 @@ PairSums SumInOrder(const std::vector<PairSums>& parts) {
 
 }  // namespace
 
-PointMinimizer::PointMinimizer(const KdTree& ref, const PointCloud& cur, const IcpOptions& options)
-    : cur_(cur),
+PointSums PointSums::In(const Pose3& T_map_ref) const {
+  const Eigen::Matrix3d& R = T_map_ref.rotation;
+  return {.moments = {.count = moments.count,
+                      .center_ref_m = T_map_ref * moments.center_ref_m,
+                      .center_cur_m = T_map_ref * moments.center_cur_m,
+                      .H_m2 = R * moments.H_m2 * R.transpose()},
+          .distance2_m2 = distance2_m2};
+}
+
+PointSums& PointSums::operator+=(const PointSums& other) {
+  if (other.moments.count == 0.0) return *this;
+  const PairMoments& a = moments;
+  const PairMoments& b = other.moments;
+  PairMoments both{.count = a.count + b.count};
+  const double share = b.count / both.count;
+  const Eigen::Vector3d apart_ref_m = b.center_ref_m - a.center_ref_m;
+  const Eigen::Vector3d apart_cur_m = b.center_cur_m - a.center_cur_m;
+  both.center_ref_m = a.center_ref_m + share * apart_ref_m;
+  both.center_cur_m = a.center_cur_m + share * apart_cur_m;
+  // Chan, Golub & LeVeque (1979): moments of two sets from those of each.
+  both.H_m2 = a.H_m2 + b.H_m2 + a.count * share * apart_cur_m * apart_ref_m.transpose();
+  moments = both;
+  distance2_m2 += other.distance2_m2;
+  return *this;
+}
+
+PointPairs::PointPairs(const ScanModel& ref, const ScanModel& cur, const IcpOptions& options)
+    : cur_(cur.points),
       options_(options),
-      search_(ref, cur.size(), {.max_distance_m = options.max_distance_m, .start = options.search}),
-      simd_(ref.simd()),
-      cur_ref_(cur.size()),
-      origin_m_(MiddleOf(ref)),
+      search_(ref.tree,
+              cur.points.size(),
+              {.max_distance_m = options.max_distance_m, .start = options.search}),
+      simd_(ref.tree.simd()),
+      cur_ref_(cur.points.size()),
+      origin_m_(MiddleOf(ref.tree)),
       counted_distance2_m2_(search_.max_distance2_m2()) {}
 
-IcpStep PointMinimizer::Iterate(const Pose3& T_ref_cur, int iteration) {
+PointSums PointPairs::Collect(const Pose3& T_ref_cur, int iteration) {
   if (iteration > 1 && options_.max_rms_ratio > 0.0) {
     const double limit_m = options_.max_rms_ratio * rms_residual_m_;
     counted_distance2_m2_ = std::min(search_.max_distance2_m2(), limit_m * limit_m);
   }
+  center_ref_m_ = T_ref_cur.translation_m;
   const std::size_t chunks = (cur_.size() + kChunkSize - 1) / kChunkSize;
   std::vector<PairSums> sums(chunks);
   std::vector<SearchStatistics> statistics(chunks);
@@ -81,23 +109,33 @@ IcpStep PointMinimizer::Iterate(const Pose3& T_ref_cur, int iteration) {
   for (const SearchStatistics& part : statistics) statistics_ += part;
 
   const PairSums total = SumInOrder(sums);
-  const PairMoments moments = MomentsOf(total, origin_m_);
-  rms_residual_m_ = std::sqrt(total.value[1] / std::max(moments.count, 1.0));
-  return {.pairs = static_cast<std::size_t>(moments.count),
-          .rms_residual_m = rms_residual_m_,
-          .motion_ref = AlignPairs(moments, options_.closed_form)};
+  const PointSums result{.moments = MomentsOf(total, origin_m_), .distance2_m2 = total.value[1]};
+  rms_residual_m_ = std::sqrt(result.distance2_m2 / std::max(result.moments.count, 1.0));
+  return result;
 }
 
-Matrix6d PointMinimizer::Covariance(const Pose3& T_ref_cur) const {
+IcpStep PointPairs::Step(const Sums& sums, const Pose3&, const IcpOptions& options) {
+  return {
+      .pairs = static_cast<std::size_t>(sums.moments.count),
+      .rms_residual_m = std::sqrt(sums.distance2_m2 / std::max(sums.moments.count, 1.0)),
+      .motion_map = AlignPairs(sums.moments, options.closed_form),
+  };
+}
+
+Matrix6d PointPairs::Information() const {
   // Residual m - (R d + t), small rotations about the origin of cur: J = [I | -[R d]x].
   Matrix6d information = Matrix6d::Zero();
   for (std::size_t i = 0; i < cur_ref_.size(); ++i) {
     if (!(search_.distance2_m2(i) < counted_distance2_m2_)) continue;
     Eigen::Matrix<double, 3, 6> J;
-    J << Eigen::Matrix3d::Identity(), -Skew(cur_ref_[i] - T_ref_cur.translation_m);
+    J << Eigen::Matrix3d::Identity(), -Skew(cur_ref_[i] - center_ref_m_);
     information.noalias() += J.transpose() * J;
   }
-  return rms_residual_m_ * rms_residual_m_ / 3.0 * information.inverse();
+  return information;
+}
+
+double PointPairs::Misfit(const Sums& sums) {
+  return sums.distance2_m2 / std::max(sums.moments.count, 1.0) / 3.0;
 }
 
 }  // namespace slam6d

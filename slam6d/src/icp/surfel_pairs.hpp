@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "slam6d/src/icp/icp_step.hpp"
+#include "slam6d/src/icp/icp_minimizer.hpp"
 
 namespace slam6d {
 
@@ -13,19 +13,28 @@ struct NormalEquations {
   double weighted_residual2 = 0.0;  ///< Squared residuals over their variances.
   double residual2_m2 = 0.0;
   std::size_t pairs = 0;
+  bool settled = true;  ///< The scale of the residuals has its final value.
 
+  NormalEquations In(const Pose3& T_map_ref) const;
   NormalEquations& operator+=(const NormalEquations& other);
 };
 
 /// Point to plane and plane to plane: Gauss-Newton on distances along surface normals.
-class SurfelMinimizer final : public IcpMinimizer {
+class SurfelPairs {
  public:
-  /// Both must outlive the minimizer.
-  SurfelMinimizer(const ScanModel& ref, const ScanModel& cur, const IcpOptions& options);
+  using Sums = NormalEquations;
 
-  IcpStep Iterate(const Pose3& T_ref_cur, int iteration) override;
-  Matrix6d Covariance(const Pose3& T_ref_cur) const override;
-  const SearchStatistics& statistics() const override { return statistics_; }
+  /// Both scans must outlive this.
+  SurfelPairs(const ScanModel& ref, const ScanModel& cur, const IcpOptions& options);
+
+  Sums Collect(const Pose3& T_ref_cur, int iteration);
+  /// Of the pose, in the frame ref, from the pairs collected last.
+  const Matrix6d& Information() const { return information_; }
+  const SearchStatistics& statistics() const { return statistics_; }
+
+  static IcpStep Step(const Sums& sums, const Pose3& T_map_cur, const IcpOptions& options);
+  /// Factor from the inverse information to the covariance.
+  static double Misfit(const Sums& sums);
 
  private:
   /// Weights and normals of an iteration.
@@ -43,7 +52,7 @@ class SurfelMinimizer final : public IcpMinimizer {
   PointCloud cur_;
   CachedSearch search_;
   PointCloud cur_ref_;
-  NormalEquations last_;
+  Matrix6d information_ = Matrix6d::Zero();
   SearchStatistics statistics_;
 };
 

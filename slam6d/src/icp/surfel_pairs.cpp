@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "slam6d/src/icp/surfel_minimizer.hpp"
+#include "slam6d/src/icp/surfel_pairs.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -54,12 +54,21 @@ NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
   weighted_residual2 += other.weighted_residual2;
   residual2_m2 += other.residual2_m2;
   pairs += other.pairs;
+  settled = settled && other.settled;
   return *this;
 }
 
-SurfelMinimizer::SurfelMinimizer(const ScanModel& ref,
-                                 const ScanModel& cur,
-                                 const IcpOptions& options)
+NormalEquations NormalEquations::In(const Pose3& T_map_ref) const {
+  Matrix6d R = Matrix6d::Zero();
+  R.topLeftCorner<3, 3>() = T_map_ref.rotation;
+  R.bottomRightCorner<3, 3>() = T_map_ref.rotation;
+  NormalEquations moved = *this;
+  moved.A = R * A * R.transpose();
+  moved.b = R * b;
+  return moved;
+}
+
+SurfelPairs::SurfelPairs(const ScanModel& ref, const ScanModel& cur, const IcpOptions& options)
     : ref_(ref.surfels),
       cur_surfels_(options.metric == IcpMetric::kPlaneToPlane ? &cur.surfels : nullptr),
       options_(options),
@@ -69,7 +78,7 @@ SurfelMinimizer::SurfelMinimizer(const ScanModel& ref,
               {.max_distance_m = options.max_distance_m, .start = options.search}),
       cur_ref_(cur_.size()) {}
 
-void SurfelMinimizer::AddPair(const Rules& rules, std::size_t i, NormalEquations& equations) const {
+void SurfelPairs::AddPair(const Rules& rules, std::size_t i, NormalEquations& equations) const {
   if (!search_.found(i)) return;
   const std::int32_t number = ref_.surfel_of_block[search_.neighbor_slot(i) / kLanes];
   if (number == SurfelMap::kNone) return;
@@ -99,15 +108,13 @@ void SurfelMinimizer::AddPair(const Rules& rules, std::size_t i, NormalEquations
   ++equations.pairs;
 }
 
-NormalEquations SurfelMinimizer::Sum(const Rules& rules,
-                                     std::size_t first,
-                                     std::size_t last) const {
+NormalEquations SurfelPairs::Sum(const Rules& rules, std::size_t first, std::size_t last) const {
   NormalEquations equations;
   for (std::size_t i = first; i < last; ++i) AddPair(rules, i, equations);
   return equations;
 }
 
-IcpStep SurfelMinimizer::Iterate(const Pose3& T_ref_cur, int iteration) {
+NormalEquations SurfelPairs::Collect(const Pose3& T_ref_cur, int iteration) {
   const double wide_m = 0.5 * options_.max_distance_m * std::pow(kScaleShrink, iteration - 1);
   const double scale_m = std::max(options_.residual_scale_m, wide_m);
   const Rules rules{.T_ref_cur = T_ref_cur, .scale2_m2 = scale_m * scale_m};
@@ -121,27 +128,31 @@ IcpStep SurfelMinimizer::Iterate(const Pose3& T_ref_cur, int iteration) {
   };
   ForChunks(cur_.size(), kChunkSize, options_.threads, work);
   for (const SearchStatistics& part : statistics) statistics_ += part;
-  last_ = {};
-  for (const NormalEquations& part : sums) last_ += part;
+  NormalEquations total;
+  for (const NormalEquations& part : sums) total += part;
+  total.settled = wide_m <= options_.residual_scale_m;
+  information_ = total.A;
+  return total;
+}
 
-  const double count = static_cast<double>(std::max<std::size_t>(last_.pairs, 1));
-  IcpStep step{.pairs = last_.pairs,
-               .rms_residual_m = std::sqrt(last_.residual2_m2 / count),
-               .settled = wide_m <= options_.residual_scale_m};
-  if (last_.pairs < 6 || LeavesMotionOpen(last_.A)) return step;
-  const Vector6d x = last_.A.ldlt().solve(last_.b);
+IcpStep SurfelPairs::Step(const Sums& sums, const Pose3& T_map_cur, const IcpOptions&) {
+  const double count = static_cast<double>(std::max<std::size_t>(sums.pairs, 1));
+  IcpStep step{.pairs = sums.pairs,
+               .rms_residual_m = std::sqrt(sums.residual2_m2 / count),
+               .settled = sums.settled};
+  if (sums.pairs < 6 || LeavesMotionOpen(sums.A)) return step;
+  const Vector6d x = sums.A.ldlt().solve(sums.b);
   // The rotation is about the origin of cur: T <- (x, R(x) about t).
   const Eigen::Matrix3d rotation = RotationFromVector(x.tail<3>());
-  step.motion_ref = Pose3{
+  step.motion_map = Pose3{
       .rotation = rotation,
-      .translation_m = x.head<3>() + T_ref_cur.translation_m - rotation * T_ref_cur.translation_m};
+      .translation_m = x.head<3>() + T_map_cur.translation_m - rotation * T_map_cur.translation_m};
   return step;
 }
 
-Matrix6d SurfelMinimizer::Covariance(const Pose3&) const {
-  const double freedom = std::max(static_cast<double>(last_.pairs) - 6.0, 1.0);
-  const double misfit = std::max(last_.weighted_residual2 / freedom, 1.0);
-  return misfit * last_.A.ldlt().solve(Matrix6d::Identity());
+double SurfelPairs::Misfit(const Sums& sums) {
+  const double freedom = std::max(static_cast<double>(sums.pairs) - 6.0, 1.0);
+  return std::max(sums.weighted_residual2 / freedom, 1.0);
 }
 
 }  // namespace slam6d

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "slam6d/geometry/pose3.hpp"
+
+namespace slam6d {
+
+/// Which earlier scans may show the same place again (paper section 3.4).
+struct LoopOptions {
+  bool enabled = true;
+  int min_scans_between = 10;  ///< Nearer ones in the sequence are no loop.
+  double max_distance_m = 15.0;
+  double max_range_share = 0.5;  ///< Nor farther than this share of the scanner's range.
+  int max_hypotheses = 3;        ///< The nearest are tried.
+  double min_overlap = 0.4;      ///< Of the cubes, for a loop to be believed.
+};
+
+template <class Visitor>
+void Describe(Visitor& visit, LoopOptions& o) {
+  visit("enabled", o.enabled, {.help = "look for loops and close them"});
+  visit("min_scans_between",
+        o.min_scans_between,
+        {.help = "scans nearer in the sequence are no loop", .min = 1, .max = 1e6});
+  visit("max_distance_m",
+        o.max_distance_m,
+        {.help = "scans farther apart are not tried", .min = 0, .max = 1e6});
+  visit("max_range_share",
+        o.max_range_share,
+        {.help = "nor those farther apart than this share of the scanner's range",
+         .min = 0,
+         .max = 2});
+  visit("max_hypotheses",
+        o.max_hypotheses,
+        {.help = "earlier scans tried, the nearest first", .min = 0, .max = 1000});
+  visit("min_overlap",
+        o.min_overlap,
+        {.help = "share of overlapping cubes for a loop to be believed", .min = 0, .max = 1});
+}
+
+/// The earlier scans that the last of the poses may have come back to, nearest first.
+/// @param range_m how far the scanner sees.
+std::vector<std::size_t> LoopHypotheses(std::span<const Pose3> T_map_scan,
+                                        double range_m,
+                                        const LoopOptions& options);
+
+}  // namespace slam6d

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "slam6d/cloud/reduction.hpp"
+#include "slam6d/cloud/scan_model.hpp"
+#include "slam6d/icp/icp.hpp"
+#include "slam6d/mapping/loop_hypotheses.hpp"
+#include "slam6d/mapping/model_refinement.hpp"
+#include "slam6d/mapping/octree_overlap.hpp"
+#include "slam6d/mapping/pose_graph.hpp"
+
+namespace slam6d {
+
+struct SlamOptions {
+  double min_range_m = 0.0;
+  double max_range_m = 0.0;  ///< Points farther off are misses; 0: there are none.
+  ReductionOptions reduction{};
+  KdTreeOptions tree{};
+  OverlapOptions guess{};
+  IcpOptions icp{};
+  int references = 3;        ///< Scans before, with all of which a scan is registered at once.
+  double min_overlap = 0.2;  ///< Of the cubes, for a match to be believed.
+  LoopOptions loop{};
+  RefinementOptions refinement{};
+};
+
+template <class Visitor>
+void Describe(Visitor& visit, SlamOptions& o) {
+  visit("min_range_m", o.min_range_m, {.help = "nearer points are dropped", .min = 0, .max = 1e6});
+  visit("max_range_m",
+        o.max_range_m,
+        {.help = "farther points are dropped; 0 keeps all", .min = 0, .max = 1e6});
+  visit("reduction", o.reduction, {.help = "thinning of the scans by an octree"});
+  visit("tree", o.tree, {.help = "the kd-tree of a scan"});
+  visit("guess", o.guess, {.help = "initial guess by overlapping octrees"});
+  visit("icp", o.icp, {.help = "registration of two scans"});
+  visit("references",
+        o.references,
+        {.help = "scans before, with all of which a scan is registered at once",
+         .min = 1,
+         .max = 1000});
+  visit("min_overlap",
+        o.min_overlap,
+        {.help = "share of overlapping cubes for a match to be believed", .min = 0, .max = 1});
+  visit("loop", o.loop, {.help = "closing of loops"});
+  visit("refinement", o.refinement, {.help = "fit of all scans to each other at the end"});
+}
+
+/// How a scan got its pose.
+enum class SlamStatus {
+  kFirst,         ///< It is where the map begins.
+  kMatched,       ///< Registered with the scans before.
+  kDeadReckoned,  ///< Could not be registered: odometry alone.
+  kUnusable,      ///< Too few points, or all the same: odometry alone, and no reference for others.
+};
+
+std::string_view NameOf(SlamStatus status);
+
+/// What became of one scan.
+struct SlamStep {
+  SlamStatus status = SlamStatus::kUnusable;
+  Pose3 T_map_scan;
+  std::size_t points = 0;               ///< After the reduction.
+  IcpResult match{};                    ///< With the scans before; its `ref` is the map.
+  double overlap = 0.0;                 ///< With the scans before, after the match.
+  std::vector<std::size_t> loops_to{};  ///< Earlier scans with which a loop was closed.
+};
+
+/// The pose of scan n + 1 from that of scan n and the odometry of both (paper section 3.1): the
+/// change that odometry saw in the plane happens in the plane in which the robot really stands.
+Pose3 ExtrapolateOdometry(const Pose3& T_map_last,
+                          const Pose3& T_odom_last,
+                          const Pose3& T_odom_scan);
+
+/// 6D SLAM (paper section 3): scans taken one after the other, in one consistent model.
+class Slam {
+ public:
+  /// @param closer outlives this.
+  Slam(const SlamOptions& options, const LoopCloser& closer);
+
+  /// Adds a scan. The poses of earlier ones change where it closes a loop.
+  /// @param scan in the scanner's frame. @param T_odom_scan its pose by odometry, or any estimate.
+  SlamStep Add(const PointCloud& scan, const Pose3& T_odom_scan);
+
+  /// Fits all scans to each other.
+  RefinementResult Refine(const RefinementObserver& observer = {});
+
+  const std::vector<Pose3>& T_map_scan() const { return graph_.T_map_scan; }
+  const PoseGraph& graph() const { return graph_; }
+  const SlamOptions& options() const { return options_; }
+
+ private:
+  struct Entry {
+    Pose3 T_odom_scan;
+    double range_m;  ///< How far it sees.
+    ScanModel model;
+    OverlapModel overlap;
+  };
+  struct Registration {
+    IcpResult icp;  ///< Its `ref` is the map.
+    double overlap = 0.0;
+    bool trusted = false;
+  };
+
+  Registration Register(std::span<const std::size_t> references,
+                        const Entry& cur,
+                        const Pose3& T_map_cur_guess,
+                        const OverlapOptions& search) const;
+  std::vector<std::size_t> LastUsable(int count) const;
+  void Constrain(std::size_t from, std::size_t to, const UncertainPose3& T_map_to);
+  void Match(const Entry& entry, SlamStep& step);
+  void CloseLoops(SlamStep& step);
+
+  SlamOptions options_;
+  const LoopCloser& closer_;
+  std::deque<std::optional<Entry>> entries_;  ///< Nothing for unusable scans.
+  Pose3 T_odom_last_;
+  PoseGraph graph_;
+};
+
+}  // namespace slam6d

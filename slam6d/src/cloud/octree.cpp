@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slam6d/cloud/octree.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace slam6d {
+namespace {
+
+/// Spreads 21 bits so that two zeros stand between each two of them.
+std::uint64_t SpreadBits(std::uint64_t bits) {
+  bits = (bits | bits << 32U) & 0x1f00000000ffffU;
+  bits = (bits | bits << 16U) & 0x1f0000ff0000ffU;
+  bits = (bits | bits << 8U) & 0x100f00f00f00f00fU;
+  bits = (bits | bits << 4U) & 0x10c30c30c30c30c3U;
+  return (bits | bits << 2U) & 0x1249249249249249U;
+}
+
+/// Morton (1966): the cubes in the order in which one walks through the octree.
+std::uint64_t MortonCode(const CubePlace& place) {
+  return SpreadBits(place[0]) | SpreadBits(place[1]) << 1U | SpreadBits(place[2]) << 2U;
+}
+
+/// Farther away nothing was ever measured; and the extent of what is nearer is a number.
+constexpr double kFarthestM = 1e9;
+
+/// A cloud's finite points and the box around them.
+struct Extent {
+  std::vector<std::uint32_t> points;
+  Eigen::Vector3d low_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d high_m = Eigen::Vector3d::Zero();
+};
+
+Extent ExtentOf(const PointCloud& cloud) {
+  Extent extent;
+  extent.points.reserve(cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3d point_m = cloud[i];
+    if (!(point_m.cwiseAbs().maxCoeff() < kFarthestM) || !point_m.allFinite()) continue;
+    extent.low_m = extent.points.empty() ? point_m : extent.low_m.cwiseMin(point_m);
+    extent.high_m = extent.points.empty() ? point_m : extent.high_m.cwiseMax(point_m);
+    extent.points.push_back(static_cast<std::uint32_t>(i));
+  }
+  return extent;
+}
+
+}  // namespace
+
+CubePlace PlaceOf(const Eigen::Vector3d& point_m, const Eigen::Vector3d& origin_m, double cube_m) {
+  const Eigen::Vector3d cubes = (point_m - origin_m) / cube_m;
+  return {static_cast<std::uint32_t>(cubes.x()),
+          static_cast<std::uint32_t>(cubes.y()),
+          static_cast<std::uint32_t>(cubes.z())};
+}
+
+Octree::Octree(const PointCloud& cloud, double cube_m) : cube_m_(cube_m) {
+  assert(cube_m > 0.0 && "cubes have an edge");
+  const Extent extent = ExtentOf(cloud);
+  origin_m_ = extent.low_m;
+  const double widest_m = (extent.high_m - extent.low_m).maxCoeff();
+  while (!(widest_m / cube_m_ < kMaxCubes - 1)) cube_m_ *= 2.0;
+
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> coded;
+  coded.reserve(extent.points.size());
+  for (const std::uint32_t point : extent.points) {
+    coded.emplace_back(MortonCode(PlaceOf(cloud[point], origin_m_, cube_m_)), point);
+  }
+  std::sort(coded.begin(), coded.end());
+  points_.reserve(coded.size());
+  for (std::size_t i = 0; i < coded.size(); ++i) {
+    if (i == 0 || coded[i].first != coded[i - 1].first) {
+      first_.push_back(static_cast<std::uint32_t>(i));
+      places_.push_back(PlaceOf(cloud[coded[i].second], origin_m_, cube_m_));
+    }
+    points_.push_back(coded[i].second);
+  }
+  first_.push_back(static_cast<std::uint32_t>(coded.size()));
+}
+
+}  // namespace slam6d

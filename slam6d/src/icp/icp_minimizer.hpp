@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/LU>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "slam6d/icp/icp.hpp"
+
+namespace slam6d {
+
+/// What one iteration found out.
+struct IcpStep {
+  std::size_t pairs = 0;
+  double rms_residual_m = 0.0;
+  /// The motion, in the frame map, by which the current scan is to move; nothing when the pairs
+  /// leave it open.
+  std::optional<Pose3> motion_map{};
+  bool settled = true;  ///< False while the weights still change by themselves.
+};
+
+/// Pairs, and the step they ask for, under one metric. Each object serves one registration.
+class IcpMinimizer {
+ public:
+  IcpMinimizer() = default;
+  IcpMinimizer(const IcpMinimizer&) = delete;
+  IcpMinimizer& operator=(const IcpMinimizer&) = delete;
+  virtual ~IcpMinimizer() = default;
+
+  virtual IcpStep Iterate(const Pose3& T_map_cur, int iteration) = 0;
+  /// Of the pose, from the pairs of the last iteration.
+  virtual Matrix6d Covariance() const = 0;
+  virtual SearchStatistics statistics() const = 0;
+};
+
+/// Pairs of the current scan with each of several references, which stand still in the frame map.
+///
+/// `Pairs` knows one reference: `Collect(T_ref_cur, iteration)` returns sums over its pairs in the
+/// frame ref; `sums.In(T_map_ref)` carries them over, `+=` adds them, and `Step(sums, ...)` is the
+/// motion they ask for. With one reference at the origin of map this is plain ICP.
+template <class Pairs>
+class JointMinimizer final : public IcpMinimizer {
+ public:
+  JointMinimizer(std::span<const IcpReference> references,
+                 const ScanModel& cur,
+                 const IcpOptions& options)
+      : options_(options) {
+    for (const IcpReference& reference : references) {
+      pairs_.push_back({.T_map_ref = reference.T_map_ref,
+                        .with_ref = std::make_unique<Pairs>(*reference.model, cur, options)});
+    }
+  }
+
+  IcpStep Iterate(const Pose3& T_map_cur, int iteration) override {
+    sums_ = {};
+    for (const Member& member : pairs_) {
+      const Pose3 T_ref_cur = member.T_map_ref.Inverse() * T_map_cur;
+      sums_ += member.with_ref->Collect(T_ref_cur, iteration).In(member.T_map_ref);
+    }
+    return Pairs::Step(sums_, T_map_cur, options_);
+  }
+
+  Matrix6d Covariance() const override {
+    Matrix6d information = Matrix6d::Zero();
+    for (const Member& member : pairs_) {
+      Matrix6d R_map_ref = Matrix6d::Zero();
+      R_map_ref.topLeftCorner<3, 3>() = member.T_map_ref.rotation;
+      R_map_ref.bottomRightCorner<3, 3>() = member.T_map_ref.rotation;
+      information += R_map_ref * member.with_ref->Information() * R_map_ref.transpose();
+    }
+    return Pairs::Misfit(sums_) * information.inverse();
+  }
+
+  SearchStatistics statistics() const override {
+    SearchStatistics total;
+    for (const Member& member : pairs_) total += member.with_ref->statistics();
+    return total;
+  }
+
+ private:
+  struct Member {
+    Pose3 T_map_ref;
+    std::unique_ptr<Pairs> with_ref;
+  };
+
+  const IcpOptions options_;
+  std::vector<Member> pairs_;
+  typename Pairs::Sums sums_;
+};
+
+}  // namespace slam6d

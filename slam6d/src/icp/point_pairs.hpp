@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slam6d/src/icp/icp_minimizer.hpp"
+
+namespace slam6d {
+
+/// Sums over pairs of points.
+struct PointSums {
+  PairMoments moments;
+  double distance2_m2 = 0.0;  ///< Sum of the squared distances.
+
+  PointSums In(const Pose3& T_map_ref) const;
+  PointSums& operator+=(const PointSums& other);
+};
+
+/// Point to point: nearest points, closed form (paper Eqs. 2-6).
+class PointPairs {
+ public:
+  using Sums = PointSums;
+
+  /// Both scans must outlive this.
+  PointPairs(const ScanModel& ref, const ScanModel& cur, const IcpOptions& options);
+
+  Sums Collect(const Pose3& T_ref_cur, int iteration);
+  /// Of the pose, in the frame ref, for residuals of one metre; from the pairs collected last.
+  Matrix6d Information() const;
+  const SearchStatistics& statistics() const { return statistics_; }
+
+  static IcpStep Step(const Sums& sums, const Pose3& T_map_cur, const IcpOptions& options);
+  /// Factor from the inverse information to the covariance.
+  static double Misfit(const Sums& sums);
+
+ private:
+  const PointCloud& cur_;
+  const IcpOptions options_;
+  CachedSearch search_;
+  SimdLevel simd_;
+  PointCloud cur_ref_;  ///< The current points in the frame ref.
+  Eigen::Vector3d center_ref_m_ = Eigen::Vector3d::Zero();  ///< The scanner's place among them.
+  Eigen::Vector3d origin_m_;
+  double counted_distance2_m2_;  ///< Pairs as far apart as this do not count.
+  double rms_residual_m_ = 0.0;
+  SearchStatistics statistics_;
+};
+
+}  // namespace slam6d

@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slam6d/mapping/slam.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace slam6d {
+namespace {
+
+/// Fewer different points leave a motion open under every metric.
+constexpr std::size_t kLeastPoints = 3;
+
+/// What dead reckoning may be off by from one scan to the next.
+constexpr double kOdometrySigmaM = 0.3;
+constexpr double kOdometrySigmaRad = 5.0 * std::numbers::pi / 180.0;
+
+/// The covariance of a registration assumes independent errors; nothing is better than this.
+constexpr double kLeastSigmaM = 1e-3;
+constexpr double kLeastSigmaRad = 1e-4;
+
+/// On the way round a loop more error gathers than from one scan to the next.
+constexpr double kLoopSearchFactor = 2.0;
+
+Matrix6d CovarianceOf(double sigma_m, double sigma_rad) {
+  Vector6d variances;
+  variances << Eigen::Vector3d::Constant(sigma_m * sigma_m),
+      Eigen::Vector3d::Constant(sigma_rad * sigma_rad);
+  return variances.asDiagonal();
+}
+
+/// How far the scanner saw: all but the last few of the points, which may be stray.
+double RangeOf(const PointCloud& points) {
+  if (points.empty()) return 0.0;
+  std::vector<double> ranges2_m2;
+  ranges2_m2.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) ranges2_m2.push_back(points[i].squaredNorm());
+  const auto at = ranges2_m2.begin() + static_cast<std::ptrdiff_t>(ranges2_m2.size() * 95 / 100);
+  std::nth_element(ranges2_m2.begin(), at, ranges2_m2.end());
+  return std::sqrt(*at);
+}
+
+PointCloud Prepare(const PointCloud& scan, const SlamOptions& options) {
+  const double max_range_m =
+      options.max_range_m > 0.0 ? options.max_range_m : std::numeric_limits<double>::max();
+  return Reduce(InRange(scan, options.min_range_m, max_range_m), options.reduction);
+}
+
+OverlapOptions Widened(OverlapOptions options, double factor) {
+  options.translation_range_m *= factor;
+  options.rotation_range_rad = std::min(options.rotation_range_rad * factor, std::numbers::pi);
+  return options;
+}
+
+Matrix6d CovarianceOf(const IcpResult& result) {
+  return result.covariance + CovarianceOf(kLeastSigmaM, kLeastSigmaRad);
+}
+
+/// The same covariance along the axes of another frame.
+Matrix6d Turned(const Eigen::Matrix3d& R_a_b, const Matrix6d& covariance_b) {
+  Matrix6d R = Matrix6d::Zero();
+  R.topLeftCorner<3, 3>() = R_a_b;
+  R.bottomRightCorner<3, 3>() = R_a_b;
+  return R * covariance_b * R.transpose();
+}
+
+bool HasPose(const IcpResult& result) {
+  return result.status == IcpStatus::kConverged || result.status == IcpStatus::kIterationLimit;
+}
+
+}  // namespace
+
+std::string_view NameOf(SlamStatus status) {
+  constexpr std::array<std::string_view, 4> kNames{"first", "matched", "dead_reckoned", "unusable"};
+  return kNames[static_cast<std::size_t>(status)];
+}
+
+Pose3 ExtrapolateOdometry(const Pose3& T_map_last,
+                          const Pose3& T_odom_last,
+                          const Pose3& T_odom_scan) {
+  return T_map_last * (T_odom_last.Inverse() * T_odom_scan);
+}
+
+Slam::Slam(const SlamOptions& options, const LoopCloser& closer)
+    : options_(options), closer_(closer) {}
+
+SlamStep Slam::Add(const PointCloud& scan, const Pose3& T_odom_scan) {
+  const PointCloud points = Prepare(scan, options_);
+  SlamStep step{.T_map_scan = T_odom_scan, .points = points.size()};
+  if (!graph_.T_map_scan.empty()) {
+    step.T_map_scan = ExtrapolateOdometry(graph_.T_map_scan.back(), T_odom_last_, T_odom_scan);
+  }
+  T_odom_last_ = T_odom_scan;
+  Entry entry{.T_odom_scan = T_odom_scan,
+              .range_m = RangeOf(points),
+              .model = ScanModel(points, options_.tree),
+              .overlap = OverlapModel(points, options_.guess)};
+  const bool usable = entry.model.tree.size() >= kLeastPoints;
+  if (usable) Match(entry, step);
+  graph_.T_map_scan.push_back(step.T_map_scan);
+  entries_.emplace_back();
+  if (!usable) return step;
+  entries_.back() = std::move(entry);
+  CloseLoops(step);
+  step.T_map_scan = graph_.T_map_scan.back();
+  return step;
+}
+
+/// Paper sections 3.2 and 3.3. ICP comes first here, and the octrees are asked for a better guess
+/// only where it does not convince: they cost four times as much as all the rest of a scan
+/// (`slam6d register --set slam.guess.needed_below=1` asks them every time).
+Slam::Registration Slam::Register(std::span<const std::size_t> references,
+                                  const Entry& cur,
+                                  const Pose3& T_map_cur_guess,
+                                  const OverlapOptions& search) const {
+  std::vector<IcpReference> models;
+  std::vector<OverlapReference> cubes;
+  for (const std::size_t scan : references) {
+    models.push_back({.model = &entries_[scan]->model, .T_map_ref = graph_.T_map_scan[scan]});
+    cubes.push_back({.model = &entries_[scan]->overlap, .T_map_ref = graph_.T_map_scan[scan]});
+  }
+  const auto align = [&](const Pose3& T_map_cur) {
+    Registration result{.icp = Align(models, cur.model, T_map_cur, options_.icp)};
+    result.overlap = Overlap(cubes, cur.overlap, result.icp.T_ref_cur, search);
+    result.trusted = HasPose(result.icp) && result.overlap >= options_.min_overlap;
+    return result;
+  };
+  const Registration first = align(T_map_cur_guess);
+  if (first.trusted && first.overlap >= search.needed_below) return first;
+  const OverlapGuess guess = GuessByOverlap(cubes, cur.overlap, T_map_cur_guess, search);
+  const Registration second = align(guess.T_map_cur);
+  return !first.trusted || second.overlap > first.overlap ? second : first;
+}
+
+std::vector<std::size_t> Slam::LastUsable(int count) const {
+  std::vector<std::size_t> scans;
+  for (std::size_t scan = entries_.size(); scan-- > 0 && std::ssize(scans) < count;) {
+    if (entries_[scan]) scans.push_back(scan);
+  }
+  return scans;
+}
+
+void Slam::Match(const Entry& entry, SlamStep& step) {
+  const std::vector<std::size_t> references = LastUsable(options_.references);
+  if (references.empty()) {
+    step.status = SlamStatus::kFirst;
+    return;
+  }
+  const Registration match = Register(references, entry, step.T_map_scan, options_.guess);
+  step.match = match.icp;
+  step.overlap = match.overlap;
+  step.status = match.trusted ? SlamStatus::kMatched : SlamStatus::kDeadReckoned;
+  if (match.trusted) step.T_map_scan = match.icp.T_ref_cur;
+  const Matrix6d covariance =
+      match.trusted ? CovarianceOf(match.icp) : CovarianceOf(kOdometrySigmaM, kOdometrySigmaRad);
+  Constrain(references.front(), entries_.size(), {step.T_map_scan, covariance});
+}
+
+/// Keeps what was found out about the pose of scan `to` relative to that of `from`.
+void Slam::Constrain(std::size_t from, std::size_t to, const UncertainPose3& T_map_to) {
+  const Pose3& T_map_from = graph_.T_map_scan[from];
+  graph_.constraints.push_back(
+      {.from = from,
+       .to = to,
+       .T_from_to = T_map_from.Inverse() * T_map_to.T_a_b,
+       .covariance = Turned(T_map_from.rotation.transpose(), T_map_to.covariance)});
+}
+
+/// Paper section 3.4.
+void Slam::CloseLoops(SlamStep& step) {
+  const std::size_t scan = entries_.size() - 1;
+  const Entry& cur = *entries_[scan];
+  const OverlapOptions search = Widened(options_.guess, kLoopSearchFactor);
+  for (const std::size_t earlier : LoopHypotheses(graph_.T_map_scan, cur.range_m, options_.loop)) {
+    if (!entries_[earlier]) continue;
+    const Registration match =
+        Register(std::span(&earlier, 1), cur, graph_.T_map_scan[scan], search);
+    if (!match.trusted || match.overlap < options_.loop.min_overlap) continue;
+    Constrain(earlier, scan, {match.icp.T_ref_cur, CovarianceOf(match.icp)});
+    graph_.T_map_scan = closer_.Close(graph_);
+    step.loops_to.push_back(earlier);
+  }
+}
+
+RefinementResult Slam::Refine(const RefinementObserver& observer) {
+  std::vector<IcpReference> scans;
+  for (std::size_t scan = 0; scan < entries_.size(); ++scan) {
+    const ScanModel* model = entries_[scan] ? &entries_[scan]->model : nullptr;
+    scans.push_back({.model = model, .T_map_ref = graph_.T_map_scan[scan]});
+  }
+  RefinementResult result = RefineModel(scans, options_.icp, options_.refinement, observer);
+  graph_.T_map_scan = result.T_map_scan;
+  return result;
+}
+
+}  // namespace slam6d
