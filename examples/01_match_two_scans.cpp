@@ -41,7 +41,7 @@ int main() {
 
   // Odometry says the robot stood still, give or take 20 cm and 6 degrees.
   qwsm::MatchPrior prior;
-  prior.start_error_m = 0.2;
+  prior.start_error = {.translation_m = 0.2};
   prior.predicted.covariance.diagonal() << 0.04, 0.04, 0.01;
   const qwsm::MatchResult match =
       qwsm::WeightedScanMatcher().Match(reference.surfaces(), qwsm::ToPoints(current_scan), prior);

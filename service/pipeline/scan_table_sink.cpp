@@ -17,7 +17,7 @@ constexpr std::string_view kHeader =
 }  // namespace
 
 double PositionTrace_m2(const MatchResult& match) {
-  return match.covariance(0, 0) + match.covariance(1, 1);
+  return match.nearest_sample_covariance(0, 0) + match.nearest_sample_covariance(1, 1);
 }
 
 ScanTableSink::ScanTableSink(const std::filesystem::path& path) : file_(path) {

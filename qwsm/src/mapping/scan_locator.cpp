@@ -8,7 +8,7 @@
 namespace qwsm {
 namespace {
 
-constexpr std::size_t kMinSearchPoints = 6;   // Fewer prove nothing.
+constexpr std::size_t kMinSearchPoints = 3;   // Fewer prove nothing.
 constexpr std::size_t kMinReturnPoints = 20;  // A return needs more evidence.
 constexpr double kSamePlace_m = 0.3;          // Poses this near to each other are no rivals.
 constexpr double kFoundSigma_m = 0.1;         // How exact a search over many scans is.
@@ -79,7 +79,10 @@ MatchResult ScanLocator::SearchAndMatch(const ScanMap& map,
                                         const UncertainPose2& predicted,
                                         double window_sigmas,
                                         MatchTrace* trace) const {
-  MatchPrior prior{.predicted = predicted, .start = predicted.T_a_b};
+  MatchPrior prior{.predicted = predicted,
+                   .start = predicted.T_a_b,
+                   .start_error = {.translation_m = SigmaXY(predicted.covariance),
+                                   .rotation_rad = SigmaTheta(predicted.covariance)}};
   const std::vector<Eigen::Vector2d> thinned = ThinOut(points, options_.search_spacing_m);
   if (thinned.size() >= kMinSearchPoints) {
     const SearchWindow window{
@@ -91,7 +94,7 @@ MatchResult ScanLocator::SearchAndMatch(const ScanMap& map,
     const auto found = SearchPose(map.surfaces().likelihood(), thinned, window, options_.search);
     if (found) {
       prior.start = found->T_map_robot;
-      prior.start_error_m = options_.search_error_m;
+      prior.start_error = {.translation_m = options_.search_error_m};
     }
   }
   return matcher_.Match(map.surfaces(), points, prior, trace);
@@ -129,12 +132,13 @@ std::optional<MatchResult> ScanLocator::FindReturn(
   UncertainPose2 found{.T_a_b = *place};
   found.covariance.diagonal() =
       Eigen::Vector3d(kFoundSigma_m, kFoundSigma_m, kFoundSigma_rad).cwiseAbs2();
-  const MatchResult match = matcher_.Match(map.surfaces(),
-                                           points,
-                                           {.predicted = found,
-                                            .start = found.T_a_b,
-                                            .start_error_m = options_.search_error_m,
-                                            .max_drift_m2 = max_drift_m2});
+  const MatchResult match =
+      matcher_.Match(map.surfaces(),
+                     points,
+                     {.predicted = found,
+                      .start = found.T_a_b,
+                      .start_error = {.translation_m = options_.search_error_m},
+                      .max_drift_m2 = max_drift_m2});
   const bool fits = match.status == MatchStatus::kConverged && match.overlap >= options.min_overlap;
   return fits ? std::optional(match) : std::nullopt;
 }

@@ -2,12 +2,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "qwsm/matching/surface_map.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "qwsm/geometry/moments.hpp"
 
 namespace qwsm {
+namespace {
+
+// Variance across a surface, from that of a few samples and what is expected before any. Fitting
+// the line has used up two samples, and the expectation counts as two.
+double Spread(double sample_m2, double count, double expected_m) {
+  constexpr double kWeightOfExpectation = 2.0;
+  return (count * sample_m2 + kWeightOfExpectation * expected_m * expected_m) / count;
+}
+
+}  // namespace
+
 SurfaceMap::SurfaceMap(const SurfaceMapOptions& options)
     : options_(options), quadtree_(options.quadtree), likelihood_(options.likelihood) {}
 
@@ -72,10 +84,18 @@ Eigen::Vector2d SurfaceMap::OwnNormal(PointId id) const {
   return {std::cos(angle_rad), std::sin(angle_rad)};
 }
 
+// A scan puts about so many points into a neighbourhood as its beams are spaced.
+double SurfaceMap::Looks(const Neighborhood& n) const {
+  const double samples_of_a_scan =
+      1.0 + 2.0 * options_.neighborhood_radius_m / static_cast<double>(n.spacing_m);
+  return std::max(1.0, static_cast<double>(n.count) / samples_of_a_scan);
+}
+
 Surface SurfaceMap::SurfaceAt(PointId id) const {
   const Neighborhood& n = neighborhoods_[id];
   const Eigen::Vector2d p_m = quadtree_.Position(id);
-  const double scale = 1.0 / static_cast<double>(n.count);
+  const double count = static_cast<double>(n.count);
+  const double scale = 1.0 / count;
   const Eigen::Vector2d mean = scale * Eigen::Vector2f(n.sum_x, n.sum_y).cast<double>();
   const PrincipalAxes axes =
       PrincipalAxesOf(static_cast<double>(n.sum_xx) * scale - mean.x() * mean.x(),
@@ -86,18 +106,25 @@ Surface SurfaceMap::SurfaceAt(PointId id) const {
   if (is_line && axes.major_m2 > options_.min_line_m * options_.min_line_m) {
     return {.mean_m = p_m + mean,
             .normal = axes.minor_axis,
-            .across_m2 = axes.minor_m2,
+            .across_m2 = Spread(axes.minor_m2, count, options_.roughness_m),
+            .spacing_m = UniformLength(axes.major_m2) * scale,
+            .looks = Looks(n),
             .is_line = true};
   }
   if (!std::isnan(n.own_normal_rad) && (is_line || !is_crowded)) {
     // Too few or too close together to show a direction better than the scan itself did.
-    const Eigen::Vector2d normal = OwnNormal(id);
-    return {.mean_m = p_m, .normal = normal, .across_m2 = 0.0, .is_line = true};
+    return {.mean_m = p_m,
+            .normal = OwnNormal(id),
+            .across_m2 = 0.0,
+            .spacing_m = static_cast<double>(n.spacing_m),
+            .is_line = true};
   }
   return {.mean_m = p_m + mean,
           .normal = axes.minor_axis,
           .across_m2 = 0.5 * (axes.minor_m2 + axes.major_m2),
-          .spacing_m = is_crowded ? 0.0 : static_cast<double>(n.spacing_m),
+          .spacing_m = is_crowded ? UniformLength((axes.minor_m2 + axes.major_m2) * scale)
+                                  : static_cast<double>(n.spacing_m),
+          .looks = Looks(n),
           .is_line = false};
 }
 

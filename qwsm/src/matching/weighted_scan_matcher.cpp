@@ -10,22 +10,22 @@
 #include <optional>
 #include <vector>
 
+#include "qwsm/matching/pair_error.hpp"
+
 namespace qwsm {
 namespace {
 
 constexpr double kPairDistancePerError = 5.0;  // Pairs are sought as far as the error may reach.
-constexpr double kSmallestDoubt_m = 0.002;     // Below, annealing has ended.
+constexpr double kSmallestDoubt_m = 0.002;     // Below, annealing has ended;
+constexpr double kSmallestDoubt_rad = 0.0002;  // the same ten metres away.
 constexpr double kInlierSigmas = 3.0;
-// A uniform error of one sample spacing has this share of its square as variance.
-constexpr double kUniformVariance = 1.0 / 12.0;
-// The mean of some stored readings carries about a quarter of the variance of one.
-constexpr double kStoredShareOfNoise = 0.25;
 
 // A scan point with its counterpart in the map, kept from iteration to iteration.
 struct Pair {
   SearchCursor cursor;
   std::optional<PointId> id;
   double distance_m2 = 0.0;
+  double weight = 1.0;  // Of the robust estimate.
   Eigen::Vector2d nearest_m = Eigen::Vector2d::Zero();
   Surface surface;
 };
@@ -33,16 +33,28 @@ struct Pair {
 // Doubt about the current estimate, taken back from iteration to iteration: with it all pairs look
 // plausible at first, and a poor first guess does not make the true pairs outliers.
 struct Doubt {
-  double sigma_m = 0.0;
+  StartError sigma;
 
-  double PairDistance(double smallest_m) const {
-    return std::max(smallest_m, kPairDistancePerError * sigma_m);
+  bool IsGone() const { return sigma.translation_m == 0.0 && sigma.rotation_rad == 0.0; }
+  /// Variance of a point's position.
+  double At_m2(double range_m) const {
+    const double turn_m = sigma.rotation_rad * range_m;
+    return sigma.translation_m * sigma.translation_m + turn_m * turn_m;
   }
   void Shrink(double factor) {
-    sigma_m *= factor;
-    if (sigma_m < kSmallestDoubt_m) sigma_m = 0.0;
+    sigma.translation_m *= factor;
+    sigma.rotation_rad *= factor;
+    if (sigma.translation_m < kSmallestDoubt_m) sigma.translation_m = 0.0;
+    if (sigma.rotation_rad < kSmallestDoubt_rad) sigma.rotation_rad = 0.0;
   }
 };
+
+// Derivative of R u + t by (x, y, theta), [ I | J R u ], for arm = R u.
+Eigen::Matrix<double, 2, 3> DerivativeByPose(const Eigen::Vector2d& arm) {
+  Eigen::Matrix<double, 2, 3> H;
+  H << 1.0, 0.0, -arm.y(), 0.0, 1.0, arm.x();
+  return H;
+}
 
 // Normal equations of the weighted least squares: A step = b.
 struct NormalEquations {
@@ -51,42 +63,18 @@ struct NormalEquations {
   int pairs = 0;
   int inliers = 0;
   double sum_of_distances_m = 0.0;
+  double sum_of_weights = 0.0;
+  double sum_of_misfits = 0.0;  // Squared, weighted, in units of the modelled errors.
 
   void Add(const Eigen::Matrix2d& weight,
            const Eigen::Vector2d& error,
            const Eigen::Vector2d& arm) {
-    // Derivative of R u + t by (x, y, theta): [ I | J R u ].
-    Eigen::Matrix<double, 2, 3> H;
-    H << 1.0, 0.0, -arm.y(), 0.0, 1.0, arm.x();
+    const Eigen::Matrix<double, 2, 3> H = DerivativeByPose(arm);
     const Eigen::Matrix<double, 3, 2> HtW = H.transpose() * weight;
     A.noalias() += HtW * H;
     b.noalias() += HtW * error;
   }
 };
-
-// Inverse of the modelled error of a pair, S_k^-1, in map axes (ALGORITHM: S = N_map + Q + R N
-// R^T).
-Eigen::Matrix2d ModelledInformation(const Surface& surface,
-                                    const ScanPoint& point,
-                                    const Eigen::Matrix2d& N_map,
-                                    double doubt_m2,
-                                    const WeightedScanMatcherOptions& options) {
-  const double range_m2 = options.noise.range_sigma_m * options.noise.range_sigma_m;
-  if (surface.is_line) {
-    // The nearest sample is off by anything along the line: no information there, Q = inf t t^T.
-    const Eigen::Vector2d& n = surface.normal;
-    const double variance_m2 =
-        n.dot(N_map * n) + surface.across_m2 + kStoredShareOfNoise * range_m2 + doubt_m2;
-    return n * n.transpose() / variance_m2;
-  }
-  // No tangent exists: the correspondence error is isotropic, with the neighbourhood's extent.
-  const double isotropic_m2 =
-      surface.across_m2 + range_m2 + options.small_object_m * options.small_object_m +
-      kUniformVariance *
-          (point.spacing_m * point.spacing_m + surface.spacing_m * surface.spacing_m) +
-      doubt_m2;
-  return (N_map + isotropic_m2 * Eigen::Matrix2d::Identity()).inverse();
-}
 
 // Geman-McClure: falls from 1 to a quarter at the outlier limit, and on towards 0.
 double RobustWeight(double mahalanobis2, double outlier_sigmas) {
@@ -110,13 +98,13 @@ class Pairing {
   NormalEquations Linearize(const Pose2& T_map_cur, const Doubt& doubt) {
     NormalEquations equations;
     const Eigen::Matrix2d R = T_map_cur.Rotation();
-    const double reach_m = doubt.PairDistance(options_.pair_distance_m);
-    const double doubt_m2 = doubt.sigma_m * doubt.sigma_m;
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      const Eigen::Vector2d arm = R * points_[i].p_robot_m;
+      const ScanPoint& point = points_[i];
+      const Eigen::Vector2d arm = R * point.p_robot_m;
       const Eigen::Vector2d p_map = arm + T_map_cur.translation_m();
+      const double doubt_m2 = doubt.At_m2(point.range_m);
       Pair& pair = pairs_[i];
-      if (!FindPair(p_map, reach_m, pair)) continue;
+      if (!FindPair(p_map, Reach(doubt_m2), pair)) continue;
       ++equations.pairs;
       equations.sum_of_distances_m += std::sqrt(pair.distance_m2);
       if (options_.weighting == PairWeighting::kIdentity) {
@@ -125,18 +113,46 @@ class Pairing {
         continue;
       }
       const Eigen::Vector2d error = pair.surface.mean_m - p_map;
-      const Eigen::Matrix2d N_map =
-          PointCovariance(R * points_[i].beam_robot, points_[i].range_m, options_.noise);
       const Eigen::Matrix2d information =
-          ModelledInformation(pair.surface, points_[i], N_map, doubt_m2, options_);
+          PairInformation(pair.surface, NoiseInMap(R, point), Extent_m2(point), doubt_m2);
       const double mahalanobis2 = error.dot(information * error);
       if (mahalanobis2 < kInlierSigmas * kInlierSigmas) ++equations.inliers;
-      equations.Add(RobustWeight(mahalanobis2, options_.outlier_sigmas) * information, error, arm);
+      pair.weight = RobustWeight(mahalanobis2, options_.outlier_sigmas);
+      equations.sum_of_weights += pair.weight;
+      equations.sum_of_misfits += pair.weight * mahalanobis2;
+      equations.Add(pair.weight * information, error, arm);
     }
     return equations;
   }
 
+  // A^-1 of the pairs found last, were each the nearest sample of the papers.
+  Eigen::Matrix3d NearestSampleCovariance(const Pose2& T_map_cur) const {
+    Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+    const Eigen::Matrix2d R = T_map_cur.Rotation();
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const Pair& pair = pairs_[i];
+      if (!pair.id) continue;
+      const auto H = DerivativeByPose(R * points_[i].p_robot_m);
+      const Eigen::Matrix2d S = NearestSampleError(pair.surface, NoiseInMap(R, points_[i]));
+      A += pair.weight * H.transpose() * S.inverse() * H;
+    }
+    return A.inverse();
+  }
+
  private:
+  double Reach(double doubt_m2) const {
+    return std::max(options_.pair_distance_m, kPairDistancePerError * std::sqrt(doubt_m2));
+  }
+
+  Eigen::Matrix2d NoiseInMap(const Eigen::Matrix2d& R_map_cur, const ScanPoint& point) const {
+    return PointCovariance(R_map_cur * point.beam_robot, point.range_m, options_.noise);
+  }
+
+  // Of what is no line: a beam hits it anywhere.
+  double Extent_m2(const ScanPoint& point) const {
+    return options_.small_object_m * options_.small_object_m + UniformVariance(point.spacing_m);
+  }
+
   bool FindPair(const Eigen::Vector2d& p_map, double reach_m, Pair& pair) const {
     const auto nearest = map_.quadtree().Nearest(p_map, reach_m, pair.cursor);
     if (!nearest || map_.Drift_m2(nearest->id) > max_drift_m2_) {
@@ -176,9 +192,13 @@ void DropFalseHold(double min_share, NormalEquations& equations) {
 }
 
 // Information of the pairs in real units. Identity weights know no units: the residuals give them.
-Eigen::Matrix3d PairInformation(const NormalEquations& equations,
-                                const WeightedScanMatcherOptions& options) {
-  if (options.weighting == PairWeighting::kModelled) return equations.A;
+Eigen::Matrix3d InformationOf(const NormalEquations& equations,
+                              const WeightedScanMatcherOptions& options) {
+  if (options.weighting == PairWeighting::kModelled) {
+    // Where pairs fit worse than modelled, laser or surfaces are worse than told.
+    const double misfit = equations.sum_of_misfits / std::max(1e-9, equations.sum_of_weights);
+    return equations.A / std::max(1.0, misfit);
+  }
   const double mean_m = equations.sum_of_distances_m / std::max(1, equations.pairs);
   const double sigma_m = std::max(mean_m, options.noise.range_sigma_m);
   return equations.A / (sigma_m * sigma_m);
@@ -211,10 +231,10 @@ MatchResult WeightedScanMatcher::Match(const SurfaceMap& reference,
                                        std::span<const ScanPoint> points,
                                        const MatchPrior& prior,
                                        MatchTrace* trace) const {
-  MatchResult result{.T_ref_cur = prior.start};
+  MatchResult result{.status = MatchStatus::kIterationLimit, .T_ref_cur = prior.start};
   const Eigen::Matrix3d prior_information = prior.predicted.covariance.inverse();
   Pairing pairing(reference, points, prior.max_drift_m2, options_);
-  Doubt doubt{prior.start_error_m};
+  Doubt doubt{prior.start_error};
   while (result.iterations < options_.max_iterations) {
     ++result.iterations;
     NormalEquations pairs = pairing.Linearize(result.T_ref_cur, doubt);
@@ -226,7 +246,7 @@ MatchResult WeightedScanMatcher::Match(const SurfaceMap& reference,
     }
     result.mean_residual_m = pairs.sum_of_distances_m / pairs.pairs;
     result.overlap = static_cast<double>(pairs.inliers) / static_cast<double>(points.size());
-    result.information = PairInformation(pairs, options_);
+    result.information = InformationOf(pairs, options_);
 
     // Fuse pairs and prediction, each by its information.
     const double independent = 1.0 / options_.correlated_points;
@@ -246,15 +266,15 @@ MatchResult WeightedScanMatcher::Match(const SurfaceMap& reference,
       trace->push_back({.T_ref_cur = result.T_ref_cur,
                         .pairs = result.pairs,
                         .mean_residual_m = result.mean_residual_m,
-                        .max_pair_distance_m = doubt.PairDistance(options_.pair_distance_m)});
+                        .doubt_m = doubt.sigma.translation_m});
     }
-    if (doubt.sigma_m == 0.0 && IsSmall(step, options_)) {
+    if (doubt.IsGone() && IsSmall(step, options_)) {
       result.status = MatchStatus::kConverged;
-      return result;
+      break;
     }
     doubt.Shrink(options_.annealing_factor);
   }
-  result.status = MatchStatus::kIterationLimit;
+  result.nearest_sample_covariance = pairing.NearestSampleCovariance(result.T_ref_cur);
   return result;
 }
 

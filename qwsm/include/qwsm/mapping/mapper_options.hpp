@@ -40,9 +40,9 @@ struct MapperOptions {
   double relevant_rotation_rad = 0.35;
   double extend_below_overlap = 0.6;
   double min_overlap = 0.35;
-  double match_floor_m = 0.0005;
-  double match_floor_rad = 0.0001;
-  double drift_information = 1.7;
+  double match_floor_m = 0.0002;
+  double match_floor_rad = 0.00005;
+  double drift_information = 2.0;
   bool extend_map = true;
 };
 

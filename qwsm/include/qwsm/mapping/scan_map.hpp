@@ -33,8 +33,8 @@ inline std::span<const std::pair<std::string_view, InsertionRule>> Names(Inserti
 struct ScanMapOptions {
   SurfaceMapOptions surfaces;
   InsertionRule insertion = InsertionRule::kNewSurface;
-  double crowd_radius_m = 0.05;
-  int crowd_points = 3;
+  double crowd_radius_m = 0.03;
+  int crowd_points = 5;
 };
 
 template <class Visitor>

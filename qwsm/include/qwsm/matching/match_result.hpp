@@ -28,6 +28,9 @@ struct [[nodiscard]] MatchResult {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Of (x, y, theta), prior included.
   Eigen::Matrix3d information =
       Eigen::Matrix3d::Zero();  ///< Of the pairs alone, as if independent.
+  /// Of the pairs alone, were each the nearest sample as in the papers (Visser et al. 2009, eq. 3):
+  /// measurement noise and correspondence error, which shrinks as the reference gets denser.
+  Eigen::Matrix3d nearest_sample_covariance = Eigen::Matrix3d::Zero();
   int iterations = 0;
   int pairs = 0;
   double mean_residual_m = 0.0;  ///< Mean distance of a point to its nearest stored point.
@@ -39,7 +42,7 @@ struct MatchIteration {
   Pose2 T_ref_cur;
   int pairs = 0;
   double mean_residual_m = 0.0;
-  double max_pair_distance_m = 0.0;
+  double doubt_m = 0.0;  ///< About the position, by which pairs are widened.
 };
 using MatchTrace = std::vector<MatchIteration>;
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -15,10 +16,11 @@ namespace qwsm {
 struct SurfaceMapOptions {
   PointQuadtreeOptions quadtree;
   LikelihoodPyramidOptions likelihood;
-  double neighborhood_radius_m = 0.15;
-  int min_neighbors = 4;
+  double neighborhood_radius_m = 0.12;
+  int min_neighbors = 5;
   double max_line_aspect = 0.3;
   double min_line_m = 0.04;
+  double roughness_m = 0.03;
 };
 
 template <class Visitor>
@@ -40,6 +42,9 @@ void Describe(Visitor& visit, SurfaceMapOptions& o) {
         {.help = "a neighbourhood of smaller sigma shows noise, not a direction",
          .min = 0,
          .max = 1});
+  visit("roughness_m",
+        o.roughness_m,
+        {.help = "spread of points across a surface of which few are known", .min = 0, .max = 1});
 }
 
 /// A point to be stored.
@@ -58,9 +63,15 @@ struct Surface {
   Eigen::Vector2d mean_m = Eigen::Vector2d::Zero();
   Eigen::Vector2d normal = Eigen::Vector2d::Zero();  ///< Unit vector; meaningful for a line only.
   double across_m2 = 0.0;  ///< Variance along the normal; for no line, the mean of both variances.
-  double spacing_m = 0.0;  ///< Between the samples of the surface where they are few, else 0.
+  double spacing_m = 0.0;  ///< Between stored samples of the surface.
+  double looks = 1.0;      ///< Scans that the mean is of. Readings of one scan share their errors.
   bool is_line = false;
 };
+
+/// Variance of what is uniform over a length.
+inline double UniformVariance(double length_m) { return length_m * length_m / 12.0; }
+/// Length over which a distribution of this variance is uniform.
+inline double UniformLength(double variance_m2) { return std::sqrt(12.0 * variance_m2); }
 
 /// What scans are matched against: points in a quadtree, each with the moments of its
 /// neighbourhood, kept up to date as points come and go.
@@ -102,6 +113,7 @@ class SurfaceMap {
   };
 
   void GatherNeighbors(PointId id);
+  double Looks(const Neighborhood& n) const;
 
   SurfaceMapOptions options_;
   PointQuadtree quadtree_;

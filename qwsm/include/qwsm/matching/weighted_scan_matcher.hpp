@@ -27,12 +27,12 @@ struct WeightedScanMatcherOptions {
   double translation_tolerance_m = 3e-4;
   double rotation_tolerance_rad = 1e-4;
   double pair_distance_m = 0.15;
-  double annealing_factor = 0.6;
-  double outlier_sigmas = 4.0;
-  double small_object_m = 0.05;
+  double annealing_factor = 0.3;
+  double outlier_sigmas = 5.0;
+  double small_object_m = 0.03;
   double correlated_points = 3.0;
   double min_information_share = 0.006;
-  int min_pairs = 10;
+  int min_pairs = 3;
   double max_sigma_m = 2.0;
 };
 
@@ -77,11 +77,17 @@ void Describe(Visitor& visit, WeightedScanMatcherOptions& o) {
         {.help = "a position less certain than this is no match", .min = 0.01, .max = 100});
 }
 
+/// Standard deviations of a first guess.
+struct StartError {
+  double translation_m = 0.1;
+  double rotation_rad = 0.0;
+};
+
 /// Where a match starts from.
 struct MatchPrior {
-  UncertainPose2 predicted;    ///< Prediction of T_ref_cur; it is fused into the answer.
-  Pose2 start;                 ///< First guess: the prediction, or what a search found near it.
-  double start_error_m = 0.1;  ///< How far the start may be off: pairs are sought up to five times.
+  UncertainPose2 predicted;  ///< Prediction of T_ref_cur; it is fused into the answer.
+  Pose2 start;               ///< First guess: the prediction, or what a search found near it.
+  StartError start_error;    ///< Of the start: pairs are sought five times as far.
   double max_drift_m2 = std::numeric_limits<double>::infinity();  ///< Points that drifted more are
                                                                   ///< not paired.
 };
