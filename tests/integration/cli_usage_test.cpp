@@ -52,7 +52,7 @@ TEST(Usage, AsksForWhatIsMissing) {
   EXPECT_EQ(RunProgram({}).exit_code, 2);
   const Outcome outcome = RunProgram({"map"});
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.errors.find("LOG is required"), std::string::npos) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("needs either logs or --sim"), std::string::npos) << outcome.errors;
 }
 
 TEST(Usage, NamesAMissingLog) {
