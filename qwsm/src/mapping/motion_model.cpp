@@ -2,9 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "qwsm/mapping/motion_model.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace qwsm {
+namespace {
+
+constexpr double kForgetting = 0.05;     // Share of the newest motion in what was learned.
+constexpr double kSquaredMiss = 4.0;     // What was found is fused with the prediction, and misses
+                                         // it by about half as much as the truth.
+constexpr double kLargestMisfit = 25.0;  // One jump of the odometry is not to count for a hundred.
+
+}  // namespace
 
 UncertainPose2 MotionModel::Predict(const std::optional<Pose2>& T_odom_robot) const {
   const bool has_odometry = T_odom_robot && T_odom_last_;
@@ -20,7 +29,20 @@ UncertainPose2 MotionModel::Predict(const std::optional<Pose2>& T_odom_robot) co
                 noise_.rotation_per_translation_rad * moved_m);
   UncertainPose2 prediction{.T_a_b = motion};
   prediction.covariance.diagonal() << sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad;
+  if (has_odometry) prediction.covariance *= Doubt();
   return prediction;
+}
+
+double MotionModel::Doubt() const { return std::max(1.0, misfit_); }
+
+void MotionModel::Learn(const Pose2& T_last_robot, const std::optional<Pose2>& T_odom_robot) {
+  if (!T_odom_robot || !T_odom_last_) return;
+  const UncertainPose2 predicted = Predict(T_odom_robot);
+  const Pose2 miss = predicted.T_a_b.Inverse() * T_last_robot;
+  const Eigen::Array3d error(miss.x_m, miss.y_m, miss.theta_rad);
+  const Eigen::Array3d variance = predicted.covariance.diagonal().array() / Doubt();
+  const double squared = kSquaredMiss * (error.square() / variance).mean();
+  misfit_ += kForgetting * (std::min(squared, kLargestMisfit) - misfit_);
 }
 
 void MotionModel::Remember(const Pose2& T_last_robot, const std::optional<Pose2>& T_odom_robot) {

@@ -23,11 +23,6 @@ ScanLocatorOptions LocatorOptions(const MapperOptions& options) {
   return locator;
 }
 
-// The prediction in the map's frame, uncertain only by the last motion: what a match is fused with.
-UncertainPose2 MotionInMap(const Pose2& T_map_last, const UncertainPose2& last_robot) {
-  return UncertainPose2{.T_a_b = T_map_last} * last_robot;
-}
-
 // Covariance of a matched pose: as uncertain as the part of the map it was matched to, plus what is
 // left of its uncertainty relative to that part. Where the pairs say nothing, as along a corridor,
 // that is all of the prediction's.
@@ -79,6 +74,7 @@ void RobotTracker::PlaceAt(const UncertainPose2& map_robot,
   motion_.Remember({}, T_odom_robot);
   recent_.Clear();
   map_last_ = map_robot;
+  local_last_ = map_robot;
   T_map_relevant_.reset();
   is_told_ = true;
 }
@@ -88,9 +84,12 @@ MappingStep RobotTracker::Track(const ScanMap& map,
                                 std::span<const ScanPoint> points) {
   MappingStep step{.stamp = observation.scan.stamp};
   if (map.empty()) {
-    Begin(observation, step);
+    Begin(observation, points, step);
   } else {
     Locate(map, observation, points, step);
+    if (step.status == StepStatus::kMatched) {
+      motion_.Learn(map_last_.T_a_b.Inverse() * step.map_robot.T_a_b, observation.T_odom_robot);
+    }
   }
   step.relevant = IsRelevant(points, step);
   if (step.relevant) FindReturn(map, points, step);
@@ -98,12 +97,16 @@ MappingStep RobotTracker::Track(const ScanMap& map,
   return step;
 }
 
-void RobotTracker::Begin(const Observation& observation, MappingStep& step) const {
+// The map that the first scan begins has the same error as its pose.
+void RobotTracker::Begin(const Observation& observation,
+                         std::span<const ScanPoint> points,
+                         MappingStep& step) const {
   // Unless it was told, the first pose is the odometry's, so that both frames begin together.
   step.reason = "first scan";
   step.map_robot =
       is_told_ ? map_last_ : UncertainPose2{.T_a_b = observation.T_odom_robot.value_or(Pose2{})};
   step.match.T_ref_cur = step.map_robot.T_a_b;
+  if (points.empty()) step.local_covariance = step.map_robot.covariance;
 }
 
 void RobotTracker::Locate(const ScanMap& map,
@@ -111,23 +114,19 @@ void RobotTracker::Locate(const ScanMap& map,
                           std::span<const ScanPoint> points,
                           MappingStep& step) const {
   UncertainPose2 last_robot = motion_.Predict(observation.T_odom_robot);
-  step.match = locator_.Locate(map, points, InMap(last_robot));
+  step.match = locator_.Locate(map, points, local_last_ * last_robot);
   if (is_odometry_doubted_) {
     const UncertainPose2 without_odometry = motion_.Predict(std::nullopt);
-    const MatchResult other = locator_.Locate(map, points, InMap(without_odometry));
+    const MatchResult other = locator_.Locate(map, points, local_last_ * without_odometry);
     if (other.overlap >= step.match.overlap) {
       last_robot = without_odometry;
       step.match = other;
     }
   }
   step.map_robot = map_last_ * last_robot;
-  Judge(map, points, InMap(last_robot).covariance, step);
-}
-
-// What a match is fused with: uncertain only by the last motion, unless the last pose was not found
-// but told.
-UncertainPose2 RobotTracker::InMap(const UncertainPose2& last_robot) const {
-  return is_told_ ? map_last_ * last_robot : MotionInMap(map_last_.T_a_b, last_robot);
+  step.local_covariance = (local_last_ * last_robot).covariance;
+  const UncertainPose2 last_in_map{.T_a_b = map_last_.T_a_b};
+  Judge(map, points, (last_in_map * last_robot).covariance, step);
 }
 
 // Matched well: the match is the pose. Overlap low: the pose, and the map is extended. Bad: dead
@@ -151,15 +150,15 @@ void RobotTracker::Judge(const ScanMap& map,
   const std::vector<Eigen::Vector2d> points_map =
       ToMap(ThinOut(points, kReferenceSpacing_m), match.T_ref_cur);
   const FrameCovariance reference = map.CovarianceAround(points_map, kReferenceReach_m);
-  const Eigen::Matrix3d independent = match.information * options_.drift_information;
   step.map_robot.covariance = FuseWithReference(reference.At(match.T_ref_cur.translation_m()),
                                                 step.map_robot.covariance,
                                                 motion_covariance,
-                                                independent);
+                                                match.information);
   const double floor_m2 = options_.match_floor_m * options_.match_floor_m;
   const double floor_rad2 = options_.match_floor_rad * options_.match_floor_rad;
   step.map_robot.covariance.diagonal() += Eigen::Vector3d(floor_m2, floor_m2, floor_rad2);
   step.map_robot.T_a_b = match.T_ref_cur;
+  step.local_covariance = match.covariance;
 }
 
 bool RobotTracker::IsRelevant(std::span<const ScanPoint> points, const MappingStep& step) const {
@@ -183,6 +182,7 @@ void RobotTracker::FindReturn(const ScanMap& map,
   step.reason = "back at a known place";
   step.map_robot.T_a_b = back->T_ref_cur;
   step.map_robot.covariance = back->covariance;
+  step.local_covariance = back->covariance;
   recent_.Clear();
 }
 
@@ -191,6 +191,7 @@ void RobotTracker::Remember(const Observation& observation, const MappingStep& s
   motion_.Remember(is_first ? Pose2{} : map_last_.T_a_b.Inverse() * step.map_robot.T_a_b,
                    observation.T_odom_robot);
   map_last_ = step.map_robot;
+  local_last_ = {.T_a_b = step.map_robot.T_a_b, .covariance = step.local_covariance};
   if (step.relevant) T_map_relevant_ = step.map_robot.T_a_b;
   is_told_ = is_told_ && is_first && !step.relevant;
   is_odometry_doubted_ = false;

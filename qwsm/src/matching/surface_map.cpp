@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "qwsm/geometry/moments.hpp"
 
 namespace qwsm {
 namespace {
+
+constexpr double kNormalScale = 32767.0;
 
 // Variance across a surface, from that of a few samples and what is expected before any. Fitting
 // the line has used up two samples, and the expectation counts as two.
@@ -39,10 +40,8 @@ bool SurfaceMap::Insert(const MapPoint& point, ScanId scan) {
   if (insertion->merged) return true;
   neighborhoods_.resize(quadtree_.id_end());
   neighborhoods_[insertion->id] = {
-      .own_normal_rad =
-          point.normal_map.isZero()
-              ? std::numeric_limits<float>::quiet_NaN()
-              : static_cast<float>(std::atan2(point.normal_map.y(), point.normal_map.x())),
+      .own_normal_x = static_cast<std::int16_t>(std::lround(kNormalScale * point.normal_map.x())),
+      .own_normal_y = static_cast<std::int16_t>(std::lround(kNormalScale * point.normal_map.y())),
       .spacing_m = static_cast<float>(point.spacing_m),
       .drift_m2 = static_cast<float>(point.drift_m2)};
   GatherNeighbors(insertion->id);
@@ -67,8 +66,10 @@ void SurfaceMap::RemoveScan(ScanId scan) {
   for (PointId id = 0; id < quadtree_.id_end(); ++id) {
     if (!quadtree_.Contains(id)) continue;
     Neighborhood& own = neighborhoods_[id];
-    own = {
-        .own_normal_rad = own.own_normal_rad, .spacing_m = own.spacing_m, .drift_m2 = own.drift_m2};
+    own = {.own_normal_x = own.own_normal_x,
+           .own_normal_y = own.own_normal_y,
+           .spacing_m = own.spacing_m,
+           .drift_m2 = own.drift_m2};
     const Eigen::Vector2d p_m = quadtree_.Position(id);
     quadtree_.ForEachInRadius(
         p_m, options_.neighborhood_radius_m, [&](PointId other, const Eigen::Vector2d& other_m) {
@@ -79,9 +80,8 @@ void SurfaceMap::RemoveScan(ScanId scan) {
 }
 
 Eigen::Vector2d SurfaceMap::OwnNormal(PointId id) const {
-  const double angle_rad = static_cast<double>(neighborhoods_[id].own_normal_rad);
-  if (std::isnan(angle_rad)) return Eigen::Vector2d::Zero();
-  return {std::cos(angle_rad), std::sin(angle_rad)};
+  const Neighborhood& own = neighborhoods_[id];
+  return Eigen::Vector2d(own.own_normal_x, own.own_normal_y) / kNormalScale;
 }
 
 // A scan puts about so many points into a neighbourhood as its beams are spaced.
@@ -111,10 +111,11 @@ Surface SurfaceMap::SurfaceAt(PointId id) const {
             .looks = Looks(n),
             .is_line = true};
   }
-  if (!std::isnan(n.own_normal_rad) && (is_line || !is_crowded)) {
+  const Eigen::Vector2d own_normal = OwnNormal(id);
+  if (!own_normal.isZero() && (is_line || !is_crowded)) {
     // Too few or too close together to show a direction better than the scan itself did.
     return {.mean_m = p_m,
-            .normal = OwnNormal(id),
+            .normal = own_normal,
             .across_m2 = 0.0,
             .spacing_m = static_cast<double>(n.spacing_m),
             .is_line = true};

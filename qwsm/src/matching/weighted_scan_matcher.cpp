@@ -19,6 +19,7 @@ constexpr double kPairDistancePerError = 5.0;  // Pairs are sought as far as the
 constexpr double kSmallestDoubt_m = 0.002;     // Below, annealing has ended;
 constexpr double kSmallestDoubt_rad = 0.0002;  // the same ten metres away.
 constexpr double kInlierSigmas = 3.0;
+constexpr double kPairsOfExpectation = 50.0;  // What the error model is worth beside the pairs.
 
 // A scan point with its counterpart in the map, kept from iteration to iteration.
 struct Pair {
@@ -191,13 +192,14 @@ void DropFalseHold(double min_share, NormalEquations& equations) {
   equations.b = (others * equations.b).eval();
 }
 
-// Information of the pairs in real units. Identity weights know no units: the residuals give them.
+// Information of the pairs in real units. Laser and surfaces are better or worse than modelled by
+// as much as the pairs fit; identity weights know no units, and the residuals give them.
 Eigen::Matrix3d InformationOf(const NormalEquations& equations,
                               const WeightedScanMatcherOptions& options) {
   if (options.weighting == PairWeighting::kModelled) {
-    // Where pairs fit worse than modelled, laser or surfaces are worse than told.
-    const double misfit = equations.sum_of_misfits / std::max(1e-9, equations.sum_of_weights);
-    return equations.A / std::max(1.0, misfit);
+    const double misfit = (equations.sum_of_misfits + kPairsOfExpectation) /
+                          (equations.sum_of_weights + kPairsOfExpectation);
+    return equations.A / misfit;
   }
   const double mean_m = equations.sum_of_distances_m / std::max(1, equations.pairs);
   const double sigma_m = std::max(mean_m, options.noise.range_sigma_m);

@@ -42,17 +42,30 @@ void LikelihoodPyramid::Insert(const Eigen::Vector2d& p_m, double drift_m2) {
   const int center_y = CellIndex(p_m.y());
   const int reach =
       static_cast<int>(std::ceil(kReachSigmas * options_.sigma_m / options_.cell_size_m));
-  const double falloff = -0.5 / (options_.sigma_m * options_.sigma_m);
+  // A Gaussian is the product of its profiles along both axes.
+  const std::vector<double> columns = Profile(p_m.x(), center_x - reach, center_x + reach);
+  const std::vector<double> rows = Profile(p_m.y(), center_y - reach, center_y + reach);
   const std::uint8_t drift_code = DriftCode(drift_m2);
-  for (int y = center_y - reach; y <= center_y + reach; ++y) {
-    for (int x = center_x - reach; x <= center_x + reach; ++x) {
-      const Eigen::Vector2d cell_m = options_.cell_size_m * Eigen::Vector2d(x + 0.5, y + 0.5);
-      const auto likelihood =
-          static_cast<std::uint8_t>(255.0 * std::exp(falloff * (cell_m - p_m).squaredNorm()));
+  for (int y = 0; y <= 2 * reach; ++y) {
+    for (int x = 0; x <= 2 * reach; ++x) {
+      const auto likelihood = static_cast<std::uint8_t>(
+          255.0 * columns[static_cast<std::size_t>(x)] * rows[static_cast<std::size_t>(y)]);
       if (likelihood == 0) continue;
-      Raise(x, y, {.likelihood = likelihood, .drift_code = drift_code});
+      Raise(center_x - reach + x,
+            center_y - reach + y,
+            {.likelihood = likelihood, .drift_code = drift_code});
     }
   }
+}
+
+std::vector<double> LikelihoodPyramid::Profile(double center_m, int first, int last) const {
+  std::vector<double> profile;
+  profile.reserve(static_cast<std::size_t>(last - first + 1));
+  for (int cell = first; cell <= last; ++cell) {
+    const double sigmas = (options_.cell_size_m * (cell + 0.5) - center_m) / options_.sigma_m;
+    profile.push_back(std::exp(-0.5 * sigmas * sigmas));
+  }
+  return profile;
 }
 
 void LikelihoodPyramid::Clear() { *this = LikelihoodPyramid(options_); }

@@ -19,7 +19,7 @@ struct PrincipalAxes {
 inline PrincipalAxes PrincipalAxesOf(double xx, double xy, double yy) {
   const double half_sum = 0.5 * (xx + yy);
   const double half_difference = 0.5 * (xx - yy);
-  const double radius = std::hypot(half_difference, xy);
+  const double radius = std::sqrt(half_difference * half_difference + xy * xy);
   PrincipalAxes axes;
   axes.minor_m2 = std::max(0.0, half_sum - radius);
   axes.major_m2 = std::max(0.0, half_sum + radius);

@@ -42,7 +42,6 @@ struct MapperOptions {
   double min_overlap = 0.35;
   double match_floor_m = 0.0002;
   double match_floor_rad = 0.00005;
-  double drift_information = 2.0;
   bool extend_map = true;
 };
 
@@ -73,11 +72,6 @@ void Describe(Visitor& visit, MapperOptions& o) {
   visit("match_floor_rad",
         o.match_floor_rad,
         {.help = "sigma that no match of a heading goes below", .min = 0, .max = 1});
-  visit("drift_information",
-        o.drift_information,
-        {.help = "share of the pairs' information that counts for the drift",
-         .min = 1e-3,
-         .max = 10});
   visit("extend_map", o.extend_map, {.help = "false: only localize in the map as it is"});
 }
 

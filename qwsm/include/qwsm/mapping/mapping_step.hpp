@@ -24,6 +24,8 @@ std::string_view Name(StepStatus status);
 struct MappingStep {
   Timestamp stamp{};
   UncertainPose2 map_robot{};  ///< Covariance of all error since the start.
+  /// Of the error relative to the map around the robot; the drift of that map aside.
+  Eigen::Matrix3d local_covariance = Eigen::Matrix3d::Zero();
   StepStatus status = StepStatus::kFirst;
   std::string_view reason{};  ///< Why that status, in words.
   MatchResult match{};        ///< Covariance of the match alone.

@@ -55,10 +55,18 @@ class MotionModel {
   /// Tells how the robot really moved, and with which odometry reading.
   void Remember(const Pose2& T_last_robot, const std::optional<Pose2>& T_odom_robot);
 
+  /// Tells how the robot was found to have moved. Odometry that keeps missing it by more than
+  /// modelled is believed less (Mehra 1970).
+  void Learn(const Pose2& T_last_robot, const std::optional<Pose2>& T_odom_robot);
+
  private:
+  // Factor on the modelled variance.
+  double Doubt() const;
+
   MotionNoise noise_;
   std::optional<Pose2> T_odom_last_;
-  Pose2 T_last_robot_;  // The last motion, for when there is no odometry.
+  double misfit_ = 0.0;  // Running mean of squared errors, in units of the modelled variance.
+  Pose2 T_last_robot_;   // The last motion, for when there is no odometry.
 };
 
 }  // namespace qwsm

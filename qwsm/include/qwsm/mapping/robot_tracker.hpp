@@ -41,12 +41,13 @@ class RobotTracker {
   const MapperOptions& options() const { return options_; }
 
  private:
-  void Begin(const Observation& observation, MappingStep& step) const;
+  void Begin(const Observation& observation,
+             std::span<const ScanPoint> points,
+             MappingStep& step) const;
   void Locate(const ScanMap& map,
               const Observation& observation,
               std::span<const ScanPoint> points,
               MappingStep& step) const;
-  UncertainPose2 InMap(const UncertainPose2& last_robot) const;
   void Judge(const ScanMap& map,
              std::span<const ScanPoint> points,
              const Eigen::Matrix3d& motion_covariance,
@@ -59,7 +60,8 @@ class RobotTracker {
   MotionModel motion_;
   ScanLocator locator_;
   RecentScans recent_;
-  UncertainPose2 map_last_;              // Pose at the last scan.
+  UncertainPose2 map_last_;              // Pose at the last scan,
+  UncertainPose2 local_last_;            // and how uncertain it is relative to the map around it.
   std::optional<Pose2> T_map_relevant_;  // Pose at the last relevant scan.
   bool is_told_ = false;                 // The last pose was told, not found.
   bool is_odometry_doubted_ = false;

@@ -64,7 +64,7 @@ struct ScanLocatorOptions {
   ReturnOptions known_places;
   double narrow_share = 0.33;
   double confident_overlap = 0.9;
-  double search_spacing_m = 0.15;
+  double search_spacing_m = 0.12;
   double search_error_m = 0.022;
   double window_sigmas = 3.0;
   double max_window_m = 3.0;

@@ -19,7 +19,7 @@ struct SurfaceMapOptions {
   double neighborhood_radius_m = 0.12;
   int min_neighbors = 5;
   double max_line_aspect = 0.3;
-  double min_line_m = 0.04;
+  double min_line_m = 0.03;
   double roughness_m = 0.03;
 };
 
@@ -105,7 +105,8 @@ class SurfaceMap {
     float sum_xy = 0.0F;
     float sum_yy = 0.0F;
     std::uint32_t count = 1;
-    float own_normal_rad = 0.0F;  // NaN where the scan showed no line.
+    std::int16_t own_normal_x = 0;  // Of a unit vector, in 1 / kNormalScale;
+    std::int16_t own_normal_y = 0;  // both 0 where the scan showed no line.
     float spacing_m = 0.0F;
     float drift_m2 = 0.0F;
 

@@ -29,7 +29,7 @@ struct WeightedScanMatcherOptions {
   double pair_distance_m = 0.15;
   double annealing_factor = 0.3;
   double outlier_sigmas = 5.0;
-  double small_object_m = 0.03;
+  double small_object_m = 0.02;
   double correlated_points = 3.0;
   double min_information_share = 0.006;
   int min_pairs = 3;

@@ -90,6 +90,8 @@ class LikelihoodPyramid {
     return kLevelStart[static_cast<std::size_t>(level)] +
            static_cast<std::size_t>((row << (kTileBits - level)) + column);
   }
+  // Likelihood along one axis of the cells first .. last around a point.
+  std::vector<double> Profile(double center_m, int first, int last) const;
   Cell& Touch(int level, int x, int y);
   void Raise(int x, int y, Cell value);
   void GrowDirectory(int column, int row);
