@@ -3,6 +3,7 @@
 #include "service/io/binary.hpp"
 
 #include <bit>
+#include <boost/crc.hpp>
 #include <concepts>
 
 namespace qwsm::io {
@@ -26,6 +27,12 @@ Number Assemble(std::string_view bytes) {
 }
 
 }  // namespace
+
+std::uint32_t Checksum(std::string_view bytes) {
+  boost::crc_32_type crc;
+  crc.process_bytes(bytes.data(), bytes.size());
+  return crc.checksum();
+}
 
 void BinaryWriter::Add(std::uint32_t value) { Append(bytes_, value); }
 void BinaryWriter::Add(std::uint64_t value) { Append(bytes_, value); }

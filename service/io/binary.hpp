@@ -27,6 +27,9 @@ class BinaryWriter {
   std::string bytes_;
 };
 
+/// CRC-32 of the bytes, as of zlib.
+std::uint32_t Checksum(std::string_view bytes);
+
 /// There are fewer bytes than what they claim to hold.
 class BinaryError : public std::runtime_error {
  public:

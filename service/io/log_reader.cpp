@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "service/io/file_error.hpp"
+#include "service/io/journal_reader.hpp"
+#include "service/io/sqlite_database.hpp"
 #include "service/io/text_log_reader.hpp"
 
 namespace qwsm::io {
@@ -19,6 +21,7 @@ std::unique_ptr<LogReader> OpenLog(std::istream& stream,
 
 std::unique_ptr<LogReader> OpenLog(const std::filesystem::path& path, const LogOptions& options) {
   if (path == "-") return OpenLog(std::cin, "standard input", options);
+  if (IsSqliteDatabase(path)) return std::make_unique<JournalReader>(path);
   std::unique_ptr<std::ifstream> file;
   try {
     file = std::make_unique<std::ifstream>(OpenForReading(path));

@@ -62,8 +62,8 @@ class LogReader {
   virtual LogProgress progress() const = 0;
 };
 
-/// Opens a log: CARMEN, Player or DP-SLAM text; plain, gzip, bzip2 or xz. Both are recognised from
-/// the content, never from the name. "-" is standard input.
+/// Opens a log: CARMEN, Player or DP-SLAM text; plain, gzip, bzip2 or xz; or the journal of a
+/// service. All are recognised from the content, never from the name. "-" is standard input.
 /// @throws LogError where there is no such file or it is not a log.
 std::unique_ptr<LogReader> OpenLog(const std::filesystem::path& path,
                                    const LogOptions& options = {});

@@ -20,7 +20,7 @@ struct LogFault {
 /// What was found in a log so far.
 struct LogReport {
   std::string name;         ///< The file, or "standard input".
-  std::string format;       ///< "CARMEN", "Player" or "DP-SLAM".
+  std::string format;       ///< "CARMEN", "Player", "DP-SLAM" or "journal".
   std::string compression;  ///< "none", "gzip", "bzip2" or "xz".
   bool has_stamps = true;   ///< Else they were made up: the format has none.
   std::size_t lines = 0;

@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <boost/crc.hpp>
-#include <cmath>
 #include <cstdint>
 #include <fstream>
 
@@ -14,6 +12,7 @@
 #include "service/io/binary.hpp"
 #include "service/io/file_error.hpp"
 #include "service/io/option_codec.hpp"
+#include "service/io/scan_codec.hpp"
 
 namespace qwsm::io {
 namespace {
@@ -25,71 +24,6 @@ constexpr std::size_t kHeaderBytes =
 // Of the smallest scan and of a point, which bound what a file of some size can claim to hold.
 constexpr std::size_t kScanBytes = 38 * sizeof(std::uint32_t);
 constexpr std::size_t kPointBytes = 2 * sizeof(double) + 2 * sizeof(std::uint32_t);
-constexpr std::size_t kMaxBeams = 100'000;
-
-std::uint32_t Checksum(std::string_view bytes) {
-  boost::crc_32_type crc;
-  crc.process_bytes(bytes.data(), bytes.size());
-  return crc.checksum();
-}
-
-void AddPose(BinaryWriter& writer, const Pose2& pose) {
-  writer.Add(pose.x_m);
-  writer.Add(pose.y_m);
-  writer.Add(pose.theta_rad);
-}
-
-Pose2 ReadPose(BinaryReader& reader) {
-  Pose2 pose;
-  pose.x_m = reader.Double();
-  pose.y_m = reader.Double();
-  pose.theta_rad = reader.Double();
-  if (!IsFinite(pose)) throw BinaryError("a pose is not finite");
-  return pose;
-}
-
-void AddScan(BinaryWriter& writer, const RelevantScan& relevant) {
-  const LaserGeometry& geometry = relevant.scan.geometry;
-  writer.Add(static_cast<std::int64_t>(relevant.scan.stamp.count()));
-  AddPose(writer, relevant.map_robot.T_a_b);
-  // All nine, as rounding leaves them not quite symmetric.
-  for (const double entry : relevant.map_robot.covariance.reshaped()) writer.Add(entry);
-  writer.Add(geometry.first_bearing_rad);
-  writer.Add(geometry.bearing_step_rad);
-  writer.Add(geometry.range_min_m);
-  writer.Add(geometry.range_max_m);
-  AddPose(writer, geometry.T_robot_laser);
-  writer.Add(static_cast<std::uint64_t>(relevant.scan.size()));
-  for (const float range_m : relevant.scan.ranges_m) writer.Add(range_m);
-}
-
-LaserGeometry ReadGeometry(BinaryReader& reader) {
-  LaserGeometry geometry;
-  geometry.first_bearing_rad = reader.Float();
-  geometry.bearing_step_rad = reader.Float();
-  geometry.range_min_m = reader.Float();
-  geometry.range_max_m = reader.Float();
-  geometry.T_robot_laser = ReadPose(reader);
-  if (!std::isfinite(geometry.Bearing(kMaxBeams)) || std::isnan(geometry.range_min_m) ||
-      std::isnan(geometry.range_max_m)) {
-    throw BinaryError("the geometry of a laser is not finite");
-  }
-  return geometry;
-}
-
-RelevantScan ReadScan(BinaryReader& reader) {
-  RelevantScan relevant;
-  relevant.scan.stamp = Timestamp(reader.Signed64());
-  relevant.map_robot.T_a_b = ReadPose(reader);
-  for (double& entry : relevant.map_robot.covariance.reshaped()) entry = reader.Double();
-  if (!relevant.map_robot.covariance.allFinite()) throw BinaryError("a covariance is not finite");
-  relevant.scan.geometry = ReadGeometry(reader);
-  const std::size_t beams = reader.Count(sizeof(float));
-  if (beams > kMaxBeams) throw BinaryError("a scan has too many beams");
-  relevant.scan.ranges_m.resize(beams);
-  for (float& range_m : relevant.scan.ranges_m) range_m = reader.Float();
-  return relevant;
-}
 
 void AddPoints(BinaryWriter& writer, const PointQuadtree& points) {
   writer.Add(static_cast<std::uint64_t>(points.size()));

@@ -10,6 +10,8 @@
 #include <tuple>
 #include <utility>
 
+#include "service/io/scan_codec.hpp"
+
 namespace qwsm::team {
 namespace {
 
@@ -31,6 +33,23 @@ int ThreadCount(int wanted) {
   return wanted > 0 ? wanted : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
+io::JournalEntry ToJournal(const TeamScan& scan) {
+  return {.service = scan.key.service,
+          .robot = scan.key.robot,
+          .sequence = scan.key.sequence,
+          .stamp = scan.scan.stamp,
+          .contents = io::EncodeScan({.relevant = {.scan = scan.scan, .map_robot = scan.map_robot},
+                                      .T_odom_robot = scan.T_odom_robot})};
+}
+
+TeamScan FromJournal(const io::JournalEntry& entry) {
+  io::JournaledScan scan = io::DecodeScan(entry.contents);
+  return {.key = {.service = entry.service, .robot = entry.robot, .sequence = entry.sequence},
+          .scan = std::move(scan.relevant.scan),
+          .map_robot = scan.relevant.map_robot,
+          .T_odom_robot = scan.T_odom_robot};
+}
+
 UncertainPose2 StartOf(const RobotStartOptions& robot) {
   UncertainPose2 start{.T_a_b = {robot.x_m, robot.y_m, NormalizeAngle(robot.heading_rad)}};
   start.covariance.diagonal() =
@@ -42,12 +61,17 @@ UncertainPose2 StartOf(const RobotStartOptions& robot) {
 
 TeamService::TeamService(const TeamServiceOptions& options,
                          TeamSink& sink,
-                         const std::filesystem::path& /*journal*/)
+                         const std::filesystem::path& journal)
     : options_(WithQuadtree(options)),
       sink_(sink),
       begun_(steady_clock::now()),
       identity_(NewIdentity(options.team.service)),
       maps_(options.team.map, options.mapper.map) {
+  if (!journal.empty()) {
+    journal_ = std::make_unique<Journal>(Journal::Names{
+        .file = journal, .kind = std::string(io::kScanJournal), .identity = identity_});
+    Restore();
+  }
   for (const RobotStartOptions& robot : options_.team.robots) {
     SessionOf(robot.name)->SetStart(StartOf(robot));
   }
@@ -55,8 +79,29 @@ TeamService::TeamService(const TeamServiceOptions& options,
 
 TeamService::~TeamService() { Stop(); }
 
+void TeamService::Restore() {
+  std::size_t damaged = 0;
+  damaged += journal_->Restore([&](const io::JournalEntry& entry) {
+    try {
+      const TeamScan scan = FromJournal(entry);
+      if (!maps_.Of(scan.key.robot)->Insert(scan, ToPoints(scan.scan))) return;
+      offered_.push_back(scan);
+    } catch (const io::BinaryError&) {
+      ++damaged;
+    }
+  });
+  identity_ = journal_->identity();
+  std::erase_if(offered_, [this](const TeamScan& scan) { return scan.key.service != identity_; });
+  if (damaged == 0) return;
+  const std::string text =
+      fmt::format("{}: {} entries are damaged and left out", journal_->Status().file, damaged);
+  sink_.TakeEvent({.robot = {}, .is_warning = true, .text = text});
+}
+
 void TeamService::Start() {
   const TeamOptions& team = options_.team;
+  for (const TeamScan& scan : offered_) sink_.TakeRelevantScan(scan);
+  offered_ = {};
   {
     const std::lock_guard lock(mutex_);
     workers_ = std::make_unique<WorkerPool>(ThreadCount(team.threads));
@@ -75,10 +120,18 @@ void TeamService::Stop() {
   painting_.reset();
   reporting_.reset();
   if (workers_) workers_->Stop();
+  if (!journal_) return;
+  journal_->Stop();
+  const JournalStatus journal = journal_->Status();
+  if (journal.waiting == 0) return;
+  const std::string text =
+      fmt::format("{} relevant scans could not be stored: {}", journal.waiting, journal.trouble);
+  sink_.TakeEvent({.robot = {}, .is_warning = true, .text = text});
 }
 
 void TeamService::WaitUntilIdle() {
   if (workers_) workers_->WaitUntilIdle();
+  if (journal_) journal_->WaitUntilSettled();
 }
 
 void TeamService::Join(std::string_view robot) {
@@ -122,27 +175,39 @@ void TeamService::TakeInOne(const TeamScan& scan) {
     ++refused_;
     return;
   }
-  const std::lock_guard lock(extension_);
-  if (!maps_.Of(scan.key.robot)->Insert(scan, ToPoints(scan.scan))) {
-    ++duplicates_;
-    return;
-  }
-  ++taken_in_;
+  std::atomic<std::uint64_t>& count =
+      Insert(scan, ToPoints(scan.scan), {}) ? taken_in_ : duplicates_;
+  ++count;
 }
 
 void TeamService::Extend(const TeamScan& scan, std::span<const ScanPoint> points) {
-  std::shared_ptr<const MapAddition> addition;
-  {
-    const std::lock_guard lock(extension_);
-    addition = maps_.Of(scan.key.robot)->Insert(scan, points);
-  }
+  const auto share = [this, shared = std::make_shared<TeamScan>(scan)] {
+    sink_.TakeRelevantScan(*shared);
+  };
+  const std::shared_ptr<const MapAddition> addition = Insert(scan, points, share);
   if (!addition) return;
-  sink_.TakeRelevantScan(scan);
   std::vector<Eigen::Vector2d> points_map_m;
   points_map_m.reserve(addition->points.size());
   for (const MapPoint& point : addition->points) points_map_m.push_back(point.p_map_m);
   sink_.TakeNewPoints(
       {.robot = scan.key.robot, .stamp = scan.scan.stamp, .points_map_m = points_map_m});
+}
+
+std::shared_ptr<const MapAddition> TeamService::Insert(const TeamScan& scan,
+                                                       std::span<const ScanPoint> points,
+                                                       const std::function<void()>& settled) {
+  std::shared_ptr<const MapAddition> addition;
+  {
+    const std::lock_guard lock(extension_);
+    addition = maps_.Of(scan.key.robot)->Insert(scan, points);
+    if (!addition) return nullptr;
+    if (journal_) {
+      journal_->Append(ToJournal(scan), settled);
+      return addition;
+    }
+  }
+  if (settled) settled();
+  return addition;
 }
 
 TeamStatus TeamService::Status() const {
@@ -152,6 +217,7 @@ TeamStatus TeamService::Status() const {
     for (const auto& [robot, session] : sessions_) status.robots.push_back(session->Status());
   }
   status.map = StatusOfMaps();
+  if (journal_) status.journal = journal_->Status();
   return status;
 }
 

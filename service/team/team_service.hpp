@@ -17,6 +17,7 @@
 
 #include "qwsm/mapping/mapper_options.hpp"
 #include "qwsm/mapping/occupancy_grid.hpp"
+#include "service/team/journal.hpp"
 #include "service/team/map_painter.hpp"
 #include "service/team/periodic_task.hpp"
 #include "service/team/robot_session.hpp"
@@ -91,6 +92,10 @@ class TeamService {
   void Wake();
   void Extend(const TeamScan& scan, std::span<const ScanPoint> points);
   void TakeInOne(const TeamScan& scan);
+  void Restore();
+  std::shared_ptr<const MapAddition> Insert(const TeamScan& scan,
+                                            std::span<const ScanPoint> points,
+                                            const std::function<void()>& settled);
   void PaintMaps();
   MapStatus StatusOfMaps() const;
 
@@ -99,7 +104,8 @@ class TeamService {
   const std::chrono::steady_clock::time_point begun_;
   std::string identity_;
   TeamMaps maps_;
-  std::mutex extension_;  // Keeps the journal in the order of the map.
+  std::mutex extension_;           // Keeps the journal in the order of the map.
+  std::vector<TeamScan> offered_;  // Of this service, from the journal, until the start.
   std::atomic<std::uint64_t> taken_in_ = 0;
   std::atomic<std::uint64_t> duplicates_ = 0;
   std::atomic<std::uint64_t> refused_ = 0;
@@ -108,6 +114,7 @@ class TeamService {
   std::map<std::string, std::shared_ptr<RobotSession>, std::less<>> sessions_;
   std::map<std::string, MapPainter> painters_;  // Of the task that paints.
 
+  std::unique_ptr<Journal> journal_;  // Null: there is none.
   std::unique_ptr<WorkerPool> workers_;
   std::unique_ptr<PeriodicTask> painting_;
   std::unique_ptr<PeriodicTask> reporting_;
