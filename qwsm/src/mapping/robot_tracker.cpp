@@ -138,9 +138,9 @@ void RobotTracker::Judge(const ScanMap& map,
   const MatchResult& match = step.match;
   const bool found =
       match.status == MatchStatus::kConverged || match.status == MatchStatus::kIterationLimit;
-  if (!found || match.overlap < options_.min_overlap) {
+  if (!found) {
     step.status = StepStatus::kDeadReckoned;
-    step.reason = found ? "too little of the scan agrees with the map" : Name(match.status);
+    step.reason = Name(match.status);
     return;
   }
   const bool extends = match.overlap < options_.extend_below_overlap;

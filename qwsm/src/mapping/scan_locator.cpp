@@ -139,8 +139,7 @@ std::optional<MatchResult> ScanLocator::FindReturn(
                       .start = found.T_a_b,
                       .start_error = {.translation_m = options_.search_error_m},
                       .max_drift_m2 = max_drift_m2});
-  const bool fits = match.status == MatchStatus::kConverged && match.overlap >= options.min_overlap;
-  return fits ? std::optional(match) : std::nullopt;
+  return match.status == MatchStatus::kConverged ? std::optional(match) : std::nullopt;
 }
 
 // The place that fits best, unless another one fits nearly as well or it is where we are anyway.

@@ -7,172 +7,13 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <vector>
 
-#include "qwsm/matching/pair_error.hpp"
+#include "pairing.hpp"
 
 namespace qwsm {
 namespace {
 
-constexpr double kPairDistancePerError = 5.0;  // Pairs are sought as far as the error may reach.
-constexpr double kSmallestDoubt_m = 0.002;     // Below, annealing has ended;
-constexpr double kSmallestDoubt_rad = 0.0002;  // the same ten metres away.
-constexpr double kInlierSigmas = 3.0;
 constexpr double kPairsOfExpectation = 50.0;  // What the error model is worth beside the pairs.
-
-// A scan point with its counterpart in the map, kept from iteration to iteration.
-struct Pair {
-  SearchCursor cursor;
-  std::optional<PointId> id;
-  double distance_m2 = 0.0;
-  double weight = 1.0;  // Of the robust estimate.
-  Eigen::Vector2d nearest_m = Eigen::Vector2d::Zero();
-  Surface surface;
-};
-
-// Doubt about the current estimate, taken back from iteration to iteration: with it all pairs look
-// plausible at first, and a poor first guess does not make the true pairs outliers.
-struct Doubt {
-  StartError sigma;
-
-  bool IsGone() const { return sigma.translation_m == 0.0 && sigma.rotation_rad == 0.0; }
-  /// Variance of a point's position.
-  double At_m2(double range_m) const {
-    const double turn_m = sigma.rotation_rad * range_m;
-    return sigma.translation_m * sigma.translation_m + turn_m * turn_m;
-  }
-  void Shrink(double factor) {
-    sigma.translation_m *= factor;
-    sigma.rotation_rad *= factor;
-    if (sigma.translation_m < kSmallestDoubt_m) sigma.translation_m = 0.0;
-    if (sigma.rotation_rad < kSmallestDoubt_rad) sigma.rotation_rad = 0.0;
-  }
-};
-
-// Derivative of R u + t by (x, y, theta), [ I | J R u ], for arm = R u.
-Eigen::Matrix<double, 2, 3> DerivativeByPose(const Eigen::Vector2d& arm) {
-  Eigen::Matrix<double, 2, 3> H;
-  H << 1.0, 0.0, -arm.y(), 0.0, 1.0, arm.x();
-  return H;
-}
-
-// Normal equations of the weighted least squares: A step = b.
-struct NormalEquations {
-  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d b = Eigen::Vector3d::Zero();
-  int pairs = 0;
-  int inliers = 0;
-  double sum_of_distances_m = 0.0;
-  double sum_of_weights = 0.0;
-  double sum_of_misfits = 0.0;  // Squared, weighted, in units of the modelled errors.
-
-  void Add(const Eigen::Matrix2d& weight,
-           const Eigen::Vector2d& error,
-           const Eigen::Vector2d& arm) {
-    const Eigen::Matrix<double, 2, 3> H = DerivativeByPose(arm);
-    const Eigen::Matrix<double, 3, 2> HtW = H.transpose() * weight;
-    A.noalias() += HtW * H;
-    b.noalias() += HtW * error;
-  }
-};
-
-// Geman-McClure: falls from 1 to a quarter at the outlier limit, and on towards 0.
-double RobustWeight(double mahalanobis2, double outlier_sigmas) {
-  const double w = 1.0 / (1.0 + mahalanobis2 / (outlier_sigmas * outlier_sigmas));
-  return w * w;
-}
-
-// Pairs of one scan with a map.
-class Pairing {
- public:
-  Pairing(const SurfaceMap& map,
-          std::span<const ScanPoint> points,
-          double max_drift_m2,
-          const WeightedScanMatcherOptions& options)
-      : map_(map),
-        points_(points),
-        max_drift_m2_(max_drift_m2),
-        options_(options),
-        pairs_(points.size()) {}
-
-  NormalEquations Linearize(const Pose2& T_map_cur, const Doubt& doubt) {
-    NormalEquations equations;
-    const Eigen::Matrix2d R = T_map_cur.Rotation();
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const ScanPoint& point = points_[i];
-      const Eigen::Vector2d arm = R * point.p_robot_m;
-      const Eigen::Vector2d p_map = arm + T_map_cur.translation_m();
-      const double doubt_m2 = doubt.At_m2(point.range_m);
-      Pair& pair = pairs_[i];
-      if (!FindPair(p_map, Reach(doubt_m2), pair)) continue;
-      ++equations.pairs;
-      equations.sum_of_distances_m += std::sqrt(pair.distance_m2);
-      if (options_.weighting == PairWeighting::kIdentity) {
-        equations.Add(Eigen::Matrix2d::Identity(), pair.nearest_m - p_map, arm);
-        ++equations.inliers;
-        continue;
-      }
-      const Eigen::Vector2d error = pair.surface.mean_m - p_map;
-      const Eigen::Matrix2d information =
-          PairInformation(pair.surface, NoiseInMap(R, point), Extent_m2(point), doubt_m2);
-      const double mahalanobis2 = error.dot(information * error);
-      if (mahalanobis2 < kInlierSigmas * kInlierSigmas) ++equations.inliers;
-      pair.weight = RobustWeight(mahalanobis2, options_.outlier_sigmas);
-      equations.sum_of_weights += pair.weight;
-      equations.sum_of_misfits += pair.weight * mahalanobis2;
-      equations.Add(pair.weight * information, error, arm);
-    }
-    return equations;
-  }
-
-  // A^-1 of the pairs found last, were each the nearest sample of the papers.
-  Eigen::Matrix3d NearestSampleCovariance(const Pose2& T_map_cur) const {
-    Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
-    const Eigen::Matrix2d R = T_map_cur.Rotation();
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const Pair& pair = pairs_[i];
-      if (!pair.id) continue;
-      const auto H = DerivativeByPose(R * points_[i].p_robot_m);
-      const Eigen::Matrix2d S = NearestSampleError(pair.surface, NoiseInMap(R, points_[i]));
-      A += pair.weight * H.transpose() * S.inverse() * H;
-    }
-    return A.inverse();
-  }
-
- private:
-  double Reach(double doubt_m2) const {
-    return std::max(options_.pair_distance_m, kPairDistancePerError * std::sqrt(doubt_m2));
-  }
-
-  Eigen::Matrix2d NoiseInMap(const Eigen::Matrix2d& R_map_cur, const ScanPoint& point) const {
-    return PointCovariance(R_map_cur * point.beam_robot, point.range_m, options_.noise);
-  }
-
-  // Of what is no line: a beam hits it anywhere.
-  double Extent_m2(const ScanPoint& point) const {
-    return options_.small_object_m * options_.small_object_m + UniformVariance(point.spacing_m);
-  }
-
-  bool FindPair(const Eigen::Vector2d& p_map, double reach_m, Pair& pair) const {
-    const auto nearest = map_.quadtree().Nearest(p_map, reach_m, pair.cursor);
-    if (!nearest || map_.Drift_m2(nearest->id) > max_drift_m2_) {
-      pair.id.reset();
-      return false;
-    }
-    if (pair.id != nearest->id) pair.surface = map_.SurfaceAt(nearest->id);
-    pair.id = nearest->id;
-    pair.distance_m2 = nearest->distance_m2;
-    pair.nearest_m = nearest->position_m;
-    return true;
-  }
-
-  const SurfaceMap& map_;
-  std::span<const ScanPoint> points_;
-  double max_drift_m2_;
-  const WeightedScanMatcherOptions& options_;
-  std::vector<Pair> pairs_;
-};
 
 // Takes back what pairs seem to say about a direction of which they say next to nothing: normals of
 // noisy walls are never quite parallel, and their errors would pass for a hold along a corridor
@@ -217,6 +58,16 @@ Pose2 Moved(const Pose2& pose, const Eigen::Vector3d& step) {
 bool IsSmall(const Eigen::Vector3d& step, const WeightedScanMatcherOptions& options) {
   return step.head<2>().norm() < options.translation_tolerance_m &&
          std::abs(step.z()) < options.rotation_tolerance_rad;
+}
+
+// Whether enough of the scan agrees with the answer, and the answer with the prediction.
+bool IsConsistent(const MatchResult& result,
+                  const MatchPrior& prior,
+                  const WeightedScanMatcherOptions& options) {
+  const Eigen::Vector3d way = Difference(result.T_ref_cur, prior.predicted.T_a_b);
+  const double sigmas2 = way.dot(prior.predicted.covariance.inverse() * way);
+  return result.overlap >= options.min_overlap &&
+         sigmas2 <= options.max_prior_sigmas * options.max_prior_sigmas;
 }
 
 // Whether the answer is known in every direction, be it from the pairs or from the prior.
@@ -276,6 +127,7 @@ MatchResult WeightedScanMatcher::Match(const SurfaceMap& reference,
     }
     doubt.Shrink(options_.annealing_factor);
   }
+  if (!IsConsistent(result, prior, options_)) result.status = MatchStatus::kInconsistent;
   result.nearest_sample_covariance = pairing.NearestSampleCovariance(result.T_ref_cur);
   return result;
 }

@@ -39,7 +39,6 @@ struct MapperOptions {
   double relevant_translation_m = 0.5;
   double relevant_rotation_rad = 0.35;
   double extend_below_overlap = 0.6;
-  double min_overlap = 0.35;
   double match_floor_m = 0.0002;
   double match_floor_rad = 0.00005;
   bool extend_map = true;
@@ -63,9 +62,6 @@ void Describe(Visitor& visit, MapperOptions& o) {
   visit("extend_below_overlap",
         o.extend_below_overlap,
         {.help = "or when less than this share of it agrees with the map", .min = 0, .max = 1});
-  visit("min_overlap",
-        o.min_overlap,
-        {.help = "with less agreement the pose is dead reckoned", .min = 0, .max = 1});
   visit("match_floor_m",
         o.match_floor_m,
         {.help = "sigma that no match of a position goes below", .min = 0, .max = 1});

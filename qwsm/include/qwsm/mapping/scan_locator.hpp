@@ -25,7 +25,6 @@ struct ReturnOptions {
   double max_window_rad = 0.35;
   double min_score = 0.3;
   double uniqueness = 0.06;
-  double min_overlap = 0.35;
 };
 
 template <class Visitor>
@@ -53,9 +52,6 @@ void Describe(Visitor& visit, ReturnOptions& o) {
   visit("uniqueness",
         o.uniqueness,
         {.help = "by how much it must beat every other place", .min = 0, .max = 1});
-  visit("min_overlap",
-        o.min_overlap,
-        {.help = "share of the scan that then agrees with known surfaces", .min = 0, .max = 1});
 }
 
 struct ScanLocatorOptions {

@@ -34,6 +34,8 @@ struct WeightedScanMatcherOptions {
   double min_information_share = 0.006;
   int min_pairs = 3;
   double max_sigma_m = 2.0;
+  double min_overlap = 0.35;
+  double max_prior_sigmas = 8.0;
 };
 
 template <class Visitor>
@@ -75,6 +77,12 @@ void Describe(Visitor& visit, WeightedScanMatcherOptions& o) {
   visit("max_sigma_m",
         o.max_sigma_m,
         {.help = "a position less certain than this is no match", .min = 0.01, .max = 100});
+  visit("min_overlap",
+        o.min_overlap,
+        {.help = "a match is inconsistent if less of the scan agrees with it", .min = 0, .max = 1});
+  visit("max_prior_sigmas",
+        o.max_prior_sigmas,
+        {.help = "... or if it is further from the prediction", .min = 1, .max = 1000});
 }
 
 /// Standard deviations of a first guess.

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "qwsm/matching/surface_map.hpp"
+#include "qwsm/matching/weighted_scan_matcher.hpp"
+#include "qwsm/sensor/scan_points.hpp"
+
+namespace qwsm {
+
+// Doubt about the current estimate, taken back from iteration to iteration: with it all pairs look
+// plausible at first, and a poor first guess does not make the true pairs outliers.
+struct Doubt {
+  StartError sigma;
+
+  bool IsGone() const { return sigma.translation_m == 0.0 && sigma.rotation_rad == 0.0; }
+  // Variance of the position of a point at that range.
+  double At_m2(double range_m) const;
+  void Shrink(double factor);
+};
+
+// Normal equations of the weighted least squares, A step = b, for a step of (x, y, theta).
+struct NormalEquations {
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  int pairs = 0;
+  int inliers = 0;
+  double sum_of_distances_m = 0.0;
+  double sum_of_weights = 0.0;
+  double sum_of_misfits = 0.0;  // Squared, weighted, in units of the modelled errors.
+
+  // @param arm the point in map axes, from the robot: R u.
+  void Add(const Eigen::Matrix2d& weight, const Eigen::Vector2d& error, const Eigen::Vector2d& arm);
+};
+
+// The pairs of one scan with a map, kept from iteration to iteration.
+class Pairing {
+ public:
+  // Keeps references: all arguments outlive the pairing.
+  Pairing(const SurfaceMap& map,
+          std::span<const ScanPoint> points,
+          double max_drift_m2,
+          const WeightedScanMatcherOptions& options);
+
+  // Pairs every point, seen from the pose, with the surface nearest to it.
+  NormalEquations Linearize(const Pose2& T_map_cur, const Doubt& doubt);
+
+  // A^-1 of the pairs found last, were each the nearest sample of the papers.
+  Eigen::Matrix3d NearestSampleCovariance(const Pose2& T_map_cur) const;
+
+ private:
+  struct Pair {
+    SearchCursor cursor;
+    std::optional<PointId> id;
+    double distance_m2 = 0.0;
+    double weight = 1.0;  // Of the robust estimate.
+    Eigen::Vector2d nearest_m = Eigen::Vector2d::Zero();
+    Surface surface;
+  };
+
+  double Reach(double doubt_m2) const;
+  Eigen::Matrix2d NoiseInMap(const Eigen::Matrix2d& R_map_cur, const ScanPoint& point) const;
+  double Extent_m2(const ScanPoint& point) const;
+  bool FindPair(const Eigen::Vector2d& p_map, double reach_m, Pair& pair) const;
+
+  const SurfaceMap& map_;
+  std::span<const ScanPoint> points_;
+  double max_drift_m2_;
+  const WeightedScanMatcherOptions& options_;
+  std::vector<Pair> pairs_;
+};
+
+}  // namespace qwsm
