@@ -71,6 +71,8 @@ NormalEquations Pairing::Linearize(const Pose2& T_map_cur, const Doubt& doubt) {
     const Eigen::Vector2d p_map = arm + T_map_cur.translation_m();
     const double doubt_m2 = doubt.At_m2(point.range_m);
     Pair& pair = pairs_[i];
+    // The neighbouring beam ended near here.
+    if (i > 0 && pair.cursor.revision == 0) pair.cursor = pairs_[i - 1].cursor;
     if (!FindPair(p_map, Reach(doubt_m2), pair)) continue;
     ++equations.pairs;
     equations.sum_of_distances_m += std::sqrt(pair.distance_m2);

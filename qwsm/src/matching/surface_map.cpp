@@ -79,6 +79,11 @@ void SurfaceMap::RemoveScan(ScanId scan) {
   }
 }
 
+std::size_t SurfaceMap::bytes() const {
+  return quadtree_.Statistics().bytes + likelihood_.bytes() +
+         neighborhoods_.capacity() * sizeof(Neighborhood);
+}
+
 Eigen::Vector2d SurfaceMap::OwnNormal(PointId id) const {
   const Neighborhood& own = neighborhoods_[id];
   return Eigen::Vector2d(own.own_normal_x, own.own_normal_y) / kNormalScale;

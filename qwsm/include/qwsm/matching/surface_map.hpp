@@ -90,6 +90,8 @@ class SurfaceMap {
   bool empty() const { return quadtree_.empty(); }
   const PointQuadtree& quadtree() const { return quadtree_; }
   const LikelihoodPyramid& likelihood() const { return likelihood_; }
+  /// All memory held. Complexity: linear in the nodes of the quadtree.
+  std::size_t bytes() const;
   /// @pre quadtree().Contains(id), here and below.
   Surface SurfaceAt(PointId id) const;
   double Drift_m2(PointId id) const { return static_cast<double>(neighborhoods_[id].drift_m2); }

@@ -54,8 +54,8 @@ struct PointQuadtreeStatistics {
 /// falls outside. Leaves hold up to 20 points in four cache lines (quadtree_layout.hpp).
 ///
 /// Cost: insertion and search O(depth), and depth grows with the logarithm of extent over spacing.
-/// Insertion never moves what is stored, so there are no pauses. 50 - 60 bytes per point;
-/// measured by point_quadtree_bench. Const members may run on several threads at once.
+/// Insertion never moves what is stored, so there are no pauses. 40 - 50 bytes per point;
+/// measured by quadtree_bench. Const members may run on several threads at once.
 class PointQuadtree {
  public:
   struct Insertion {

@@ -20,7 +20,6 @@ struct SearchCursor {
   quadtree::UnitPoint neighbor;             ///< and where it is.
   quadtree::UnitPoint query;                ///< Where the query was.
   double clearance_of_point = 0.0;          ///< No other point was nearer than this, in units.
-  double clearance_of_leaf = 0.0;           ///< No point of any other leaf was nearer, in units.
 };
 
 namespace quadtree {

@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "qwsm/matching/surface_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace qwsm {
+namespace {
+
+using Random = std::mt19937_64;
+
+/// Some noisy walls and a few scattered points, inserted scan by scan.
+std::vector<std::pair<MapPoint, ScanId>> AnyPoints(Random& random, int scans) {
+  std::uniform_real_distribution<double> along_m(-1.0, 1.0);
+  std::normal_distribution<double> noise_m(0.0, 0.01);
+  std::vector<std::pair<MapPoint, ScanId>> points;
+  for (int scan = 0; scan < scans; ++scan) {
+    for (int i = 0; i < 60; ++i) {
+      Eigen::Vector2d p_m(along_m(random), 0.4 * (i % 3) + noise_m(random));
+      if (i % 20 == 0) p_m = {along_m(random), along_m(random)};
+      points.push_back({{.p_map_m = p_m,
+                         .normal_map = {0.0, 1.0},
+                         .spacing_m = 0.03,
+                         .drift_m2 = 1e-4 * (scan + 1)},
+                        static_cast<ScanId>(scan)});
+    }
+  }
+  return points;
+}
+
+/// Mean of the stored points around one of them, itself included.
+Eigen::Vector2d MeanAround(const SurfaceMap& map, PointId id, double radius_m) {
+  Eigen::Vector2d sum_m = Eigen::Vector2d::Zero();
+  int count = 0;
+  const PointQuadtree& tree = map.quadtree();
+  for (PointId other = 0; other < tree.id_end(); ++other) {
+    if (!tree.Contains(other)) continue;
+    const Eigen::Vector2d p_m = tree.Position(other);
+    if ((p_m - tree.Position(id)).norm() > radius_m) continue;
+    sum_m += p_m;
+    ++count;
+  }
+  return sum_m / count;
+}
+
+void ExpectSurfacesOfBruteForce(const SurfaceMap& map) {
+  const SurfaceMapOptions options;
+  for (PointId id = 0; id < map.quadtree().id_end(); ++id) {
+    if (!map.quadtree().Contains(id)) continue;
+    const Surface surface = map.SurfaceAt(id);
+    // Where few points are around, the scan's own normal and the point itself are all there is.
+    const bool is_own = (surface.mean_m - map.quadtree().Position(id)).norm() < 1e-12;
+    if (is_own) continue;
+    const Eigen::Vector2d mean_m = MeanAround(map, id, options.neighborhood_radius_m);
+    EXPECT_NEAR((surface.mean_m - mean_m).norm(), 0.0, 1e-5) << id;
+    EXPECT_NEAR(surface.normal.norm(), 1.0, 1e-9) << id;
+    EXPECT_GE(surface.across_m2, 0.0) << id;
+  }
+}
+
+TEST(SurfaceMap, SurfacesAreThoseOfThePointsAround) {
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    SurfaceMap map;
+    for (const auto& [point, scan] : AnyPoints(random, 6)) ASSERT_TRUE(map.Insert(point, scan));
+    ExpectSurfacesOfBruteForce(map);
+  }
+}
+
+TEST(SurfaceMap, AfterAScanIsRemovedIsWhatItWouldHaveBeenWithoutIt) {
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const auto points = AnyPoints(random, 4);
+    SurfaceMap with;
+    SurfaceMap without;
+    for (const auto& [point, scan] : points) {
+      with.Insert(point, scan);
+      if (scan != 2) without.Insert(point, scan);
+    }
+    with.RemoveScan(2);
+    ExpectSurfacesOfBruteForce(with);
+    ASSERT_EQ(with.quadtree().size(), without.quadtree().size());
+    for (PointId id = 0; id < without.quadtree().id_end(); ++id) {
+      const auto same = with.quadtree().Nearest(without.quadtree().Position(id), 1e-6);
+      ASSERT_TRUE(same);
+      EXPECT_NEAR(
+          (with.SurfaceAt(same->id).mean_m - without.SurfaceAt(id).mean_m).norm(), 0.0, 1e-5);
+      EXPECT_FLOAT_EQ(static_cast<float>(with.Drift_m2(same->id)),
+                      static_cast<float>(without.Drift_m2(id)));
+    }
+    for (int x = -20; x < 20; ++x) {
+      for (int y = -20; y < 20; ++y) {
+        // Stored positions are rounded to a micrometre, likelihoods to a 255th.
+        EXPECT_NEAR(with.likelihood().At(0, x, y).likelihood,
+                    without.likelihood().At(0, x, y).likelihood,
+                    1);
+      }
+    }
+  }
+}
+
+TEST(SurfaceMap, AWallIsALineAcrossItsNormal) {
+  Random random(1);
+  std::normal_distribution<double> noise_m(0.0, 0.004);
+  SurfaceMap map;
+  const Eigen::Vector2d along(std::cos(0.7), std::sin(0.7));
+  const Eigen::Vector2d normal(-along.y(), along.x());
+  for (int i = 0; i < 100; ++i) {
+    map.Insert({.p_map_m = 0.01 * i * along + noise_m(random) * normal},
+               static_cast<ScanId>(i % 4));
+  }
+  const auto middle = map.quadtree().Nearest(0.5 * along, 0.1);
+  ASSERT_TRUE(middle);
+  const Surface surface = map.SurfaceAt(middle->id);
+  EXPECT_TRUE(surface.is_line);
+  EXPECT_GT(std::abs(surface.normal.dot(normal)), std::cos(0.05));
+  EXPECT_LT(surface.across_m2, 0.02 * 0.02);
+}
+
+TEST(SurfaceMap, RefusesWhatIsNoPlace) {
+  SurfaceMap map;
+  EXPECT_FALSE(map.Insert({.p_map_m = {std::nan(""), 0.0}}, 0));
+  EXPECT_TRUE(map.empty());
+  map.RemoveScan(0);
+  EXPECT_TRUE(map.empty());
+}
+
+}  // namespace
+}  // namespace qwsm

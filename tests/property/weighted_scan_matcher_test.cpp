@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Laws that a match must keep, whatever its figures.
+#include "qwsm/matching/weighted_scan_matcher.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "qwsm/mapping/scan_map.hpp"
+#include "tests/support/scenes.hpp"
+#include "tests/support/simulated_laser.hpp"
+
+namespace qwsm::test {
+namespace {
+
+using Random = std::mt19937_64;
+
+Pose2 AnyPose(Random& random, double translation_m, double rotation_rad) {
+  std::uniform_real_distribution<double> share(-1.0, 1.0);
+  const double x_m = translation_m * share(random);
+  const double y_m = translation_m * share(random);
+  return {x_m, y_m, rotation_rad * share(random)};
+}
+
+/// A map of one scan, taken where the robot stands.
+ScanMap MapOf(const LaserScan& scan, const Pose2& T_map_robot) {
+  ScanMap map;
+  map.Insert(scan, ToPoints(scan), {.T_a_b = T_map_robot});
+  return map;
+}
+
+/// Next to nothing is known but where to begin.
+MatchPrior WeakPriorAt(const Pose2& start) {
+  return {.predicted = {start, Eigen::Vector3d(1.0, 1.0, 1.0).asDiagonal()},
+          .start = start,
+          .start_error = {.translation_m = 0.1}};
+}
+
+MatchResult Match(const ScanMap& map, const LaserScan& scan, const MatchPrior& prior) {
+  return WeightedScanMatcher().Match(map.surfaces(), ToPoints(scan), prior);
+}
+
+/// How far two poses are apart, a radian counting as many metres.
+double Apart(const Pose2& a, const Pose2& b) {
+  const Pose2 difference = a.Inverse() * b;
+  return difference.translation_m().norm() + std::abs(difference.theta_rad);
+}
+
+/// A furnished room, seen from two places near each other.
+struct TwoScans {
+  explicit TwoScans(unsigned seed) : random(seed) {
+    const Scene scene = FurnishedRoom();
+    const Eigen::Vector2d from_m = scene.route_m[0];
+    const Eigen::Vector2d way_m = scene.route_m[1] - from_m;
+    T_world_ref = {from_m.x(), from_m.y(), std::atan2(way_m.y(), way_m.x())};
+    T_ref_cur = AnyPose(random, 0.15, 0.1);
+    ref = Measure({}, scene.world, T_world_ref, random);
+    cur = Measure({}, scene.world, T_world_ref * T_ref_cur, random);
+  }
+
+  Random random;
+  Pose2 T_world_ref;
+  Pose2 T_ref_cur;
+  LaserScan ref;
+  LaserScan cur;
+};
+
+TEST(WeightedScanMatcher, FindsWhereTheScanWasTaken) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    TwoScans scans(seed);
+    const Pose2 start = scans.T_ref_cur * AnyPose(scans.random, 0.05, 0.03);
+    const MatchResult result = Match(MapOf(scans.ref, {}), scans.cur, WeakPriorAt(start));
+    EXPECT_EQ(result.status, MatchStatus::kConverged);
+    EXPECT_LT(Apart(result.T_ref_cur, scans.T_ref_cur), 0.03);
+    EXPECT_GT(result.overlap, 0.8);
+    // Symmetric and positive definite.
+    EXPECT_NEAR((result.covariance - result.covariance.transpose()).norm(), 0.0, 1e-12);
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(result.covariance);
+    EXPECT_GT(axes.eigenvalues().minCoeff(), 0.0);
+  }
+}
+
+TEST(WeightedScanMatcher, SwappedScansGiveTheInversePose) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    const TwoScans scans(seed);
+    const MatchResult there = Match(MapOf(scans.ref, {}), scans.cur, WeakPriorAt(scans.T_ref_cur));
+    const MatchResult back =
+        Match(MapOf(scans.cur, {}), scans.ref, WeakPriorAt(scans.T_ref_cur.Inverse()));
+    EXPECT_LT(Apart(there.T_ref_cur, back.T_ref_cur.Inverse()), 0.02);
+  }
+}
+
+TEST(WeightedScanMatcher, MovingBothMovesTheResult) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    TwoScans scans(seed);
+    const Pose2 T_map_ref = AnyPose(scans.random, seed < 10 ? 10.0 : 5000.0, 3.0);
+    const MatchPrior prior = WeakPriorAt(scans.T_ref_cur * AnyPose(scans.random, 0.03, 0.02));
+    MatchPrior moved = prior;
+    moved.predicted = UncertainPose2{.T_a_b = T_map_ref} * prior.predicted;
+    moved.start = T_map_ref * prior.start;
+    const MatchResult here = Match(MapOf(scans.ref, {}), scans.cur, prior);
+    const MatchResult there = Match(MapOf(scans.ref, T_map_ref), scans.cur, moved);
+    EXPECT_LT(Apart(T_map_ref * here.T_ref_cur, there.T_ref_cur), 2e-3);
+    EXPECT_NEAR(there.covariance.trace() / here.covariance.trace(), 1.0, 0.1);
+  }
+}
+
+TEST(WeightedScanMatcher, OfNothingButThePriorTakesThePrior) {
+  TwoScans scans(1);
+  MatchPrior certain = WeakPriorAt(scans.T_ref_cur);
+  certain.predicted.covariance = Eigen::Vector3d(1e-12, 1e-12, 1e-12).asDiagonal();
+  certain.start = scans.T_ref_cur * Pose2{0.02, -0.02, 0.01};
+  const MatchResult result = Match(MapOf(scans.ref, {}), scans.cur, certain);
+  EXPECT_LT(Apart(result.T_ref_cur, scans.T_ref_cur), 1e-4);
+}
+
+TEST(WeightedScanMatcher, LeavesAlongACorridorToThePrior) {
+  const Scene scene = LongCorridor();
+  const Eigen::Vector2d way_m = (scene.route_m[1] - scene.route_m[0]).normalized();
+  const double axis_rad = std::atan2(way_m.y(), way_m.x());
+  // A quarter of the way in, neither end nor the door is within reach of this laser.
+  const Eigen::Vector2d place_m = scene.route_m[0] + 12.0 * way_m;
+  SimulatedLaser laser;
+  laser.range_max_m = 6.0;
+  Random random(3);
+  const Pose2 T_world_robot{place_m.x(), place_m.y(), axis_rad};
+  const LaserScan ref = Measure(laser, scene.world, T_world_robot, random);
+  const LaserScan cur = Measure(laser, scene.world, T_world_robot * Pose2{0.1, 0.0, 0.0}, random);
+  // Odometry says 0.25 m, give or take 0.2 m; the walls cannot tell.
+  MatchPrior prior{.predicted = {{0.25, 0.0, 0.0}, Eigen::Vector3d(0.04, 0.04, 0.01).asDiagonal()},
+                   .start = {0.25, 0.0, 0.0},
+                   .start_error = {.translation_m = 0.1}};
+  const MatchResult result = Match(MapOf(ref, {}), cur, prior);
+  ASSERT_EQ(result.status, MatchStatus::kConverged);
+  EXPECT_NEAR(result.T_ref_cur.x_m, 0.25, 0.05);
+  EXPECT_GT(std::sqrt(result.covariance(0, 0)), 0.15);
+  EXPECT_NEAR(result.T_ref_cur.y_m, 0.0, 0.02);
+  EXPECT_LT(std::sqrt(result.covariance(1, 1)), 0.02);
+  EXPECT_LT(std::sqrt(result.covariance(2, 2)), 0.01);
+}
+
+TEST(WeightedScanMatcher, SaysThatThereIsNothingToMatch) {
+  const TwoScans scans(1);
+  const ScanMap far = MapOf(scans.ref, {100.0, 100.0, 0.0});
+  const MatchResult result = Match(far, scans.cur, WeakPriorAt({}));
+  EXPECT_EQ(result.status, MatchStatus::kTooFewPairs);
+  EXPECT_EQ(result.T_ref_cur, Pose2{});
+  const MatchResult of_nothing =
+      WeightedScanMatcher().Match(far.surfaces(), {}, WeakPriorAt({1.0, 2.0, 3.0}));
+  EXPECT_EQ(of_nothing.status, MatchStatus::kTooFewPairs);
+  EXPECT_EQ(of_nothing.T_ref_cur, (Pose2{1.0, 2.0, 3.0}));
+}
+
+TEST(WeightedScanMatcher, TracesEveryIterationAndStopsAtTheLimit) {
+  const TwoScans scans(2);
+  const ScanMap map = MapOf(scans.ref, {});
+  WeightedScanMatcherOptions options;
+  options.max_iterations = 2;
+  MatchTrace trace;
+  const MatchResult result =
+      WeightedScanMatcher(options).Match(map.surfaces(),
+                                         ToPoints(scans.cur),
+                                         WeakPriorAt(scans.T_ref_cur * Pose2{0.05, 0.05, 0.02}),
+                                         &trace);
+  EXPECT_EQ(result.status, MatchStatus::kIterationLimit);
+  EXPECT_EQ(result.iterations, 2);
+  ASSERT_EQ(trace.size(), 2U);
+  EXPECT_EQ(trace.back().T_ref_cur, result.T_ref_cur);
+}
+
+}  // namespace
+}  // namespace qwsm::test
