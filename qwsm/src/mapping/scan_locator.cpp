@@ -8,7 +8,7 @@
 namespace qwsm {
 namespace {
 
-constexpr std::size_t kMinSearchPoints = 3;   // Fewer prove nothing.
+constexpr std::size_t kMinSearchPoints = 2;   // One fits anywhere.
 constexpr std::size_t kMinReturnPoints = 20;  // A return needs more evidence.
 constexpr double kSamePlace_m = 0.3;          // Poses this near to each other are no rivals.
 constexpr double kFoundSigma_m = 0.1;         // How exact a search over many scans is.
@@ -139,7 +139,8 @@ std::optional<MatchResult> ScanLocator::FindReturn(
                       .start = found.T_a_b,
                       .start_error = {.translation_m = options_.search_error_m},
                       .max_drift_m2 = max_drift_m2});
-  return match.status == MatchStatus::kConverged ? std::optional(match) : std::nullopt;
+  const bool fits = match.status == MatchStatus::kConverged && match.overlap >= options.min_overlap;
+  return fits ? std::optional(match) : std::nullopt;
 }
 
 // The place that fits best, unless another one fits nearly as well or it is where we are anyway.

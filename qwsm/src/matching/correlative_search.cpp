@@ -79,6 +79,7 @@ class BranchAndBound {
  private:
   void PricePriors() {
     information_ = window_.predicted.covariance.inverse();
+    price_ = options_.prior_points / static_cast<double>(points_robot_m_.size());
     // What is left of the price of an offset when the heading is free: a lower bound at any
     // heading.
     const Eigen::Vector2d cross = information_.topRightCorner<2, 1>();
@@ -132,12 +133,12 @@ class BranchAndBound {
     if (block.level == 0) {
       const Eigen::Vector3d way(
           block.x * cell_m, block.y * cell_m, block.heading * heading_step_rad_);
-      return options_.prior_weight * way.dot(information_ * way);
+      return price_ * way.dot(information_ * way);
     }
     const int side = 1 << block.level;
     const double x_m = cell_m * NearestToZero(block.x, side);
     const double y_m = cell_m * NearestToZero(block.y, side);
-    return options_.prior_weight * cheapest_per_m2_ * (x_m * x_m + y_m * y_m);
+    return price_ * cheapest_per_m2_ * (x_m * x_m + y_m * y_m);
   }
 
   void Push(Block block) {
@@ -182,6 +183,7 @@ class BranchAndBound {
   int level_ = 0;     // Where the search begins.
   double floor_;      // The best single pose met so far.
   Eigen::Matrix3d information_;
+  double price_ = 0.0;  // Of a squared sigma away from the prediction, in units of the score.
   double cheapest_per_m2_ = 0.0;
   std::vector<CellOffset> cells_;  // Beam ends of all headings, one heading after the other.
   std::vector<Block> queue_;       // A heap, the highest bound first.

@@ -15,7 +15,7 @@ namespace qwsm {
 
 /// When a place counts as seen before, and where it is looked for.
 struct ReturnOptions {
-  CorrelativeSearchOptions search{.prior_weight = 0.002, .lever_m = 8.0};
+  CorrelativeSearchOptions search{.prior_points = 1.4, .lever_m = 8.0};
   double caution = 6.0;
   double min_drift_m = 0.5;
   double max_drift_share = 0.5;
@@ -25,6 +25,7 @@ struct ReturnOptions {
   double max_window_rad = 0.35;
   double min_score = 0.3;
   double uniqueness = 0.06;
+  double min_overlap = 0.7;
 };
 
 template <class Visitor>
@@ -52,6 +53,9 @@ void Describe(Visitor& visit, ReturnOptions& o) {
   visit("uniqueness",
         o.uniqueness,
         {.help = "by how much it must beat every other place", .min = 0, .max = 1});
+  visit("min_overlap",
+        o.min_overlap,
+        {.help = "share of the scan that then agrees with known surfaces", .min = 0, .max = 1});
 }
 
 struct ScanLocatorOptions {

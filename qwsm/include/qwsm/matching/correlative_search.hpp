@@ -13,17 +13,18 @@
 namespace qwsm {
 
 struct CorrelativeSearchOptions {
-  double prior_weight = 0.004;
+  double prior_points = 0.6;
   double lever_m = 15.0;
 };
 
 template <class Visitor>
 void Describe(Visitor& visit, CorrelativeSearchOptions& o) {
-  visit("prior_weight",
-        o.prior_weight,
-        {.help = "share of the score that one squared sigma away from the prediction costs",
+  visit("prior_points",
+        o.prior_points,
+        {.help =
+             "a squared sigma away from the prediction costs as much as this many points that miss",
          .min = 0,
-         .max = 1});
+         .max = 100});
   visit("lever_m",
         o.lever_m,
         {.help = "points further than this move by more than a cell per heading step",

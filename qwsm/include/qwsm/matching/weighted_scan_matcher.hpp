@@ -32,7 +32,7 @@ struct WeightedScanMatcherOptions {
   double small_object_m = 0.02;
   double correlated_points = 3.0;
   double min_information_share = 0.006;
-  int min_pairs = 3;
+  int min_pairs = 1;
   double max_sigma_m = 2.0;
   double min_overlap = 0.35;
   double max_prior_sigmas = 8.0;
@@ -73,7 +73,7 @@ void Describe(Visitor& visit, WeightedScanMatcherOptions& o) {
         {.help = "a direction with less of the information than this is left to the prior",
          .min = 0,
          .max = 1});
-  visit("min_pairs", o.min_pairs, {.help = "fewer pairs are no match", .min = 3, .max = 10000});
+  visit("min_pairs", o.min_pairs, {.help = "fewer pairs are no match", .min = 1, .max = 10000});
   visit("max_sigma_m",
         o.max_sigma_m,
         {.help = "a position less certain than this is no match", .min = 0.01, .max = 100});
