@@ -4,8 +4,9 @@
 
     service/apps                       composition
     service/pipeline                   sources and sinks
+    service/dds                        the network
     service/team                       sessions, queues, threads, the shared map
-    service/config  service/io  service/dds  service/graph
+    service/config  service/io  service/graph
     qwsm (2D)   slam6d (3D)   sim (Box2D)
     Eigen and the standard library
 """
@@ -23,10 +24,10 @@ MAY_USE = {
     "slam6d": set(),
     "sim": {"qwsm"},
     "idl": set(),
-    "service/config": LIBRARIES,
+    "service/config": LIBRARIES | {"service/dds", "service/team"},  # Of these, options.
     "service/io": {"qwsm", "slam6d"},
-    "service/dds": {"qwsm", "slam6d", "idl"},
     "service/graph": {"slam6d"},
+    "service/dds": {"qwsm", "idl", "service/team"},
     "service/team": {"qwsm", "service/io"},
     "service/pipeline": LIBRARIES | BORDER | {"service/team"},
     "service/apps": LIBRARIES | BORDER | {"service/team", "service/pipeline"},
@@ -43,10 +44,11 @@ THIRD_PARTY = {
     "Boost": (r"boost/", {"service/io"}),
     "SQLite": (r"sqlite3\.h", {"service/io"}),
     "nlohmann-json": (r"nlohmann/", {"service/io", "service/pipeline", "service/apps"}),
-    "Cyclone DDS": (r"dds/", {"service/dds", "idl"}),
+    "Cyclone DDS": (r"dds/(dds\.h|dds[a-z]*/)", {"service/dds", "idl"}),
     "fmt": (r"fmt/", {layer for layer in MAY_USE if layer.startswith("service/")}),
     "spdlog": (r"spdlog/", {"service/pipeline", "service/apps"}),
-    "systemd": (r"systemd/", {"service/pipeline", "service/apps"}),
+    "systemd": (r"systemd/", {"service/apps"}),
+    "Fast DDS": (r"fast(dds|rtps|cdr)/", set()),
     "GoogleTest": (r"g(test|mock)/", set()),
     "Google Benchmark": (r"benchmark/", set()),
     "nanoflann": (r"nanoflann", set()),

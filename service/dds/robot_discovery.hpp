@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "service/dds/participant.hpp"
+
+namespace qwsm::dds {
+
+/// Finds out which robots there are, by who publishes on a topic such as `/robot1/scan`.
+class RobotDiscovery {
+ public:
+  struct Changes {
+    std::vector<std::string> joined;  ///< Names of robots, as in RobotNames.
+    std::vector<std::string> left;    ///< Nobody publishes for them any more.
+  };
+
+  /// @param part last part of the topic's name. @param type its DDS type: others are passed over.
+  RobotDiscovery(const Participant& participant, std::string part, std::string type);
+
+  /// What changed since the last call.
+  Changes Take();
+  Entity::Handle handle() const { return reader_.handle(); }
+
+ private:
+  void Note(const void* publication, bool is_alive, Changes& changes);
+
+  std::string part_;
+  std::string type_;
+  Entity reader_;
+  std::map<Guid, std::string> robot_of_;      // By publisher.
+  std::map<std::string, int> publishers_of_;  // By robot.
+};
+
+/// Types robots are known by.
+inline constexpr const char* kLaserScanType = "sensor_msgs::msg::dds_::LaserScan_";
+inline constexpr const char* kMatchReportType = "qwsm_msgs::msg::dds_::MatchReport_";
+
+}  // namespace qwsm::dds

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "service/dds/robot_names.hpp"
+#include "service/dds/writer.hpp"
+#include "service/team/team_sink.hpp"
+
+namespace qwsm::dds {
+
+/// What the service tells about one robot.
+class RobotOutbox {
+ public:
+  /// @param transforms writer of /tf, which all robots share; outlives this.
+  RobotOutbox(const Participant& participant,
+              const RobotNames& names,
+              const Writer<wire::TFMessage>& transforms);
+
+  /// Pose, odometry, transform and report.
+  void Publish(const team::RobotAnswer& answer) const;
+
+ private:
+  void PublishTransform(const team::RobotAnswer& answer) const;
+
+  std::string map_frame_;
+  std::string odom_frame_;
+  std::string robot_frame_;
+  const Writer<wire::TFMessage>& transforms_;
+  Writer<wire::PoseWithCovarianceStamped> poses_;
+  Writer<wire::Odometry> odometry_;
+  Writer<wire::MatchReport> reports_;
+};
+
+}  // namespace qwsm::dds
