@@ -61,6 +61,10 @@ Command AddCompareCommand(CLI::App& program);
 Command AddEvalCommand(CLI::App& program);
 Command AddConvertCommand(CLI::App& program);
 Command AddSimCommand(CLI::App& program);
+Command AddServeCommand(CLI::App& program);
+Command AddReplayCommand(CLI::App& program);
+Command AddEchoCommand(CLI::App& program);
+Command AddRecordCommand(CLI::App& program);
 std::vector<Command> AddConfigCommands(CLI::App& program);
 
 }  // namespace qwsm::apps

@@ -100,7 +100,11 @@ ExitCode Run(int argc, const char* const* argv) {
                                 AddCompareCommand(program),
                                 AddEvalCommand(program),
                                 AddConvertCommand(program),
-                                AddSimCommand(program)};
+                                AddSimCommand(program),
+                                AddServeCommand(program),
+                                AddReplayCommand(program),
+                                AddEchoCommand(program),
+                                AddRecordCommand(program)};
   for (Command& command : AddConfigCommands(program)) commands.push_back(std::move(command));
   try {
     program.parse(argc, argv);

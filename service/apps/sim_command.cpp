@@ -13,8 +13,11 @@
 #include "service/apps/messages.hpp"
 #include "service/apps/scenario_arguments.hpp"
 #include "service/apps/version.hpp"
+#include "service/config/options_io.hpp"
+#include "service/dds/middleware_messages.hpp"
 #include "service/io/atomic_file.hpp"
 #include "service/pipeline/interruption.hpp"
+#include "service/pipeline/network_robot.hpp"
 #include "service/pipeline/results_folder.hpp"
 #include "service/pipeline/simulation_report.hpp"
 #include "service/pipeline/simulation_run.hpp"
@@ -29,6 +32,9 @@ struct SimArguments {
   ScenarioArguments scenario;
   std::optional<fs::path> output;
   std::optional<double> real_time_factor;
+  std::vector<std::string> network;  ///< `key=value` of dds::NetworkOptions.
+  bool dds = false;
+  bool wait_for_answers = false;
   Verbosity verbosity;
   bool force = false;
 };
@@ -41,6 +47,42 @@ SimulatedLogs OpenLogs(const sim::Simulation& simulation, const ResultsFolder& f
   }
   return logs;
 }
+
+/// All robots of a simulation on the network.
+class NetworkTeam {
+ public:
+  NetworkTeam(const SimArguments& arguments, sim::Simulation& simulation)
+      : messages_([](const std::string& text) { spdlog::warn("{}", text); }),
+        participant_(config::LoadOptions<dds::NetworkOptions>(
+            {.file = std::nullopt, .settings = arguments.network})) {
+    const auto pace = arguments.wait_for_answers ? NetworkPace::kAnswers : NetworkPace::kFree;
+    for (std::size_t i = 0; i < simulation.robots().size(); ++i) {
+      robots_.push_back(std::make_unique<NetworkRobot>(participant_, simulation, i, pace));
+    }
+    if (arguments.wait_for_answers) WaitForService();
+  }
+
+  void AddTo(std::vector<ReadingSink*>& sinks) const {
+    for (const auto& robot : robots_) sinks.push_back(robot.get());
+  }
+  void Finish() const {
+    for (const auto& robot : robots_) robot->Finish();
+  }
+
+ private:
+  void WaitForService() const {
+    for (const auto& robot : robots_) {
+      if (robot->WaitForListener(std::chrono::seconds(10))) continue;
+      throw dds::DdsError(
+          fmt::format("no service answers {}; is 'qwsm serve' running in the same DDS domain?",
+                      robot->names().Topic(dds::kScanTopic)));
+    }
+  }
+
+  dds::MiddlewareMessages messages_;
+  dds::Participant participant_;
+  std::vector<std::unique_ptr<NetworkRobot>> robots_;
+};
 
 ExitCode RunSim(const SimArguments& arguments) {
   StartMessages(arguments.verbosity);
@@ -58,11 +100,15 @@ ExitCode RunSim(const SimArguments& arguments) {
   Pacer pacer(arguments.real_time_factor.value_or(1.0));
   std::vector<ReadingSink*> sinks{&progress};
   for (const auto& log : logs) sinks.push_back(log.get());
-  if (arguments.real_time_factor) sinks.push_back(&pacer);
+  const bool is_live = arguments.dds && !arguments.wait_for_answers;
+  if (arguments.real_time_factor || is_live) sinks.push_back(&pacer);
+  std::optional<NetworkTeam> team;
+  if (arguments.dds) team.emplace(arguments, simulation).AddTo(sinks);
   const Interruption interruption;
   const bool is_complete =
       RunSimulation(simulation, sinks, [&] { return interruption.requested(); });
   progress.Clear();
+  if (team) team->Finish();
 
   for (const auto& log : logs) log->Commit();
   const std::string json = SimulationJson(simulation, logs);
@@ -76,6 +122,23 @@ ExitCode RunSim(const SimArguments& arguments) {
   return is_complete ? ExitCode::kDone : ExitCode::kInterrupted;
 }
 
+void AddNetworkSettings(CLI::App& parser, SimArguments& arguments) {
+  CLI::Option* dds =
+      parser.add_flag("--dds", arguments.dds, "publish scans, odometry and truth; take cmd_vel");
+  dds->group("Network");
+  parser
+      .add_flag("--wait-for-answers",
+                arguments.wait_for_answers,
+                "simulate as fast as the service answers")
+      ->needs(dds)
+      ->group("Network");
+  parser.add_option("--network", arguments.network, "domain, interface or tag; may be repeated")
+      ->needs(dds)
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false)
+      ->group("Network");
+}
+
 }  // namespace
 
 Command AddSimCommand(CLI::App& program) {
@@ -86,7 +149,8 @@ Command AddSimCommand(CLI::App& program) {
       "  qwsm sim park --seed 7 --output park-7       other trees\n"
       "  qwsm sim my.yaml --duration 60               one's own, for a minute\n"
       "  qwsm sim office --set layout.office.persons=0\n"
-      "  qwsm sim team --speed 1                      in real time");
+      "  qwsm sim team --dds                          live on the network, in real time\n"
+      "  qwsm sim park --dds --wait-for-answers       as fast as 'qwsm serve' can map it");
   parser
       ->add_option("SCENARIO",
                    arguments->scenario.scenario,
@@ -111,6 +175,7 @@ Command AddSimCommand(CLI::App& program) {
       ->check(CLI::PositiveNumber)
       ->type_name("FACTOR")
       ->group("Simulation");
+  AddNetworkSettings(*parser, *arguments);
   AddVerbosity(*parser, arguments->verbosity, "the summary as JSON");
   return {.parser = parser, .run = [arguments] { return RunSim(*arguments); }};
 }

@@ -6,6 +6,8 @@
 
 #include "qwsm/mapping/mapper.hpp"
 #include "qwsm/mapping/occupancy_grid.hpp"
+#include "service/dds/network_options.hpp"
+#include "service/team/team_options.hpp"
 
 namespace qwsm::config {
 
@@ -34,6 +36,8 @@ struct ProgramOptions {
   LogOptions log;
   MapperOptions mapper;
   OccupancyGridOptions rendering;
+  dds::NetworkOptions network;
+  team::TeamOptions team;
 };
 
 template <class Visitor>
@@ -41,6 +45,8 @@ void Describe(Visitor& visit, ProgramOptions& o) {
   visit("log", o.log, {.help = "reading of logs"});
   visit("mapper", o.mapper, {.help = "matching scans and extending the map"});
   visit("rendering", o.rendering, {.help = "the occupancy map that is drawn of the result"});
+  visit("network", o.network, {.help = "DDS, by which robots and services talk"});
+  visit("team", o.team, {.help = "the service for robots on the network"});
 }
 
 }  // namespace qwsm::config

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "service/team/team_sink.hpp"
+
+namespace qwsm::pipeline {
+
+/// Turns what is worth a line into messages.
+class TeamLog final : public team::TeamSink {
+ public:
+  void TakeAnswer(const team::RobotAnswer&) override {}
+  void TakeRelevantScan(const team::TeamScan&) override {}
+  void TakeNewPoints(const team::NewPoints&) override {}
+  void TakeMap(const team::MapPicture&) override {}
+  void TakeStatus(const team::TeamStatus& status) override;
+  void TakeEvent(const team::TeamEvent& event) override;
+
+ private:
+  std::uint64_t dropped_ = 0;  // As told last.
+};
+
+}  // namespace qwsm::pipeline
