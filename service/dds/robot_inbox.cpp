@@ -15,6 +15,7 @@ namespace {
 
 // A transform that is not there after this long will not come.
 constexpr auto kPatienceForTransforms = std::chrono::seconds(1);
+constexpr std::size_t kMaxUnplaced = 64;
 constexpr std::size_t kMaxFrameLength = 256;
 
 std::string_view ObjectionTo(const wire::Header& header, const wire::Pose& pose) {
@@ -43,7 +44,8 @@ void RobotInbox::Deliver(const StaticTransforms& transforms, RobotListener& list
   odometry_.TakeAll([&](const wire::Odometry& sample) { TakeOdometry(sample, listener); });
   initial_poses_.TakeAll(
       [&](const wire::PoseWithCovarianceStamped& sample) { TakeInitialPose(sample, listener); });
-  scans_.TakeAll([&](const wire::LaserScan& sample) { TakeScan(sample, transforms, listener); });
+  scans_.TakeAll([this](const wire::LaserScan& sample) { TakeScan(sample); });
+  DeliverPlacedScans(transforms, listener);
 }
 
 void RobotInbox::TakeOdometry(const wire::Odometry& sample, RobotListener& listener) {
@@ -54,17 +56,26 @@ void RobotInbox::TakeOdometry(const wire::Odometry& sample, RobotListener& liste
   listener.TakeOdometry(names_.name(), *FromWire(sample.header.stamp), FromWire(sample.pose.pose));
 }
 
-void RobotInbox::TakeScan(const wire::LaserScan& sample,
-                          const StaticTransforms& transforms,
-                          RobotListener& listener) {
+void RobotInbox::TakeScan(const wire::LaserScan& sample) {
   const std::string topic = names_.Topic(kScanTopic);
   const std::string_view objection = ObjectionTo(sample);
   if (!objection.empty()) return refusals_.Add(topic, objection);
-  const std::optional<Pose2> T_robot_laser = LaserOnRobot(sample.header.frame_id, transforms);
-  if (!T_robot_laser) {
-    return refusals_.Add(topic, "/tf_static does not say yet where on the robot its frame is");
+  unplaced_.push_back({.scan = FromWire(sample, Pose2{}), .laser_frame = sample.header.frame_id});
+  if (unplaced_.size() <= kMaxUnplaced) return;
+  unplaced_.pop_front();
+  refusals_.Add(topic, "/tf_static does not say yet where on the robot its frame is");
+}
+
+// Scans and /tf_static overtake each other at the beginning.
+void RobotInbox::DeliverPlacedScans(const StaticTransforms& transforms, RobotListener& listener) {
+  while (!unplaced_.empty()) {
+    UnplacedScan& first = unplaced_.front();
+    const std::optional<Pose2> T_robot_laser = LaserOnRobot(first.laser_frame, transforms);
+    if (!T_robot_laser) return;
+    first.scan.geometry.T_robot_laser = *T_robot_laser;
+    listener.TakeScan(names_.name(), std::move(first.scan));
+    unplaced_.pop_front();
   }
-  listener.TakeScan(names_.name(), FromWire(sample, *T_robot_laser));
 }
 
 void RobotInbox::TakeInitialPose(const wire::PoseWithCovarianceStamped& sample,

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <chrono>
+#include <deque>
 #include <optional>
 #include <string>
 
@@ -28,12 +29,17 @@ class RobotInbox {
 
  private:
   void TakeOdometry(const wire::Odometry& sample, RobotListener& listener);
-  void TakeScan(const wire::LaserScan& sample,
-                const StaticTransforms& transforms,
-                RobotListener& listener);
+  void TakeScan(const wire::LaserScan& sample);
+  void DeliverPlacedScans(const StaticTransforms& transforms, RobotListener& listener);
   void TakeInitialPose(const wire::PoseWithCovarianceStamped& sample, RobotListener& listener);
   std::optional<Pose2> LaserOnRobot(const std::string& laser_frame,
                                     const StaticTransforms& transforms);
+
+  /// A scan that waits until it is known where its laser sits.
+  struct UnplacedScan {
+    LaserScan scan;
+    std::string laser_frame;
+  };
 
   RobotNames names_;
   Refusals& refusals_;
@@ -41,6 +47,7 @@ class RobotInbox {
   Reader<wire::Odometry> odometry_;
   Reader<wire::LaserScan> scans_;
   Reader<wire::PoseWithCovarianceStamped> initial_poses_;
+  std::deque<UnplacedScan> unplaced_;
   std::optional<std::chrono::steady_clock::time_point> unplaced_since_;
 };
 

@@ -86,10 +86,10 @@ void TeamInbox::DeliverSharedScans() {
 // Readers stay when a robot leaves: it may come back where it left.
 void TeamInbox::Join(const std::string& robot) {
   if (robots_.contains(robot)) return;
-  outbox_.AddRobot(robot);
   const auto added = robots_.emplace(
       robot, std::make_unique<RobotInbox>(participant_, RobotNames(robot), refusals_));
   for (const Entity::Handle handle : added.first->second->handles()) wait_set_.Add(handle);
+  outbox_.AddRobot(robot);  // Last: who sees the topics of the answers may send scans.
 }
 
 }  // namespace qwsm::dds
