@@ -6,6 +6,7 @@
 
 #include "qwsm/mapping/mapper.hpp"
 #include "qwsm/mapping/occupancy_grid.hpp"
+#include "service/config/describe.hpp"
 #include "service/dds/network_options.hpp"
 #include "service/team/team_options.hpp"
 
@@ -48,5 +49,8 @@ void Describe(Visitor& visit, ProgramOptions& o) {
   visit("network", o.network, {.help = "DDS, by which robots and services talk"});
   visit("team", o.team, {.help = "the service for robots on the network"});
 }
+
+// Made once, in program_options.cpp: the compiler takes long over some hundred options.
+extern template OptionGroup GroupOf(ProgramOptions& options);
 
 }  // namespace qwsm::config
