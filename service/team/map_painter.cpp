@@ -9,9 +9,16 @@
 
 namespace qwsm::team {
 
-std::optional<OccupancyGrid> MapPainter::Paint(const TeamMap& map) {
-  if (!CopyNewScans(map)) return std::nullopt;
-  OccupancyGridResult result = RenderOccupancyGrid(scans_, options_);
+std::optional<OccupancyGrid> MapPainter::Paint(const TeamMap& map, const std::stop_token& stop) {
+  const std::vector<RelevantScan> scans = NewScansOf(map);
+  if (scans.empty()) return std::nullopt;
+  for (const RelevantScan& scan : scans) {
+    if (stop.stop_requested()) return std::nullopt;
+    painter_.Add(scan);
+    newest_ = std::max(newest_, scan.scan.stamp);
+    ++painted_;
+  }
+  OccupancyGridResult result = painter_.Grid();
   trouble_.clear();
   if (result.status == RenderStatus::kRendered) return std::move(result.grid);
   if (result.status == RenderStatus::kTooLarge) {
@@ -19,20 +26,16 @@ std::optional<OccupancyGrid> MapPainter::Paint(const TeamMap& map) {
         fmt::format("the map of {:.0f} x {:.0f} m is too large to be drawn with cells of {} m",
                     result.extent_x_m,
                     result.extent_y_m,
-                    options_.cell_m);
+                    cell_m_);
   }
   return std::nullopt;
 }
 
-bool MapPainter::CopyNewScans(const TeamMap& map) {
+// A copy: whoever reads the map for long holds up those who extend it.
+std::vector<RelevantScan> MapPainter::NewScansOf(const TeamMap& map) const {
   const TeamMap::State::View view = map.Read();
-  const std::span<const RelevantScan> scans = view->scans();
-  if (scans.size() == scans_.size()) return false;
-  for (const RelevantScan& scan : scans.subspan(scans_.size())) {
-    newest_ = std::max(newest_, scan.scan.stamp);
-    scans_.push_back(scan);
-  }
-  return true;
+  const std::span<const RelevantScan> scans = view->scans().subspan(painted_);
+  return {scans.begin(), scans.end()};
 }
 
 }  // namespace qwsm::team

@@ -6,7 +6,6 @@
 
 #include <condition_variable>
 #include <mutex>
-#include <stop_token>
 #include <utility>
 
 namespace qwsm::team {
@@ -20,9 +19,7 @@ void YieldToOthers() {
 
 }  // namespace
 
-PeriodicTask::PeriodicTask(std::chrono::duration<double> period,
-                           bool is_background,
-                           std::function<void()> task)
+PeriodicTask::PeriodicTask(std::chrono::duration<double> period, bool is_background, Task task)
     : thread_([period, is_background, task = std::move(task)](const std::stop_token& stop) {
         if (is_background) YieldToOthers();
         std::mutex mutex;
@@ -30,7 +27,7 @@ PeriodicTask::PeriodicTask(std::chrono::duration<double> period,
         std::unique_lock lock(mutex);
         const auto never = [] { return false; };
         while (!stop.stop_requested()) {
-          task();
+          task(stop);
           stopped.wait_for(lock, stop, period, never);
         }
       }) {}

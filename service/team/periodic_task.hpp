@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <functional>
+#include <stop_token>
 #include <thread>
 
 namespace qwsm::team {
@@ -11,10 +12,11 @@ namespace qwsm::team {
 /// Does something again and again in a thread of its own, until it goes.
 class PeriodicTask {
  public:
+  using Task = std::function<void(const std::stop_token&)>;
+
   /// @param is_background the thread gives way to all others.
-  PeriodicTask(std::chrono::duration<double> period,
-               bool is_background,
-               std::function<void()> task);
+  /// @param task gets what tells it to hurry up, for there is to be an end.
+  PeriodicTask(std::chrono::duration<double> period, bool is_background, Task task);
 
  private:
   std::jthread thread_;

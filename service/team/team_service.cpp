@@ -110,10 +110,11 @@ void TeamService::Start() {
   const std::chrono::duration<double> map_period(team.map_period_s);
   const std::chrono::duration<double> status_period(team.status_period_s);
   if (team.map_period_s > 0.0) {
-    painting_ = std::make_unique<PeriodicTask>(map_period, true, [this] { PaintMaps(); });
+    painting_ = std::make_unique<PeriodicTask>(
+        map_period, true, [this](const std::stop_token& stop) { PaintMaps(stop); });
   }
-  reporting_ =
-      std::make_unique<PeriodicTask>(status_period, false, [this] { sink_.TakeStatus(Status()); });
+  reporting_ = std::make_unique<PeriodicTask>(
+      status_period, false, [this](const std::stop_token&) { sink_.TakeStatus(Status()); });
 }
 
 void TeamService::Stop() {
@@ -232,10 +233,10 @@ MapStatus TeamService::StatusOfMaps() const {
   return status;
 }
 
-void TeamService::PaintMaps() {
+void TeamService::PaintMaps(const std::stop_token& stop) {
   for (const TeamMaps::NamedMap& named : maps_.All()) {
     MapPainter& painter = painters_.try_emplace(named.robot, options_.rendering).first->second;
-    const std::optional<OccupancyGrid> grid = painter.Paint(*named.map);
+    const std::optional<OccupancyGrid> grid = painter.Paint(*named.map, stop);
     if (grid) sink_.TakeMap({.robot = named.robot, .stamp = painter.newest(), .grid = *grid});
     if (!painter.trouble().empty()) {
       sink_.TakeEvent({.robot = named.robot, .is_warning = true, .text = painter.trouble()});

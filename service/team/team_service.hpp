@@ -11,6 +11,7 @@
 #include <memory>
 #include <mutex>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -96,7 +97,7 @@ class TeamService {
   std::shared_ptr<const MapAddition> Insert(const TeamScan& scan,
                                             std::span<const ScanPoint> points,
                                             const std::function<void()>& settled);
-  void PaintMaps();
+  void PaintMaps(const std::stop_token& stop);
   MapStatus StatusOfMaps() const;
 
   const TeamServiceOptions options_;

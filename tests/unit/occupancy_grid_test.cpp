@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "qwsm/mapping/occupancy_painter.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/simulated_drive.hpp"
 
@@ -154,6 +155,23 @@ TEST(OccupancyGrid, DoesNotDependOnTheOrderOfTheScans) {
   const OccupancyGridResult backwards = RenderOccupancyGrid(scans);
   ASSERT_EQ(forwards.status, RenderStatus::kRendered);
   EXPECT_EQ(forwards.grid.cells, backwards.grid.cells);
+}
+
+TEST(OccupancyGrid, IsTheSamePaintedScanByScanAsAllAtOnce) {
+  const std::vector<RelevantScan> scans =
+      RelevantScansOf(DriveThrough(test::TwoRoomsAndCorridor(), {}));
+  OccupancyPainter painter;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    painter.Add(scans[i]);
+    if (i % 40 != 0 && i + 1 != scans.size()) continue;
+    SCOPED_TRACE(i);
+    const OccupancyGridResult painted = painter.Grid();
+    const OccupancyGridResult rendered = RenderOccupancyGrid(std::span(scans).first(i + 1));
+    EXPECT_EQ(painted.status, rendered.status);
+    EXPECT_EQ(painted.grid.origin_map_m, rendered.grid.origin_map_m);
+    ASSERT_EQ(painted.grid.width, rendered.grid.width);
+    ASSERT_EQ(painted.grid.cells, rendered.grid.cells);
+  }
 }
 
 double DistanceToSurface(const test::World& world, const Eigen::Vector2d& p_m) {

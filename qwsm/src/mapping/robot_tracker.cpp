@@ -23,6 +23,12 @@ ScanLocatorOptions LocatorOptions(const MapperOptions& options) {
   return locator;
 }
 
+// No motion, and next to no error: what is told of a robot is told of its next scan.
+UncertainPose2 Unmoved() {
+  constexpr double kSigma = 0.001;  // m, rad.
+  return {.T_a_b = {}, .covariance = kSigma * kSigma * Eigen::Matrix3d::Identity()};
+}
+
 // Covariance of a matched pose: as uncertain as the part of the map it was matched to, plus what is
 // left of its uncertainty relative to that part. Where the pairs say nothing, as along a corridor,
 // that is all of the prediction's.
@@ -77,6 +83,7 @@ void RobotTracker::PlaceAt(const UncertainPose2& map_robot,
   local_last_ = map_robot;
   T_map_relevant_.reset();
   is_told_ = true;
+  is_told_now_ = !T_odom_robot;
 }
 
 MappingStep RobotTracker::Track(const ScanMap& map,
@@ -113,7 +120,7 @@ void RobotTracker::Locate(const ScanMap& map,
                           const Observation& observation,
                           std::span<const ScanPoint> points,
                           MappingStep& step) const {
-  UncertainPose2 last_robot = motion_.Predict(observation.T_odom_robot);
+  UncertainPose2 last_robot = is_told_now_ ? Unmoved() : motion_.Predict(observation.T_odom_robot);
   step.match = locator_.Locate(map, points, local_last_ * last_robot);
   if (is_odometry_doubted_) {
     const UncertainPose2 without_odometry = motion_.Predict(std::nullopt);
@@ -194,6 +201,7 @@ void RobotTracker::Remember(const Observation& observation, const MappingStep& s
   local_last_ = {.T_a_b = step.map_robot.T_a_b, .covariance = step.local_covariance};
   if (step.relevant) T_map_relevant_ = step.map_robot.T_a_b;
   is_told_ = is_told_ && is_first && !step.relevant;
+  is_told_now_ = is_told_;
   is_odometry_doubted_ = false;
 }
 

@@ -64,6 +64,7 @@ class RobotTracker {
   UncertainPose2 local_last_;            // and how uncertain it is relative to the map around it.
   std::optional<Pose2> T_map_relevant_;  // Pose at the last relevant scan.
   bool is_told_ = false;                 // The last pose was told, not found.
+  bool is_told_now_ = false;             // And it is that of the next scan.
   bool is_odometry_doubted_ = false;
 };
 
