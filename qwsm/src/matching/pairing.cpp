@@ -94,7 +94,7 @@ NormalEquations Pairing::Linearize(const Pose2& T_map_cur, const Doubt& doubt) {
   return equations;
 }
 
-Eigen::Matrix3d Pairing::NearestSampleCovariance(const Pose2& T_map_cur) const {
+Eigen::Matrix3d Pairing::NearestSampleInformation(const Pose2& T_map_cur) const {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   const Eigen::Matrix2d R = T_map_cur.Rotation();
   for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -104,7 +104,7 @@ Eigen::Matrix3d Pairing::NearestSampleCovariance(const Pose2& T_map_cur) const {
     const Eigen::Matrix2d S = NearestSampleError(pair.surface, NoiseInMap(R, points_[i]));
     A += pair.weight * H.transpose() * S.inverse() * H;
   }
-  return A.inverse();
+  return A;
 }
 
 double Pairing::Reach(double doubt_m2) const {

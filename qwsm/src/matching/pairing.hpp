@@ -50,8 +50,8 @@ class Pairing {
   // Pairs every point, seen from the pose, with the surface nearest to it.
   NormalEquations Linearize(const Pose2& T_map_cur, const Doubt& doubt);
 
-  // A^-1 of the pairs found last, were each the nearest sample of the papers.
-  Eigen::Matrix3d NearestSampleCovariance(const Pose2& T_map_cur) const;
+  // A of the pairs found last, were each the nearest sample of the papers.
+  Eigen::Matrix3d NearestSampleInformation(const Pose2& T_map_cur) const;
 
  private:
   struct Pair {

@@ -128,7 +128,8 @@ MatchResult WeightedScanMatcher::Match(const SurfaceMap& reference,
     doubt.Shrink(options_.annealing_factor);
   }
   if (!IsConsistent(result, prior, options_)) result.status = MatchStatus::kInconsistent;
-  result.nearest_sample_covariance = pairing.NearestSampleCovariance(result.T_ref_cur);
+  result.nearest_sample_covariance =
+      (pairing.NearestSampleInformation(result.T_ref_cur) + prior_information).inverse();
   return result;
 }
 

@@ -28,8 +28,8 @@ struct [[nodiscard]] MatchResult {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Of (x, y, theta), prior included.
   Eigen::Matrix3d information =
       Eigen::Matrix3d::Zero();  ///< Of the pairs alone, as if independent.
-  /// Of the pairs alone, were each the nearest sample as in the papers (Visser et al. 2009, eq. 3):
-  /// measurement noise and correspondence error, which shrinks as the reference gets denser.
+  /// The covariance, were each pair the nearest sample as in the papers (Visser et al. 2009, eq. 3):
+  /// with measurement noise and correspondence error, which shrinks as the reference gets denser.
   Eigen::Matrix3d nearest_sample_covariance = Eigen::Matrix3d::Zero();
   int iterations = 0;
   int pairs = 0;
