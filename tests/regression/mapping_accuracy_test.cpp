@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Recorded logs against stored bounds, with the one configuration that everything comes with: a
+// quarter above what the project has set itself.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "tests/support/program.hpp"
+
+namespace qwsm::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Bound {
+  std::string log;
+  std::string relations;
+  std::string max_translation_m;
+  std::string max_rotation_deg;
+};
+
+class RecordedLog : public ::testing::TestWithParam<Bound> {};
+
+TEST_P(RecordedLog, IsMappedAsWellAsPromised) {
+  const Bound& bound = GetParam();
+  const fs::path data = fs::path(QWSM_DATA_DIR) / "radish";
+  const fs::path log = data / (bound.log + ".raw-odom.clf.gz");
+  if (!fs::exists(log)) GTEST_SKIP() << "no " << log;
+  const TemporaryFolder folder;
+  const fs::path results = folder.path() / "results";
+  const Outcome mapped = RunProgram({"map", log, "--output", results, "--quiet"});
+  ASSERT_EQ(mapped.exit_code, 0) << mapped.errors;
+  const Outcome evaluated = RunProgram({"eval",
+                                        results,
+                                        "--relations",
+                                        data / bound.relations,
+                                        "--log",
+                                        log,
+                                        "--max-relations",
+                                        bound.max_translation_m,
+                                        "--max-relations-rotation",
+                                        bound.max_rotation_deg});
+  EXPECT_EQ(evaluated.exit_code, 0) << evaluated.output << evaluated.errors;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    ,
+    RecordedLog,
+    ::testing::Values(Bound{"intel", "intel.relations", "0.0225", "1.0"},
+                      Bound{"mit-csail", "mit-csail.gmapping.relations", "0.0413", "1.0"},
+                      Bound{"edmonton", "edmonton.gmapping.relations", "0.060", "1.0"},
+                      Bound{"aces", "aces.gmapping.relations", "0.075", "1.0"},
+                      Bound{"belgioioso", "belgioioso.gmapping.relations", "0.0325", "1.0"}),
+    [](const auto& test) {
+      std::string name = test.param.log;
+      std::erase(name, '-');
+      return name;
+    });
+
+}  // namespace
+}  // namespace qwsm::test
