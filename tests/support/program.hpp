@@ -56,6 +56,8 @@ class Program {
 
   void Signal(int number) const { kill(process_, number); }
 
+  std::string ErrorsSoFar() const { return ReadFile(streams_.path() / "errors"); }
+
   Outcome Wait() {
     int status = 0;
     waitpid(process_, &status, 0);

@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What must not hurt the service: peers that die, come back, send nonsense; its own death.
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "service/dds/robot_names.hpp"
+#include "service/dds/scan_conversion.hpp"
+#include "service/dds/writer.hpp"
+#include "tests/support/network.hpp"
+
+namespace qwsm::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// How many relevant scans the map has, as the service says at its end.
+int RelevantScans(const Outcome& served) {
+  const std::size_t at = served.output.find(" points of ");
+  return at == std::string::npos ? -1 : std::stoi(served.output.substr(at + 11));
+}
+
+class DdsFaults : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const std::string generator = ProgramPath().parent_path() / "generate_demo_log";
+    const std::string command = generator + " two-rooms " + Log() + " 2>/dev/null";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+  }
+
+  std::string Log() const { return Path("two-rooms.log"); }
+  std::string Path(const char* name) const { return folder_.path() / name; }
+  std::vector<std::string> Serve(std::vector<std::string> more = {}) const {
+    more.insert(more.begin(), {"serve", "--verbose"});
+    return network_.JoinService(more);
+  }
+  Outcome Replay(std::vector<std::string> more = {}) const {
+    more.insert(more.begin(), {"replay", Log(), "--robot", "robot1"});
+    return network_.Run(more);
+  }
+  Outcome MapOf() const { return RunProgram({"map", Log(), "--output", Path("mapped")}); }
+
+  TemporaryFolder folder_;
+  PrivateNetwork network_;
+};
+
+TEST_F(DdsFaults, ServiceOutlivesAPublisherThatDiesAndReturns) {
+  Daemon service(Serve());
+  ASSERT_TRUE(service.WaitUntilItSays("serving as"));
+  {
+    Daemon robot(network_.Join({"replay", Log(), "--robot", "robot1", "--rate", "100"}));
+    ASSERT_TRUE(service.WaitUntilItSays("robot1"));
+    std::this_thread::sleep_for(300ms);
+    robot.End(SIGKILL);
+  }
+  const Outcome replay = Replay({"--rate", "max"});
+  EXPECT_EQ(replay.exit_code, 0) << replay.errors;
+  const Outcome served = service.End();
+  EXPECT_EQ(served.exit_code, 0) << served.errors;
+  EXPECT_GT(RelevantScans(served), 10);
+}
+
+TEST_F(DdsFaults, LateServiceHasTheMapOfTheFirstOneWhichMayDie) {
+  Daemon first(Serve({"--set", "team.service=first"}));
+  ASSERT_TRUE(first.WaitUntilItSays("serving as"));
+  ASSERT_EQ(Replay({"--rate", "max"}).exit_code, 0);
+
+  Daemon second(Serve({"nobody", "--set", "team.service=second"}));
+  ASSERT_TRUE(second.WaitUntilItSays("serving as"));
+  std::this_thread::sleep_for(2s);  // Nothing tells that no more will come.
+  const Outcome of_first = first.End(SIGTERM);
+  const Outcome of_second = second.End(SIGTERM);
+  EXPECT_GT(RelevantScans(of_first), 10);
+  EXPECT_EQ(RelevantScans(of_second), RelevantScans(of_first)) << of_second.errors;
+}
+
+std::size_t CountOf(const std::string& part, const std::string& text) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+/// How often; QWSM_KILLS=100 for a long night.
+int Kills() {
+  const char* text = std::getenv("QWSM_KILLS");
+  return text == nullptr ? 5 : std::atoi(text);
+}
+
+TEST_F(DdsFaults, KilledServiceHasItsMapBackFromTheJournal) {
+  Daemon echo(network_.Join({"echo", "robot1", "--json", "--verbose"}));
+  ASSERT_TRUE(echo.WaitUntilItSays("listening"));
+  const std::vector<std::string> serve = Serve({"--journal", Path("team.db")});
+  std::mt19937 random(3);
+  std::uniform_int_distribution<int> moment_ms(300, 1500);
+  for (int kill = 0; kill < Kills(); ++kill) {
+    Daemon robot(network_.Join({"replay", Log(), "--robot", "robot1", "--rate", "20"}));
+    Daemon service(serve);
+    ASSERT_TRUE(service.WaitUntilItSays("serving as"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(moment_ms(random)));
+    service.End(SIGKILL);
+    robot.End(SIGKILL);
+  }
+  Daemon service(serve);
+  ASSERT_TRUE(service.WaitUntilItSays("serving as"));
+  EXPECT_EQ(Replay({"--rate", "max"}).exit_code, 0);
+  const Outcome served = service.End();
+  const std::size_t told = CountOf("\"relevant\":true", echo.End().output);
+  EXPECT_GT(told, 10U);
+  // The answer does not wait for the disk: of each kill, the scan being written may be gone. Nobody
+  // has it, for it is offered to other services only once it is safe.
+  EXPECT_GE(RelevantScans(served) + Kills(), static_cast<int>(told)) << served.errors;
+}
+
+/// Sends bytes that are no RTPS, and some that begin like it, to the ports of everybody here.
+void SendGarbage(int datagrams) {
+  const int out = socket(AF_INET, SOCK_DGRAM, 0);
+  std::mt19937 random(7);
+  std::vector<char> bytes(512);
+  for (int i = 0; i < datagrams; ++i) {
+    for (char& byte : bytes) byte = static_cast<char>(random());
+    if (i % 2 == 0) std::copy_n("RTPS\x02\x01", 6, bytes.begin());
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    to.sin_port = htons(static_cast<std::uint16_t>(7410 + i % 12));
+    sendto(out,
+           bytes.data(),
+           random() % bytes.size(),
+           0,
+           reinterpret_cast<sockaddr*>(&to),
+           sizeof(to));
+  }
+  close(out);
+}
+
+TEST_F(DdsFaults, GarbageOnThePortsChangesNothing) {
+  Daemon service(Serve({"--output", Path("served")}));
+  ASSERT_TRUE(service.WaitUntilItSays("serving as"));
+  SendGarbage(20'000);
+  const Outcome replay = Replay({"--rate", "max"});
+  EXPECT_EQ(replay.exit_code, 0) << replay.errors;
+  const Outcome served = service.End();
+  EXPECT_EQ(served.exit_code, 0);
+  EXPECT_LT(served.errors.size(), 100'000U) << "messages are not limited";
+  ASSERT_EQ(MapOf().exit_code, 0);
+  EXPECT_TRUE(ReadFile(Path("served/robot1/trajectory.tum")) ==
+              ReadFile(Path("mapped/trajectory.tum")));
+}
+
+/// Publishes scans of the right type with contents no laser would give.
+void PublishAbsurdScans(const PrivateNetwork& network) {
+  const dds::Participant participant({.interface = "lo", .tag = network.tag()});
+  const dds::Writer<dds::wire::LaserScan> scans(
+      participant, "/robot1/scan", dds::Profile::kSensorOut);
+  for (int i = 0; i < 500 && scans.reader_count() == 0; ++i) std::this_thread::sleep_for(10ms);
+  ASSERT_GT(scans.reader_count(), 0U);
+  const LaserScan good{.stamp = 1s,
+                       .geometry = {.first_bearing_rad = -1.5F,
+                                    .bearing_step_rad = 0.017F,
+                                    .range_min_m = 0.0F,
+                                    .range_max_m = 30.0F,
+                                    .T_robot_laser = {}},
+                       .ranges_m = std::vector<float>(181, 5.0F)};
+  const std::string frame = "robot1/base_link";
+  const std::string no_frame;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  std::vector<float> many(200'000, 1.0F);
+  for (int round = 0; round < 20; ++round) {
+    dds::wire::LaserScan sample = dds::ToWire(good, frame);
+    sample.header.stamp.nanosec = 4'000'000'000U;
+    scans.Write(sample);
+    scans.Write(dds::ToWire(good, no_frame));
+    sample = dds::ToWire(good, frame);
+    sample.angle_increment = nan;
+    scans.Write(sample);
+    sample = dds::ToWire(good, frame);
+    sample.range_max = std::numeric_limits<float>::infinity();
+    scans.Write(sample);
+    sample.ranges._length = 0;
+    scans.Write(sample);
+    const auto count = static_cast<std::uint32_t>(many.size());
+    sample = dds::ToWire(good, frame);
+    sample.ranges = {
+        ._maximum = count, ._length = count, ._buffer = many.data(), ._release = false};
+    scans.Write(sample);
+    std::this_thread::sleep_for(5ms);
+  }
+}
+
+TEST_F(DdsFaults, AbsurdScansAreRefusedAndTold) {
+  Daemon service(Serve({"--output", Path("served")}));
+  ASSERT_TRUE(service.WaitUntilItSays("serving as"));
+  ASSERT_NO_FATAL_FAILURE(PublishAbsurdScans(network_));
+  EXPECT_TRUE(service.WaitUntilItSays("its stamp is no time"));
+  EXPECT_TRUE(service.WaitUntilItSays("its frame_id is empty"));
+  EXPECT_TRUE(service.WaitUntilItSays("it has no ranges"));
+  EXPECT_TRUE(service.WaitUntilItSays("it has more than 100000 ranges"));
+  EXPECT_EQ(Replay({"--rate", "max"}).exit_code, 0);
+  const Outcome served = service.End();
+  EXPECT_EQ(served.exit_code, 0) << served.errors;
+  ASSERT_EQ(MapOf().exit_code, 0);
+  EXPECT_TRUE(ReadFile(Path("served/robot1/trajectory.tum")) ==
+              ReadFile(Path("mapped/trajectory.tum")));
+}
+
+}  // namespace
+}  // namespace qwsm::test

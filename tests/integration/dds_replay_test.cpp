@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A log through the network: `qwsm replay`, `qwsm serve` and `qwsm echo` as processes on loopback.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "service/io/trajectory_file.hpp"
+#include "tests/support/network.hpp"
+
+namespace qwsm::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class DdsReplay : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const std::string generator = ProgramPath().parent_path() / "generate_demo_log";
+    const std::string command = generator + " two-rooms " + Log() + " 2>/dev/null";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+  }
+
+  std::string Log() const { return Path("two-rooms.log"); }
+  std::string Path(const char* name) const { return folder_.path() / name; }
+
+  TemporaryFolder folder_;
+  PrivateNetwork network_;
+};
+
+TEST_F(DdsReplay, GivesThePathOfTheLogBitForBit) {
+  Daemon service(network_.JoinService({"serve", "--output", Path("served")}));
+  const Outcome replay = network_.Run({"replay", Log(), "--rate", "max"});
+  ASSERT_EQ(replay.exit_code, 0) << replay.errors;
+  const Outcome served = service.End();
+  EXPECT_EQ(served.exit_code, 0) << served.errors;
+
+  const Outcome mapped = RunProgram({"map", Log(), "--output", Path("mapped")});
+  ASSERT_EQ(mapped.exit_code, 0) << mapped.errors;
+  const std::string expected = ReadFile(Path("mapped/trajectory.tum"));
+  ASSERT_GT(expected.size(), 10'000U);
+  EXPECT_TRUE(ReadFile(Path("served/trajectory.tum")) == expected);
+  EXPECT_TRUE(fs::exists(Path("served/map.png")));
+}
+
+TEST_F(DdsReplay, IsHeardPoseByPose) {
+  Daemon service(network_.JoinService({"serve"}));
+  Daemon echo(network_.Join({"echo", "robot1", "--to", "tum", "--verbose"}));
+  ASSERT_TRUE(echo.WaitUntilItSays("listening"));
+  const Outcome replay = network_.Run({"replay", Log(), "--robot", "robot1", "--rate", "max"});
+  ASSERT_EQ(replay.exit_code, 0) << replay.errors;
+  EXPECT_NE(replay.output.find("dropped by the service 0"), std::string::npos) << replay.output;
+
+  const Outcome mapped = RunProgram({"map", Log(), "--output", Path("mapped")});
+  ASSERT_EQ(mapped.exit_code, 0) << mapped.errors;
+  // Who has only just found the service may miss its first words.
+  const std::string expected = ReadFile(Path("mapped/trajectory.tum"));
+  const std::string heard = echo.End().output;
+  EXPECT_TRUE(expected.ends_with(heard));
+  EXPECT_GT(heard.size(), expected.size() * 9 / 10);
+}
+
+TEST_F(DdsReplay, SaysThatNobodyListens) {
+  const Outcome replay = network_.Run({"replay", Log(), "--robot", "robot7", "--wait", "0.2"});
+  EXPECT_EQ(replay.exit_code, 1);
+  EXPECT_NE(replay.errors.find("nobody listens to /robot7/scan"), std::string::npos)
+      << replay.errors;
+}
+
+TEST_F(DdsReplay, RefusesWhatItCannotDo) {
+  EXPECT_EQ(network_.Run({"replay", Log(), "--rate", "fast"}).exit_code, 2);
+  EXPECT_EQ(network_.Run({"replay", Log(), "--robot", "a b"}).exit_code, 2);
+  EXPECT_EQ(RunProgram({"serve", "--set", "network.interface=nowhere0"}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace qwsm::test

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What goes over the wire and comes back: the same to the last bit, or refused.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "service/dds/planar.hpp"
+#include "service/dds/robot_names.hpp"
+#include "service/dds/scan_conversion.hpp"
+#include "service/dds/static_transforms.hpp"
+
+namespace qwsm::dds {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+TEST(Planar, GivesHeadingsBackToTheLastBit) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> any(-kPi, kPi);
+  for (int i = 0; i < 20'000; ++i) {
+    const double theta_rad = any(random);
+    ASSERT_EQ(YawOf(QuaternionOf(theta_rad)), theta_rad) << "case " << i;
+  }
+  for (const double theta_rad : {0.0, 1e-300, -1e-9, 1e-5, kPi, -3.14159, 0.5 * kPi}) {
+    EXPECT_EQ(YawOf(QuaternionOf(theta_rad)), theta_rad);
+  }
+}
+
+TEST(Planar, ReadsYawOfTiltedRotations) {
+  // Yaw 0.5 after a roll of 0.3: q = q_z * q_x.
+  const double z = std::sin(0.25);
+  const double w = std::cos(0.25);
+  const double s = std::sin(0.15);
+  const double c = std::cos(0.15);
+  const wire::Quaternion tilted{w * s, z * s, z * c, w * c};
+  EXPECT_NEAR(YawOf(tilted), 0.5, 1e-12);
+  EXPECT_NEAR(UprightnessOf(tilted), std::cos(0.3), 1e-12);
+}
+
+TEST(Planar, GivesStampsBack) {
+  for (const std::int64_t ns :
+       {0LL, 1LL, 999'999'999LL, 1'000'000'000LL, -1LL, 1'700'000'000'123'456'789LL}) {
+    EXPECT_EQ(FromWire(ToWire(Timestamp(ns))), Timestamp(ns));
+  }
+  EXPECT_FALSE(FromWire(wire::Time{.sec = 1, .nanosec = 1'000'000'000}));
+}
+
+TEST(RobotNames, FindRobotsByTheirTopics) {
+  EXPECT_EQ(RobotNames::RobotOf("rt/robot1/scan", "scan"), "robot1");
+  EXPECT_EQ(RobotNames::RobotOf("rt/team/robot1/scan", "scan"), "team/robot1");
+  EXPECT_EQ(RobotNames::RobotOf("rt/scan", "scan"), "");
+  EXPECT_FALSE(RobotNames::RobotOf("rt/robot1/rescan", "scan"));
+  EXPECT_FALSE(RobotNames::RobotOf("scan", "scan"));
+  EXPECT_FALSE(RobotNames::RobotOf("rt/../../etc/scan", "scan"));
+  EXPECT_FALSE(RobotNames::RobotOf("rt//etc/scan", "scan"));
+  EXPECT_EQ(RobotNames("/robot1/").Topic("scan"), "/robot1/scan");
+  EXPECT_EQ(RobotNames("").Topic("scan"), "/scan");
+  EXPECT_EQ(RobotNames("robot1").Frame("odom"), "robot1/odom");
+}
+
+TEST(StaticTransforms, FollowFramesAndRefuseCircles) {
+  StaticTransforms transforms;
+  const auto add = [&transforms](std::string parent, std::string child, const Pose2& pose) {
+    wire::TransformStamped transform{};
+    transform.header = HeaderOf({}, parent);
+    transform.child_frame_id = Borrow(child);
+    transform.transform.translation = {pose.x_m, pose.y_m, 0.0};
+    transform.transform.rotation = QuaternionOf(pose.theta_rad);
+    wire::TFMessage message{};
+    message.transforms = {._maximum = 1, ._length = 1, ._buffer = &transform, ._release = false};
+    transforms.Take(message);
+  };
+  add("base_link", "mast", {1.0, 0.0, kPi / 2});
+  add("mast", "laser", {0.5, 0.0, 0.0});
+  const auto found = transforms.Find("base_link", "laser");
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->x_m, 1.0, 1e-12);
+  EXPECT_NEAR(found->y_m, 0.5, 1e-12);
+  EXPECT_EQ(transforms.Find("base_link", "base_link"), Pose2{});
+  EXPECT_FALSE(transforms.Find("base_link", "camera"));
+  add("b", "a", {});
+  add("a", "b", {});
+  EXPECT_FALSE(transforms.Find("base_link", "a"));
+}
+
+class WireScan : public ::testing::Test {
+ protected:
+  static LaserScan Scan() {
+    return {.stamp = Timestamp(1'234'567'890'123'456'789),
+            .geometry = {.first_bearing_rad = -1.5F,
+                         .bearing_step_rad = 0.1F,
+                         .range_min_m = 0.02F,
+                         .range_max_m = 30.0F,
+                         .T_robot_laser = {0.1, -0.2, 0.3}},
+            .ranges_m = {1.0F, std::numeric_limits<float>::infinity(), 0.0F, std::nanf("")}};
+  }
+
+  std::string frame_ = "laser";
+};
+
+TEST_F(WireScan, ComesBackAsItWas) {
+  const LaserScan scan = Scan();
+  const wire::LaserScan sample = ToWire(scan, frame_);
+  ASSERT_TRUE(ObjectionTo(sample).empty());
+  const LaserScan back = FromWire(sample, scan.geometry.T_robot_laser);
+  EXPECT_EQ(back.stamp, scan.stamp);
+  EXPECT_EQ(back.geometry, scan.geometry);
+  ASSERT_EQ(back.size(), scan.size());
+  EXPECT_EQ(back.ranges_m[1], scan.ranges_m[1]);
+  EXPECT_TRUE(std::isnan(back.ranges_m[3]));
+}
+
+TEST_F(WireScan, IsRefusedWhereItMakesNoSense) {
+  const LaserScan scan = Scan();
+  wire::LaserScan sample = ToWire(scan, frame_);
+  sample.header.stamp.nanosec = 2'000'000'000;
+  EXPECT_EQ(ObjectionTo(sample), "its stamp is no time");
+  sample = ToWire(scan, frame_);
+  std::string none;
+  sample.header.frame_id = Borrow(none);
+  EXPECT_EQ(ObjectionTo(sample), "its frame_id is empty");
+  sample = ToWire(scan, frame_);
+  sample.ranges._length = 4'000'000'000U;
+  EXPECT_EQ(ObjectionTo(sample), "it has more than 100000 ranges");
+  sample.ranges._length = 0;
+  EXPECT_EQ(ObjectionTo(sample), "it has no ranges");
+}
+
+TEST_F(WireScan, RelevantOneComesBackWithItsPlace) {
+  team::TeamScan scan{.key = {.service = "qwsm-1", .robot = "robot1", .sequence = 7},
+                      .scan = Scan(),
+                      .map_robot = {.T_a_b = {3.0, 4.0, -2.5}},
+                      .T_odom_robot = Pose2{1.0, 2.0, 0.5}};
+  scan.map_robot.covariance << 3, 1, 0, 1, 2, 0, 0, 0, 1;
+  const std::string map = "map";
+  const wire::RelevantScan sample = ToWire(scan, map);
+  ASSERT_TRUE(ObjectionTo(sample).empty());
+  const team::TeamScan back = FromWire(sample);
+  EXPECT_EQ(back.key, scan.key);
+  EXPECT_EQ(back.map_robot.T_a_b, scan.map_robot.T_a_b);
+  EXPECT_EQ(back.map_robot.covariance, scan.map_robot.covariance);
+  EXPECT_EQ(back.T_odom_robot, scan.T_odom_robot);
+  EXPECT_EQ(back.scan.geometry, scan.scan.geometry);
+}
+
+}  // namespace
+}  // namespace qwsm::dds
