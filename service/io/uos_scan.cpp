@@ -4,100 +4,105 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <fstream>
 #include <numbers>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <string_view>
+
+#include "service/io/atomic_file.hpp"
+#include "service/io/file_error.hpp"
+#include "service/io/line_reader.hpp"
+#include "service/io/number_text.hpp"
+#include "service/io/text_points.hpp"
 
 namespace slam6d::io {
 namespace {
 
-constexpr double kMetresPerCentimetre = 0.01;
-
-std::string ReadText(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be opened");
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (stream.bad()) throw std::runtime_error(file.string() + ": cannot be read");
-  return std::move(text).str();
-}
-
-/// Cuts the next line off the text; an end of line may be \n or \r\n.
-std::string_view NextLine(std::string_view& text) {
-  const std::size_t end = std::min(text.find('\n'), text.size());
-  std::string_view line = text.substr(0, end);
-  text.remove_prefix(std::min(end + 1, text.size()));
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  return line;
-}
-
-bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == ','; }
-
-/// Cuts the next finite number off the text; nothing when there is none.
-std::optional<double> NextNumber(std::string_view& text) {
-  const auto* start = std::find_if_not(text.begin(), text.end(), IsBlank);
-  if (start != text.end() && *start == '+') ++start;
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(start, text.end(), value);
-  if (error != std::errc{} || !std::isfinite(value)) return std::nullopt;
-  text.remove_prefix(static_cast<std::size_t>(end - text.begin()));
-  return value;
-}
-
-std::optional<Eigen::Vector3d> NextTriple(std::string_view& text) {
-  const std::optional<double> x = NextNumber(text);
-  const std::optional<double> y = x ? NextNumber(text) : std::nullopt;
-  const std::optional<double> z = y ? NextNumber(text) : std::nullopt;
-  if (!z) return std::nullopt;
-  return Eigen::Vector3d(*x, *y, *z);
-}
+/// Kinds of steps in a .frames file, by which the viewer colours a scan.
+constexpr int kStartStep = 1;
+constexpr int kMatchedStep = 2;
 
 /// Axes of the left-handed frame (right, up, forward) in ours (forward, left, up): a mirror.
 Eigen::Matrix3d OursFromUos() {
   return Eigen::Matrix3d{{0.0, 0.0, 1.0}, {-1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
 }
 
+Pose3 PoseFromUos(const Eigen::Matrix3d& R_uos, const Eigen::Vector3d& position_cm) {
+  const Eigen::Matrix3d mirror = OursFromUos();
+  return {.rotation = mirror * R_uos * mirror.transpose(),
+          .translation_m = kMetresPerUosUnit * (mirror * position_cm)};
+}
+
+/// The lines of a small file that hold anything, with their numbers.
+std::vector<std::pair<std::size_t, std::string>> ReadLines(const std::filesystem::path& file) {
+  std::ifstream stream = qwsm::io::OpenForReading(file);
+  qwsm::io::LineReader reader{qwsm::io::ByteSource(stream)};
+  std::vector<std::pair<std::size_t, std::string>> lines;
+  while (const std::optional<qwsm::io::Line> line = reader.Next()) {
+    if (!IsBlank(line->text)) lines.emplace_back(line->number, line->text);
+  }
+  return lines;
+}
+
+[[noreturn]] void Fail(const std::filesystem::path& file, std::size_t line, const char* what) {
+  throw std::runtime_error(file.string() + ":" + std::to_string(line) + ": " + what);
+}
+
+void AppendFrame(const Pose3& pose, int kind, std::string& text) {
+  const Eigen::Matrix3d mirror = OursFromUos();
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  matrix.topLeftCorner<3, 3>() = mirror.transpose() * pose.rotation * mirror;
+  matrix.topRightCorner<3, 1>() = mirror.transpose() * pose.translation_m / kMetresPerUosUnit;
+  for (int i = 0; i < 16; ++i) {
+    qwsm::io::AppendNumber(text, matrix(i % 4, i / 4));
+    text += ' ';
+  }
+  text += std::to_string(kind) + "\n";
+}
+
 }  // namespace
 
-UosPoints ReadUosPoints(const std::filesystem::path& file) {
-  const std::string content = ReadText(file);
-  UosPoints result;
-  std::string_view text = content;
-  for (std::size_t line_number = 1; !text.empty(); ++line_number) {
-    std::string_view line = NextLine(text);
-    if (std::all_of(line.begin(), line.end(), IsBlank) || line.starts_with('#')) continue;
-    if (const std::optional<Eigen::Vector3d> right_up_forward_cm = NextTriple(line)) {
-      result.cloud.push_back(kMetresPerCentimetre * (OursFromUos() * *right_up_forward_cm));
-    } else if (++result.skipped_lines == 1) {
-      result.first_problem =
-          file.string() + ":" + std::to_string(line_number) + ": expected three numbers 'x y z'";
-    }
-  }
-  return result;
+ScanPoints ReadUosPoints(const std::filesystem::path& file) {
+  const Eigen::Matrix3d ours_from_uos_m = kMetresPerUosUnit * OursFromUos();
+  return ReadTextPoints(file, [&](const Eigen::Vector3d& right_up_forward_cm) {
+    return Eigen::Vector3d(ours_from_uos_m * right_up_forward_cm);
+  });
 }
 
 Pose3 ReadUosPose(const std::filesystem::path& file) {
-  const std::string content = ReadText(file);
+  std::string content;
+  for (const auto& [number, line] : ReadLines(file)) content += line + "\n";
   std::string_view text = content;
   const std::optional<Eigen::Vector3d> position_cm = NextTriple(text);
-  if (!position_cm) throw std::runtime_error(file.string() + ":1: expected a position 'x y z'");
+  if (!position_cm) Fail(file, 1, "expected a position 'x y z'");
   const std::optional<Eigen::Vector3d> angles_deg = NextTriple(text);
-  if (!angles_deg) {
-    throw std::runtime_error(file.string() + ":2: expected three angles in degrees");
-  }
+  if (!angles_deg) Fail(file, 2, "expected three angles in degrees");
   const Eigen::Vector3d angles_rad = *angles_deg * (std::numbers::pi / 180.0);
   const Eigen::Matrix3d R_uos = (Eigen::AngleAxisd(angles_rad.x(), Eigen::Vector3d::UnitX()) *
                                  Eigen::AngleAxisd(angles_rad.y(), Eigen::Vector3d::UnitY()) *
                                  Eigen::AngleAxisd(angles_rad.z(), Eigen::Vector3d::UnitZ()))
                                     .toRotationMatrix();
-  const Eigen::Matrix3d mirror = OursFromUos();
-  return {.rotation = mirror * R_uos * mirror.transpose(),
-          .translation_m = kMetresPerCentimetre * (mirror * *position_cm)};
+  return PoseFromUos(R_uos, *position_cm);
+}
+
+Pose3 ReadUosFrames(const std::filesystem::path& file) {
+  const auto lines = ReadLines(file);
+  if (lines.empty()) Fail(file, 1, "the file is empty; expected sixteen numbers and a kind");
+  std::string_view text = lines.back().second;
+  Eigen::Matrix4d matrix;
+  for (int i = 0; i < 16; ++i) {
+    const std::optional<double> value = NextNumber(text);
+    if (!value) Fail(file, lines.back().first, "expected sixteen numbers and a kind");
+    matrix(i % 4, i / 4) = *value;
+  }
+  return PoseFromUos(NearestRotation(matrix.topLeftCorner<3, 3>()), matrix.topRightCorner<3, 1>());
+}
+
+void WriteUosFrames(const std::filesystem::path& file, const Pose3& before, const Pose3& after) {
+  std::string text;
+  AppendFrame(before, kStartStep, text);
+  AppendFrame(after, kMatchedStep, text);
+  qwsm::io::WriteTextFile(file, text);
 }
 
 std::vector<std::string> ListUosScans(const std::filesystem::path& folder) {

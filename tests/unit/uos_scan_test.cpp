@@ -19,7 +19,7 @@ std::filesystem::path Write(const std::string& name, const std::string& text) {
 }
 
 TEST(UosScan, TurnsCentimetresRightUpForwardIntoMetresForwardLeftUp) {
-  const UosPoints points = ReadUosPoints(Write("scan_axes.3d", "100 200 300\n"));
+  const ScanPoints points = ReadUosPoints(Write("scan_axes.3d", "100 200 300\n"));
   ASSERT_EQ(points.cloud.size(), 1U);
   EXPECT_NEAR((points.cloud[0] - Eigen::Vector3d(3.0, -1.0, 2.0)).norm(), 0.0, 1e-12);
 }
@@ -27,10 +27,10 @@ TEST(UosScan, TurnsCentimetresRightUpForwardIntoMetresForwardLeftUp) {
 TEST(UosScan, KeepsTheRestWhenLinesAreBadAndNamesTheFirst) {
   const std::filesystem::path file =
       Write("scan_bad.3d", "1 2 3\r\n\r\n# note\n4 nan 6\n7 8\n9 10 11 0.5\r\n12 13 x\n+1 -2 3e1");
-  const UosPoints points = ReadUosPoints(file);
+  const ScanPoints points = ReadUosPoints(file);
   EXPECT_EQ(points.cloud.size(), 3U);
   EXPECT_EQ(points.skipped_lines, 3U);
-  EXPECT_EQ(points.first_problem, file.string() + ":4: expected three numbers 'x y z'");
+  EXPECT_EQ(points.first_problem, file.string() + ":4: expected three finite numbers 'x y z'");
 }
 
 TEST(UosScan, AYawToTheRightIsNegativeForUs) {

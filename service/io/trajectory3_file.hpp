@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <vector>
+
+#include "slam6d/geometry/pose3.hpp"
+
+namespace slam6d::io {
+
+/// Poses by the number of their scan, or by their stamp in seconds.
+using NumberedPoses = std::map<double, Pose3>;
+
+/// Writes a TUM trajectory `n x y z qx qy qz qw`: the scan's number as its stamp, right-handed
+/// metres, all digits.
+/// @throws qwsm::io::WriteError where it cannot be written.
+void WriteTum3(const std::filesystem::path& file, const std::vector<Pose3>& T_map_scan);
+
+/// Reads poses: a TUM trajectory, a folder of results that holds one, or a folder of `.frames` or
+/// else `.pose` files of 3DTK.
+/// @throws std::runtime_error naming file and line where there are none.
+NumberedPoses ReadPoses(const std::filesystem::path& file_or_folder);
+
+}  // namespace slam6d::io
