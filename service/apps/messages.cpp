@@ -7,19 +7,21 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <cerrno>
 #include <memory>
+#include <string>
 
 namespace qwsm::apps {
 
 void StartMessages(const Verbosity& verbosity) {
   const auto console = std::make_shared<spdlog::sinks::stderr_sink_mt>();
-  console->set_pattern("qwsm: %v");
+  console->set_pattern(std::string(program_invocation_short_name) + ": %v");
   if (verbosity.quiet) {
     console->set_level(spdlog::level::err);
   } else {
     console->set_level(verbosity.verbose ? spdlog::level::info : spdlog::level::warn);
   }
-  spdlog::set_default_logger(std::make_shared<spdlog::logger>("qwsm", console));
+  spdlog::set_default_logger(std::make_shared<spdlog::logger>("program", console));
 }
 
 void CopyMessagesTo(const std::filesystem::path& file) {

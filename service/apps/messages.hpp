@@ -8,7 +8,7 @@
 
 namespace qwsm::apps {
 
-/// Sends messages (spdlog) to stderr, as much as was asked for, as `qwsm: message`.
+/// Sends messages (spdlog) to stderr, as much as was asked for, as `program: message`.
 void StartMessages(const Verbosity& verbosity);
 
 /// From now on, all of them go to this file too, each with its time.

@@ -5,10 +5,13 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
 #include <string_view>
 
 namespace qwsm::pipeline {
 namespace {
+
+using std::literals::operator""sv;
 
 constexpr int kInterruptedExitCode = 130;
 
@@ -18,15 +21,18 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 // Only what may be called inside a signal handler.
 void Say(std::string_view text) {
-  [[maybe_unused]] const ssize_t ignored = write(STDERR_FILENO, text.data(), text.size());
+  for (const std::string_view part :
+       {"\n"sv, std::string_view(program_invocation_short_name), ": "sv, text}) {
+    [[maybe_unused]] const ssize_t ignored = write(STDERR_FILENO, part.data(), part.size());
+  }
 }
 
 extern "C" void HandleSignal(int) {
   if (interrupted.exchange(true)) {
-    Say("\nqwsm: quit without writing results\n");
+    Say("quit without writing results\n");
     _exit(kInterruptedExitCode);
   }
-  Say("\nqwsm: interrupted: finishing this scan and writing the results; again to quit at once\n");
+  Say("interrupted: finishing this scan and writing the results; again to quit at once\n");
 }
 
 }  // namespace

@@ -62,8 +62,7 @@ ResultsFolder::ResultsFolder(fs::path folder, bool force) : folder_(std::move(fo
   fs::create_directories(folder_, error);
   ThrowIf(error, folder_, "be created");
   if (fs::exists(folder_ / kMarker) && !force) RemoveFiles(folder_);
-  io::WriteTextFile(folder_ / kMarker,
-                    "Results of a run of qwsm; the next run may replace them.\n");
+  io::WriteTextFile(folder_ / kMarker, "Results of a run; the next run may replace them.\n");
 }
 
 ResultsFolder ResultsFolder::ForNow(const fs::path& parent) {

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "service/apps/command.hpp"
+
+namespace qwsm::apps {
+
+/// The arguments of a program's main().
+struct Arguments {
+  int count;
+  const char* const* values;
+};
+
+/// Gives a program the help, version and errors that all of ours have.
+void PrepareProgram(CLI::App& program);
+
+/// Parses the arguments and runs the command they name. Whatever goes wrong becomes a message on
+/// stderr and an exit code.
+ExitCode RunProgram(CLI::App& program,
+                    const std::vector<Command>& commands,
+                    const Arguments& arguments);
+
+}  // namespace qwsm::apps

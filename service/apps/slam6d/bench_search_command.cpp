@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "service/apps/slam6d/commands.hpp"
+#include "service/pipeline/results_folder.hpp"
+#include "service/pipeline/slam6d/scan_series.hpp"
+#include "service/pipeline/slam6d/search_benchmark.hpp"
+
+namespace slam6d::apps {
+namespace {
+
+struct BenchArguments {
+  std::vector<std::filesystem::path> scans;
+  std::optional<std::filesystem::path> output;
+  double max_distance_m = 0.5;
+  double max_range_m = 1e6;
+  bool force = false;
+};
+
+constexpr std::array<int, 8> kBucketSizes{1, 2, 4, 8, 16, 25, 35, 50};
+constexpr std::size_t kShownSize = 4;
+
+pipeline::SearchTask ReadTask(const BenchArguments& arguments) {
+  pipeline::ScanSeries series(pipeline::FindScans(arguments.scans), {}, {});
+  if (series.size() < 2) throw qwsm::apps::UsageError("two scans are needed");
+  const pipeline::LoadedScan ref = *series.Next();
+  const pipeline::LoadedScan cur = *series.Next();
+  return {.ref = InRange(ref.cloud, 0.0, arguments.max_range_m),
+          .cur = InRange(cur.cloud, 0.0, arguments.max_range_m),
+          .T_ref_cur_guess = ref.T_odom_scan.Inverse() * cur.T_odom_scan};
+}
+
+ExitCode RunBench(const BenchArguments& arguments) {
+  const pipeline::SearchTask task = ReadTask(arguments);
+  std::optional<qwsm::pipeline::ResultsFolder> folder;
+  if (arguments.output) folder.emplace(*arguments.output, arguments.force);
+  const std::vector<pipeline::SearchTimes> times =
+      BenchSearch(task, kBucketSizes, arguments.max_distance_m);
+  fmt::print("searches of one registration, {} on {} points, one thread\n{}",
+             task.cur.size(),
+             task.ref.size(),
+             SearchTable(times));
+  std::size_t wrong = 0;
+  for (const pipeline::SearchTimes& t : times) wrong += t.wrong;
+  if (folder) {
+    DrawSpeedUp(times, *folder / "speed_up.png");
+    DrawIterations(times[kShownSize], *folder / "iterations.png");
+  }
+  return wrong == 0 ? ExitCode::kDone : ExitCode::kFailed;
+}
+
+}  // namespace
+
+Command AddBenchSearchCommand(CLI::App& program) {
+  CLI::App* parser =
+      program.add_subcommand("bench-search", "cached search against search from the root");
+  auto arguments = std::make_shared<BenchArguments>();
+  parser->footer(
+      "  slam6d bench-search dat/                   a table for the first two scans\n"
+      "  slam6d bench-search dat/ --output figure5  and pictures like the paper's Figure 5");
+  parser->add_option("SCANS", arguments->scans, "a folder of scans, or two files")
+      ->required()
+      ->type_name("");
+  parser->add_option("-o,--output", arguments->output, "folder for the pictures")->type_name("DIR");
+  parser->add_option("--max-distance", arguments->max_distance_m, "of a pair, in metres")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  parser->add_option("--max-range", arguments->max_range_m, "farther points are misses, in metres")
+      ->check(CLI::PositiveNumber);
+  parser->add_flag("--force", arguments->force, "write into a folder that holds other things");
+  return {.parser = parser, .run = [arguments] { return RunBench(*arguments); }};
+}
+
+}  // namespace slam6d::apps

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "service/apps/command.hpp"
+
+namespace slam6d::apps {
+
+using qwsm::apps::Command;
+using qwsm::apps::ExitCode;
+
+// One per command of the program slam6d, each in a file of its own.
+Command AddRegisterCommand(CLI::App& program);
+Command AddEvalCommand(CLI::App& program);
+Command AddBenchSearchCommand(CLI::App& program);
+Command AddConfigCommand(CLI::App& program);
+
+}  // namespace slam6d::apps

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "service/apps/slam6d/commands.hpp"
+#include "service/pipeline/slam6d/registration_options.hpp"
+
+namespace slam6d::apps {
+
+Command AddConfigCommand(CLI::App& program) {
+  CLI::App* parser = program.add_subcommand("config", "all options of register, as YAML or table");
+  struct Settings {
+    qwsm::config::OptionSources sources;
+    bool describe = false;
+  };
+  auto settings = std::make_shared<Settings>();
+  parser->footer(
+      "  slam6d config > mine.yaml                  to edit, then: register --config mine.yaml\n"
+      "  slam6d config --describe                   a table with units, bounds and help");
+  parser->add_flag("--describe", settings->describe, "a table with units, bounds and help");
+  qwsm::apps::AddConfiguration(*parser, settings->sources);
+  return {.parser = parser, .run = [settings] {
+            using pipeline::RegistrationOptions;
+            const auto options = qwsm::config::LoadOptions<RegistrationOptions>(settings->sources);
+            fmt::print("{}",
+                       settings->describe ? qwsm::config::DescribeOptions<RegistrationOptions>()
+                                          : qwsm::config::DumpOptions(options));
+            return ExitCode::kDone;
+          }};
+}
+
+}  // namespace slam6d::apps

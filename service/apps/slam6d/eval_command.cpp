@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "service/apps/slam6d/commands.hpp"
+#include "service/pipeline/slam6d/pose_evaluation.hpp"
+
+namespace slam6d::apps {
+namespace {
+
+using pipeline::PoseAlignment;
+
+struct EvalArguments {
+  std::vector<std::filesystem::path> estimates;
+  std::filesystem::path truth;
+  PoseAlignment alignment = PoseAlignment::kFirst;
+  std::optional<double> max_ate_m;
+  std::optional<double> max_ate_deg;
+  bool json = false;
+};
+
+int CountFailures(const pipeline::NamedErrors& named, const EvalArguments& arguments) {
+  int failures = 0;
+  const auto check = [&](const std::optional<double>& bound, double value, const char* what) {
+    if (!bound || value <= *bound) return;  // Written so that NaN fails.
+    fmt::print(stderr, "slam6d: {}: {}: {:.6g} is above {:.6g}\n", named.name, what, value, *bound);
+    ++failures;
+  };
+  check(arguments.max_ate_m, named.errors.rmse_m, "ate rmse [m]");
+  check(arguments.max_ate_deg,
+        named.errors.rmse_rad * 180.0 / std::numbers::pi,
+        "ate rotation rmse [deg]");
+  return failures;
+}
+
+ExitCode RunEval(const EvalArguments& arguments) {
+  const io::NumberedPoses truth = io::ReadPoses(arguments.truth);
+  std::vector<pipeline::NamedErrors> all;
+  for (const std::filesystem::path& estimate : arguments.estimates) {
+    all.push_back({.name = estimate.string(),
+                   .errors = Compare(io::ReadPoses(estimate), truth, arguments.alignment)});
+  }
+  fmt::print("{}", arguments.json ? ErrorJson(all) : ErrorTable(all));
+  int failures = 0;
+  for (const pipeline::NamedErrors& named : all) failures += CountFailures(named, arguments);
+  return failures == 0 ? ExitCode::kDone : ExitCode::kFailed;
+}
+
+}  // namespace
+
+Command AddEvalCommand(CLI::App& program) {
+  CLI::App* parser = program.add_subcommand("eval", "how good registered poses are");
+  auto arguments = std::make_shared<EvalArguments>();
+  parser->footer(
+      "  slam6d eval results/latest --truth dat/gt\n"
+      "  slam6d eval dat/ results/latest --truth dat/gt          odometry and result\n"
+      "  slam6d eval results/latest --truth gt.tum --max-ate 0.03     exit code 1 above");
+  parser
+      ->add_option("POSES",
+                   arguments->estimates,
+                   "TUM files, or folders of results, of .frames or of .pose files")
+      ->required()
+      ->type_name("");
+  parser->add_option("--truth", arguments->truth, "the same, of the true poses")
+      ->required()
+      ->type_name("FILE");
+  const std::map<std::string, PoseAlignment> alignments{{"none", PoseAlignment::kNone},
+                                                        {"first", PoseAlignment::kFirst},
+                                                        {"best", PoseAlignment::kBest}};
+  parser->add_option("--align", arguments->alignment, "none, first (pose onto the truth) or best")
+      ->transform(CLI::CheckedTransformer(alignments))
+      ->type_name("HOW");
+  const char* const bounds = "Bounds (exit code 1)";
+  parser->add_option("--max-ate", arguments->max_ate_m, "rmse of the translation, in metres")
+      ->check(CLI::NonNegativeNumber)
+      ->group(bounds);
+  parser
+      ->add_option("--max-ate-rotation", arguments->max_ate_deg, "rmse of the rotation, in degrees")
+      ->check(CLI::NonNegativeNumber)
+      ->group(bounds);
+  parser->add_flag("--json", arguments->json, "the same as JSON");
+  return {.parser = parser, .run = [arguments] { return RunEval(*arguments); }};
+}
+
+}  // namespace slam6d::apps

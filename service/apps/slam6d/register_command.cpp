@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "service/apps/messages.hpp"
+#include "service/apps/slam6d/commands.hpp"
+#include "service/apps/version.hpp"
+#include "service/io/atomic_file.hpp"
+#include "service/pipeline/interruption.hpp"
+#include "service/pipeline/progress_display.hpp"
+#include "service/pipeline/slam6d/registration_results.hpp"
+
+namespace slam6d::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using pipeline::RegistrationOptions;
+using qwsm::pipeline::ResultsFolder;
+
+struct RegisterArguments {
+  std::vector<fs::path> scans;
+  std::optional<fs::path> output;
+  std::optional<fs::path> poses;
+  std::optional<int> threads;
+  qwsm::config::OptionSources sources;
+  qwsm::apps::Verbosity verbosity;
+  bool force = false;
+  bool dry_run = false;
+};
+
+ExitCode TellPlan(const std::vector<fs::path>& files, const RegisterArguments& arguments) {
+  if (arguments.output) ResultsFolder::Check(*arguments.output, arguments.force);
+  for (const fs::path& file : files) fmt::print("would register {}\n", file.string());
+  fmt::print("into {}\n", arguments.output.value_or("results/<time>").string());
+  return ExitCode::kDone;
+}
+
+/// The folder of this run, with its messages and configuration recorded there.
+ResultsFolder OpenResults(const RegisterArguments& arguments, const RegistrationOptions& options) {
+  ResultsFolder folder = arguments.output ? ResultsFolder(*arguments.output, arguments.force)
+                                          : ResultsFolder::ForNow("results");
+  qwsm::apps::CopyMessagesTo(folder / "run.log");
+  spdlog::info("version {}", qwsm::apps::Version());
+  qwsm::io::WriteTextFile(folder / "config.yaml", qwsm::config::DumpOptions(options));
+  return folder;
+}
+
+std::string ProgressText(double share,
+                         const std::string& what,
+                         std::chrono::duration<double> elapsed) {
+  std::string text = fmt::format("register  {:2.0f} %  {}", 100.0 * share, what);
+  if (share <= 0.0) return text;
+  return text + "  ETA " + qwsm::pipeline::MinutesAndSeconds(elapsed.count() * (1.0 / share - 1.0));
+}
+
+pipeline::Registration Register(pipeline::ScanSeries& series,
+                                const RegistrationOptions& options,
+                                const qwsm::apps::Verbosity& verbosity) {
+  qwsm::pipeline::StatusLine line(verbosity.quiet ? qwsm::pipeline::ProgressStyle::kNone
+                                                  : qwsm::pipeline::StyleFor(stderr));
+  const qwsm::pipeline::Interruption interruption;
+  const pipeline::RegistrationObserver observer{
+      .show =
+          [&](double share, const std::string& what) {
+            line.Show([&](std::chrono::duration<double> elapsed) {
+              return ProgressText(share, what, elapsed);
+            });
+          },
+      .warn =
+          [&](const std::string& problem) {
+            line.Clear();
+            spdlog::warn("{}", problem);
+          },
+      .should_stop = [&] { return interruption.requested(); }};
+  return pipeline::RegisterSeries(series, options.slam, observer);
+}
+
+void TellDoubts(const pipeline::Registration& registration) {
+  for (const pipeline::RegisteredScan& scan : registration.scans) {
+    if (scan.step.status == SlamStatus::kDeadReckoned) {
+      spdlog::warn(
+          "{}: could not be registered with the scans before it ({}, overlap {:.0f} %); it "
+          "is where odometry has it",
+          scan.file.string(),
+          Reason(scan.step.match.status),
+          100.0 * scan.step.overlap);
+    } else if (scan.step.status == SlamStatus::kUnusable) {
+      spdlog::warn(
+          "{}: has fewer than three different points that count; it is where odometry has it",
+          scan.file.string());
+    }
+  }
+}
+
+ExitCode RunRegister(const RegisterArguments& arguments) {
+  qwsm::apps::StartMessages(arguments.verbosity);
+  auto options = qwsm::config::LoadOptions<RegistrationOptions>(arguments.sources);
+  if (arguments.threads) options.slam.icp.threads = *arguments.threads;
+  const std::vector<fs::path> files = pipeline::FindScans(arguments.scans);
+  const io::NumberedPoses starts =
+      arguments.poses ? io::ReadPoses(*arguments.poses) : io::NumberedPoses{};
+  if (arguments.dry_run) return TellPlan(files, arguments);
+
+  const ResultsFolder folder = OpenResults(arguments, options);
+  pipeline::ScanSeries series(files, starts, options);
+  const pipeline::Registration registration = Register(series, options, arguments.verbosity);
+  TellDoubts(registration);
+  pipeline::WriteResults(registration, options, folder);
+  const std::string summary = pipeline::SummaryText(registration);
+  spdlog::info("\n{}", summary);
+  if (arguments.verbosity.json) {
+    fmt::print("{}", pipeline::MetricsJson(registration));
+  } else if (!arguments.verbosity.quiet) {
+    fmt::print("{}results        {}\n", summary, folder.path().string());
+  }
+  return registration.interrupted ? ExitCode::kInterrupted : ExitCode::kDone;
+}
+
+}  // namespace
+
+Command AddRegisterCommand(CLI::App& program) {
+  CLI::App* parser = program.add_subcommand("register", "one consistent model from 3D scans");
+  auto arguments = std::make_shared<RegisterArguments>();
+  parser->footer(
+      "  slam6d register dat/                              scans and poses of 3DTK\n"
+      "  slam6d register dat/ --output courtyard           results in courtyard/\n"
+      "  slam6d register *.pcd --poses odometry.tum        start poses from elsewhere\n"
+      "  slam6d register dat/ --set slam.max_range_m=30    farther points are misses\n"
+      "  slam6d register dat/ --set slam.icp.metric=point-to-point");
+  parser->add_option("SCANS", arguments->scans, "folders of scans, or files, in their order")
+      ->required()
+      ->type_name("");
+  parser
+      ->add_option("-o,--output", arguments->output, "folder for the results; else results/<time>")
+      ->type_name("DIR");
+  parser
+      ->add_option("--poses",
+                   arguments->poses,
+                   "poses to start from: TUM by scan number, or a folder of .pose or .frames")
+      ->type_name("FILE");
+  parser->add_option("--threads", arguments->threads, "changes no bit of the result")
+      ->check(CLI::Range(1, 256));
+  parser->add_flag("--force", arguments->force, "write into a folder that holds other things");
+  parser->add_flag("-n,--dry-run", arguments->dry_run, "check the arguments, do nothing");
+  qwsm::apps::AddConfiguration(*parser, arguments->sources);
+  qwsm::apps::AddVerbosity(*parser, arguments->verbosity, "the figures as JSON on standard output");
+  return {.parser = parser, .run = [arguments] { return RunRegister(*arguments); }};
+}
+
+}  // namespace slam6d::apps

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/slam6d/pose_evaluation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+
+#include "service/config/text_table.hpp"
+#include "slam6d/icp/closed_form.hpp"
+
+namespace slam6d::pipeline {
+namespace {
+
+constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
+
+struct PosePair {
+  Pose3 estimate;
+  Pose3 truth;
+};
+
+std::vector<PosePair> PairUp(const io::NumberedPoses& estimate, const io::NumberedPoses& truth) {
+  std::vector<PosePair> pairs;
+  for (const auto& [number, pose] : estimate) {
+    const auto found = truth.find(number);
+    if (found != truth.end()) pairs.push_back({pose, found->second});
+  }
+  if (pairs.empty()) throw std::runtime_error("no scan has a pose in both trajectories");
+  return pairs;
+}
+
+/// The motion that lays the estimate over the truth.
+Pose3 AlignmentOf(const std::vector<PosePair>& pairs, PoseAlignment alignment) {
+  if (alignment == PoseAlignment::kNone) return {};
+  if (alignment == PoseAlignment::kFirst) {
+    return pairs.front().truth * pairs.front().estimate.Inverse();
+  }
+  PairMoments moments{.count = static_cast<double>(pairs.size())};
+  for (const PosePair& pair : pairs) {
+    moments.center_ref_m += pair.truth.translation_m / moments.count;
+    moments.center_cur_m += pair.estimate.translation_m / moments.count;
+  }
+  for (const PosePair& pair : pairs) {
+    moments.H_m2 += (pair.estimate.translation_m - moments.center_cur_m) *
+                    (pair.truth.translation_m - moments.center_ref_m).transpose();
+  }
+  const std::optional<Pose3> best = AlignPairs(moments, ClosedForm::kSvd);
+  if (!best) throw std::runtime_error("the positions lie on a line: --align best needs others");
+  return *best;
+}
+
+}  // namespace
+
+PoseErrors Compare(const io::NumberedPoses& estimate,
+                   const io::NumberedPoses& truth,
+                   PoseAlignment alignment) {
+  const std::vector<PosePair> pairs = PairUp(estimate, truth);
+  const Pose3 T_truth_estimate = AlignmentOf(pairs, alignment);
+  PoseErrors errors{.poses = pairs.size()};
+  const auto count = static_cast<double>(pairs.size());
+  double sum_m2 = 0.0;
+  double sum_rad2 = 0.0;
+  for (const PosePair& pair : pairs) {
+    const Pose3 error = pair.truth.Inverse() * (T_truth_estimate * pair.estimate);
+    const double distance_m = error.translation_m.norm();
+    const double angle_rad = RotationAngle(error.rotation);
+    sum_m2 += distance_m * distance_m;
+    sum_rad2 += angle_rad * angle_rad;
+    errors.mean_m += distance_m / count;
+    errors.mean_rad += angle_rad / count;
+    errors.max_m = std::max(errors.max_m, distance_m);
+    errors.max_rad = std::max(errors.max_rad, angle_rad);
+  }
+  errors.rmse_m = std::sqrt(sum_m2 / count);
+  errors.rmse_rad = std::sqrt(sum_rad2 / count);
+  return errors;
+}
+
+std::string ErrorTable(std::span<const NamedErrors> all) {
+  std::vector<std::vector<std::string>> rows{
+      {"metric", "unit", "poses", "rmse", "mean", "max", "trajectory"}};
+  const auto add =
+      [&](const char* metric, const char* unit, const NamedErrors& named, auto values) {
+        std::vector<std::string> row{metric, unit, fmt::format("{}", named.errors.poses)};
+        for (const double value : values) row.push_back(fmt::format("{:.5f}", value));
+        row.push_back(named.name);
+        rows.push_back(std::move(row));
+      };
+  for (const NamedErrors& named : all) {
+    const PoseErrors& e = named.errors;
+    add("ate translation", "m", named, std::array{e.rmse_m, e.mean_m, e.max_m});
+    add("ate rotation",
+        "deg",
+        named,
+        std::array{e.rmse_rad * kDegreesPerRadian,
+                   e.mean_rad * kDegreesPerRadian,
+                   e.max_rad * kDegreesPerRadian});
+  }
+  return qwsm::config::FormatTable(rows);
+}
+
+std::string ErrorJson(std::span<const NamedErrors> all) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const NamedErrors& named : all) {
+    const PoseErrors& e = named.errors;
+    list.push_back({{"trajectory", named.name},
+                    {"poses", e.poses},
+                    {"ate",
+                     {{"rmse_m", e.rmse_m},
+                      {"mean_m", e.mean_m},
+                      {"max_m", e.max_m},
+                      {"rmse_deg", e.rmse_rad * kDegreesPerRadian},
+                      {"mean_deg", e.mean_rad * kDegreesPerRadian},
+                      {"max_deg", e.max_rad * kDegreesPerRadian}}}});
+  }
+  return list.dump(2) + "\n";
+}
+
+}  // namespace slam6d::pipeline

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "service/io/trajectory3_file.hpp"
+
+namespace slam6d::pipeline {
+
+/// How a trajectory is laid over the truth before its error is taken.
+enum class PoseAlignment {
+  kNone,
+  kFirst,  ///< Its first pose onto the true one: what a registration leaves open.
+  kBest,   ///< All positions, without scale (Umeyama 1991).
+};
+
+/// Absolute trajectory error: root mean square, mean and largest over the poses.
+struct PoseErrors {
+  std::size_t poses = 0;
+  double rmse_m = 0.0;
+  double mean_m = 0.0;
+  double max_m = 0.0;
+  double rmse_rad = 0.0;
+  double mean_rad = 0.0;
+  double max_rad = 0.0;
+};
+
+/// Compares the poses that both have.
+/// @throws std::runtime_error where there are none, or too few to align.
+PoseErrors Compare(const io::NumberedPoses& estimate,
+                   const io::NumberedPoses& truth,
+                   PoseAlignment alignment);
+
+/// One trajectory and how good it is.
+struct NamedErrors {
+  std::string name;
+  PoseErrors errors;
+};
+
+std::string ErrorTable(std::span<const NamedErrors> all);
+std::string ErrorJson(std::span<const NamedErrors> all);
+
+}  // namespace slam6d::pipeline

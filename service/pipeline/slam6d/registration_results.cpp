@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/slam6d/registration_results.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "service/io/atomic_file.hpp"
+#include "service/io/cloud_picture.hpp"
+#include "service/io/ply_file.hpp"
+#include "service/io/trajectory3_file.hpp"
+#include "service/io/uos_scan.hpp"
+
+namespace slam6d::pipeline {
+namespace {
+
+/// The scans as odometry puts them, the first where the map has it.
+std::vector<Pose3> PosesBefore(const Registration& registration) {
+  std::vector<Pose3> poses;
+  for (const RegisteredScan& scan : registration.scans) poses.push_back(scan.T_odom_scan);
+  return poses;
+}
+
+PointCloud Merge(const Registration& registration, const std::vector<Pose3>& poses) {
+  PointCloud merged;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    merged.Append(poses[i] * registration.scans[i].cloud);
+  }
+  return merged;
+}
+
+std::vector<Eigen::Vector3d> PathOf(const std::vector<Pose3>& poses) {
+  std::vector<Eigen::Vector3d> path_m;
+  for (const Pose3& pose : poses) path_m.push_back(pose.translation_m);
+  return path_m;
+}
+
+/// Before and after in the same window, so that one can be laid over the other.
+void DrawViews(const io::CloudScene& before,
+               const io::CloudScene& after,
+               const qwsm::pipeline::ResultsFolder& folder) {
+  const io::CloudWindow top = io::WindowOf(after, io::CloudView::kTop);
+  const io::CloudWindow side = io::WindowOf(after, io::CloudView::kSide);
+  io::WriteCloudPicture(folder / "top_before.png", before, io::CloudView::kTop, top);
+  io::WriteCloudPicture(folder / "top_after.png", after, io::CloudView::kTop, top);
+  io::WriteCloudPicture(folder / "side_before.png", before, io::CloudView::kSide, side);
+  io::WriteCloudPicture(folder / "side_after.png", after, io::CloudView::kSide, side);
+}
+
+std::string LoopsText(const std::vector<std::size_t>& loops) {
+  return fmt::format("{}", fmt::join(loops, " "));
+}
+
+std::string Table(const Registration& registration) {
+  std::string text =
+      "scan,name,status,points,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg,iterations,pairs,"
+      "rms_residual_m,overlap,loops_to,time_s\n";
+  for (std::size_t i = 0; i < registration.scans.size(); ++i) {
+    const RegisteredScan& scan = registration.scans[i];
+    const Pose3& pose = registration.T_map_scan[i];
+    const Eigen::Vector3d angles_deg = RollPitchYaw(pose.rotation) * 180.0 / std::numbers::pi;
+    text += fmt::format(
+        "{},{},{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{},{},{:.6f},{:.3f},{},{:.4f}\n",
+        i,
+        scan.name,
+        NameOf(scan.step.status),
+        scan.step.points,
+        pose.translation_m.x(),
+        pose.translation_m.y(),
+        pose.translation_m.z(),
+        angles_deg.x(),
+        angles_deg.y(),
+        angles_deg.z(),
+        scan.step.match.iterations,
+        scan.step.match.pairs,
+        scan.step.match.rms_residual_m,
+        scan.step.overlap,
+        LoopsText(scan.step.loops_to),
+        scan.time_s);
+  }
+  return text;
+}
+
+}  // namespace
+
+void WriteResults(const Registration& registration,
+                  const RegistrationOptions& options,
+                  const qwsm::pipeline::ResultsFolder& folder) {
+  const std::vector<Pose3> before = PosesBefore(registration);
+  const std::vector<Pose3>& after = registration.T_map_scan;
+  io::WriteTum3(folder / "trajectory.tum", after);
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    io::WriteUosFrames(folder / (registration.scans[i].name + ".frames"), before[i], after[i]);
+  }
+  qwsm::io::WriteTextFile(folder / "scans.csv", Table(registration));
+  qwsm::io::WriteTextFile(folder / "metrics.json", MetricsJson(registration));
+  const PointCloud merged = Merge(registration, after);
+  DrawViews({Merge(registration, before), PathOf(before), "before: as odometry has it"},
+            {merged, PathOf(after), "after registration"},
+            folder);
+  io::WritePly(folder / "model.ply", Reduce(merged, options.model));
+}
+
+}  // namespace slam6d::pipeline

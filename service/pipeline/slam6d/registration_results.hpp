@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "service/pipeline/results_folder.hpp"
+#include "service/pipeline/slam6d/registration.hpp"
+
+namespace slam6d::pipeline {
+
+/// Writes what a registration is to leave behind: trajectory, poses for 3DTK, table, figures, the
+/// merged cloud, and pictures of it before and after.
+/// @throws qwsm::io::WriteError where something cannot be written.
+void WriteResults(const Registration& registration,
+                  const RegistrationOptions& options,
+                  const qwsm::pipeline::ResultsFolder& folder);
+
+/// metrics.json; every name ends in its unit.
+std::string MetricsJson(const Registration& registration);
+
+/// The same for people, a line per fact.
+std::string SummaryText(const Registration& registration);
+
+}  // namespace slam6d::pipeline

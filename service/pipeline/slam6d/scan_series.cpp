@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/slam6d/scan_series.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+#include <tuple>
+
+#include "service/io/uos_scan.hpp"
+
+namespace slam6d::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Scans read before the first is given out, so that one in other units is told from the others.
+constexpr std::size_t kReadAhead = 3;
+
+/// Names in the order of the numbers at their ends: scan9 before scan10.
+bool ByNumber(const fs::path& a, const fs::path& b) {
+  const auto key = [](const fs::path& file) {
+    const std::string name = io::ScanName(file);
+    const std::size_t digits = name.size() - (name.find_last_not_of("0123456789") + 1);
+    const std::string number = name.substr(name.size() - digits);
+    const std::size_t zeros = std::min(number.find_first_not_of('0'), number.size());
+    return std::tuple(name.substr(0, name.size() - digits), digits - zeros, number.substr(zeros));
+  };
+  return key(a) < key(b);
+}
+
+std::vector<fs::path> FindInFolder(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::set<io::PointFormat> formats;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    // Texts in a folder are rather notes than points; as arguments they are believed.
+    const bool is_text = entry.path().string().find(".txt") != std::string::npos;
+    if (!entry.is_regular_file() || is_text || !io::IsPointFile(entry.path())) continue;
+    files.push_back(entry.path());
+    formats.insert(io::PointFormatOf(entry.path()));
+  }
+  if (formats.contains(io::PointFormat::kUos)) {  // Others beside them are results or sources.
+    std::erase_if(files, [](const fs::path& file) {
+      return io::PointFormatOf(file) != io::PointFormat::kUos;
+    });
+  } else if (formats.size() > 1) {
+    throw std::runtime_error(folder.string() +
+                             ": holds points in several formats; name the files that are meant");
+  }
+  if (files.empty()) {
+    throw std::runtime_error(folder.string() +
+                             ": holds no scans (.3d, .xyz, .ply, .pcd, .bin, packed or not)");
+  }
+  std::ranges::sort(files, ByNumber);
+  return files;
+}
+
+double MedianRangeM(const PointCloud& cloud) {
+  if (cloud.empty()) return 0.0;
+  std::vector<double> ranges_m;
+  for (std::size_t i = 0; i < cloud.size(); ++i) ranges_m.push_back(cloud[i].norm());
+  const auto middle = ranges_m.begin() + static_cast<std::ptrdiff_t>(ranges_m.size() / 2);
+  std::ranges::nth_element(ranges_m, middle);
+  return *middle;
+}
+
+/// The lower of the two in the middle: of two scans, the narrower is believed.
+double LowerMedian(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+}  // namespace
+
+std::vector<fs::path> FindScans(const std::vector<fs::path>& arguments) {
+  std::vector<fs::path> files;
+  for (const fs::path& argument : arguments) {
+    if (fs::is_directory(argument)) {
+      const std::vector<fs::path> inside = FindInFolder(argument);
+      files.insert(files.end(), inside.begin(), inside.end());
+    } else {
+      static_cast<void>(io::PointFormatOf(argument));
+      if (!fs::exists(argument)) throw std::runtime_error(argument.string() + ": no such file");
+      files.push_back(argument);
+    }
+  }
+  return files;
+}
+
+ScanSeries::ScanSeries(std::vector<fs::path> files,
+                       io::NumberedPoses starts,
+                       const RegistrationOptions& options)
+    : files_(std::move(files)), starts_(std::move(starts)), options_(options) {}
+
+std::optional<LoadedScan> ScanSeries::Next() {
+  ReadAhead();
+  if (ahead_.empty()) return std::nullopt;
+  ReadScan read = std::move(ahead_.front());
+  ahead_.pop_front();
+  CheckRange(read);
+  read.scan.T_odom_scan = StartPose(read.scan);
+  poses_.push_back(read.scan.T_odom_scan);
+  ++given_;
+  return std::move(read.scan);
+}
+
+void ScanSeries::ReadAhead() {
+  while (read_ < files_.size() && ahead_.size() < kReadAhead) {
+    ahead_.push_back(Read(files_[read_++]));
+    const double range_m = ahead_.back().range_m;
+    if (range_m > 0.0 && ranges_m_.size() < kReadAhead) ranges_m_.push_back(range_m);
+  }
+}
+
+ScanSeries::ReadScan ScanSeries::Read(const fs::path& file) const {
+  ReadScan read{.scan = {}, .range_m = 0.0};
+  read.scan.name = io::ScanName(file);
+  read.scan.file = file;
+  try {
+    io::ScanPoints points = io::ReadScanPoints(file, options_.files);
+    if (points.skipped_lines > 0) {
+      read.scan.problems.push_back(fmt::format(
+          "{} ({} of this kind; the rest is used)", points.first_problem, points.skipped_lines));
+    }
+    if (points.cloud.empty()) read.scan.problems.push_back(file.string() + ": holds no points");
+    read.scan.cloud = std::move(points.cloud);
+    read.range_m = MedianRangeM(read.scan.cloud);
+  } catch (const std::runtime_error& error) {
+    read.scan.problems.emplace_back(error.what());
+  }
+  return read;
+}
+
+void ScanSeries::CheckRange(ReadScan& read) {
+  if (read.range_m <= 0.0 || ranges_m_.empty()) return;
+  const double usual_m = LowerMedian(ranges_m_);
+  const double ratio = read.range_m / usual_m;
+  if (ratio <= options_.max_range_ratio && 1.0 / ratio <= options_.max_range_ratio) return;
+  read.scan.problems.push_back(
+      fmt::format("{}: half of its points are farther off than {:.4g} m, where other scans have "
+                  "{:.4g} m: it is in other units and left out; see files.unit_m, files.uos_unit_m "
+                  "and max_range_ratio",
+                  read.scan.file.string(),
+                  read.range_m,
+                  usual_m));
+  read.scan.cloud = PointCloud{};
+}
+
+/// Where no pose is known, the last motion is taken to go on.
+Pose3 ScanSeries::StartPose(LoadedScan& scan) {
+  const std::size_t known = poses_.size();
+  Pose3 guess;
+  if (known > 0) guess = poses_.back();
+  if (known > 1) guess = poses_.back() * (poses_[known - 2].Inverse() * poses_.back());
+  const auto number = static_cast<double>(given_);
+  if (!starts_.empty()) {
+    if (const auto start = starts_.find(number); start != starts_.end()) return start->second;
+    scan.problems.push_back(
+        fmt::format("{}: no pose with the number {} to start from", scan.file.string(), number));
+    return guess;
+  }
+  const fs::path file = scan.file.parent_path() / (scan.name + ".pose");
+  try {
+    if (fs::exists(file)) return io::ReadUosPose(file);
+    if (!told_of_no_pose_) {
+      scan.problems.push_back(file.string() +
+                              ": is missing; such scans start where the motion "
+                              "before them leads");
+    }
+    told_of_no_pose_ = true;
+  } catch (const std::runtime_error& error) {
+    scan.problems.push_back(std::string(error.what()) +
+                            "; the scan starts where the motion before it leads");
+  }
+  return guess;
+}
+
+}  // namespace slam6d::pipeline
