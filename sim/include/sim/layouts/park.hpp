@@ -17,8 +17,9 @@ struct ParkOptions {
   double min_trunk_radius_m = 0.12;
   double max_trunk_radius_m = 0.4;
   double clearance_m = 2.0;    ///< No trunk stands nearer to the way.
-  int min_in_view = 2;         ///< Wherever fewer trees would be in view, single ones are planted.
-  double lonely_share = 0.27;  ///< At least on this share of the way no more than two are in view.
+  double lonely_share = 0.4;  ///< Of the way, round the sharp turn: few trees are in view there.
+  int lonely_in_view = 2;      ///< That many.
+  int usual_in_view = 5;       ///< On the rest of the way, at least.
 };
 
 template <class Visitor>
@@ -36,14 +37,19 @@ void Describe(Visitor& visit, ParkOptions& o) {
   visit("max_trunk_radius_m",
         o.max_trunk_radius_m,
         {.help = "radius of the thickest trunk", .min = 0.02, .max = 2});
-  visit("min_in_view",
-        o.min_in_view,
-        {.help = "single trees are planted where fewer would be in view", .min = 0, .max = 20});
   visit("lonely_share",
         o.lonely_share,
-        {.help = "share of the way on which no more than two trees are in view",
+        {.help = "share of the way, round the sharp turn, on which few trees are in view",
          .min = 0,
-         .max = 0.5});
+         .max = 0.9});
+  visit("lonely_in_view",
+        o.lonely_in_view,
+        {.help = "trees in view there, no more and hardly ever fewer", .min = 0, .max = 20});
+  visit("usual_in_view",
+        o.usual_in_view,
+        {.help = "trees in view elsewhere; single ones are planted where groups do not suffice",
+         .min = 0,
+         .max = 20});
   visit("clearance_m",
         o.clearance_m,
         {.help = "no trunk is nearer to the way", .min = 0.5, .max = 6});
@@ -56,8 +62,8 @@ void Validate(const ParkOptions& o, Report& report) {
   }
 }
 
-/// One clockwise loop from the bottom-right corner, with a sharp turn in the upper-right one, near
-/// which no group stands. Places and trunks change with the random numbers.
+/// One clockwise loop from the bottom-right corner, with a sharp turn in the upper-right one, round
+/// which trees are few. Places and trunks change with the random numbers.
 Place MakePark(const ParkOptions& options, RandomEngine& random);
 
 }  // namespace sim
