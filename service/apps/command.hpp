@@ -61,6 +61,7 @@ Command AddCompareCommand(CLI::App& program);
 Command AddEvalCommand(CLI::App& program);
 Command AddConvertCommand(CLI::App& program);
 Command AddSimCommand(CLI::App& program);
+Command AddExperimentCommand(CLI::App& program);
 Command AddServeCommand(CLI::App& program);
 Command AddReplayCommand(CLI::App& program);
 Command AddEchoCommand(CLI::App& program);

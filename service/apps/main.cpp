@@ -101,6 +101,7 @@ ExitCode Run(int argc, const char* const* argv) {
                                 AddEvalCommand(program),
                                 AddConvertCommand(program),
                                 AddSimCommand(program),
+                                AddExperimentCommand(program),
                                 AddServeCommand(program),
                                 AddReplayCommand(program),
                                 AddEchoCommand(program),

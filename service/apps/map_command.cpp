@@ -96,7 +96,7 @@ ExitCode RunMap(MapArguments arguments) {
 
   const RunSession session(arguments.run, options);
   if (origin.scenario) {
-    io::WriteTextFile(session.folder() / "scenario.yaml", config::DumpOptions(*origin.scenario));
+    io::WriteTextFile(session.folder() / "scenario.yaml", ScenarioText(*origin.scenario));
   }
   Mapper mapper(options.mapper);
   pipeline::ResultsWriter results(session.folder());

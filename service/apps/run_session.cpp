@@ -27,13 +27,17 @@ CLI::Option* AddRunArguments(CLI::App& parser,
       parser.add_option("LOG", arguments.logs, "logs, parts of one recording; - is standard input")
           ->required()
           ->type_name("");
+  AddResultArguments(parser, arguments, json_help);
+  return logs;
+}
+
+void AddResultArguments(CLI::App& parser, RunArguments& arguments, const std::string& json_help) {
   parser.add_option("-o,--output", arguments.output, "folder for the results; else results/<time>")
       ->type_name("DIR");
   parser.add_flag("--force", arguments.force, "write into a folder that holds other things");
   parser.add_flag("-n,--dry-run", arguments.dry_run, "check everything, do nothing");
   AddConfiguration(parser, arguments.sources);
   AddVerbosity(parser, arguments.verbosity, json_help);
-  return logs;
 }
 
 std::unique_ptr<LogSource> OpenLogs(const RunArguments& arguments,

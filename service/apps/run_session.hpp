@@ -33,6 +33,9 @@ CLI::Option* AddRunArguments(
     RunArguments& arguments,
     const std::string& json_help = "one JSON object per scan on standard output");
 
+/// The same without the logs.
+void AddResultArguments(CLI::App& parser, RunArguments& arguments, const std::string& json_help);
+
 /// Opens the logs. @throws std::runtime_error where one is no log, or there is no scan in them.
 std::unique_ptr<pipeline::LogSource> OpenLogs(const RunArguments& arguments,
                                               const config::LogOptions& options);

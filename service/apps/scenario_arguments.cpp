@@ -27,6 +27,10 @@ sim::ScenarioOptions LoadScenario(const ScenarioArguments& arguments) {
   return config::LoadOptions<sim::ScenarioOptions>(sources);
 }
 
+std::string ScenarioText(const sim::ScenarioOptions& scenario) {
+  return config::DumpOptions(scenario);
+}
+
 std::vector<std::string> TakeScenarioSettings(std::vector<std::string>& settings) {
   sim::ScenarioOptions scenario;
   config::OptionGroup options = config::GroupOf(scenario);

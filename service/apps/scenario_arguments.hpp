@@ -25,6 +25,9 @@ void AddScenarioSettings(CLI::App& parser, ScenarioArguments& arguments);
 /// The scenario with all changes. @throws config::ConfigError naming every problem at once.
 sim::ScenarioOptions LoadScenario(const ScenarioArguments& arguments);
 
+/// The scenario as a file that gives it again.
+std::string ScenarioText(const sim::ScenarioOptions& scenario);
+
 /// Takes those `key=value` out of `settings` whose key is an option of scenarios.
 std::vector<std::string> TakeScenarioSettings(std::vector<std::string>& settings);
 

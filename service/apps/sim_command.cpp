@@ -92,7 +92,7 @@ ExitCode RunSim(const SimArguments& arguments) {
                                                 : ResultsFolder::ForNow("results");
   CopyMessagesTo(folder / "run.log");
   spdlog::info("version {}", Version());
-  io::WriteTextFile(folder / "scenario.yaml", config::DumpOptions(scenario));
+  io::WriteTextFile(folder / "scenario.yaml", ScenarioText(scenario));
 
   const SimulatedLogs logs = OpenLogs(simulation, folder);
   SimulationProgress progress(simulation,
@@ -110,7 +110,12 @@ ExitCode RunSim(const SimArguments& arguments) {
   progress.Clear();
   if (team) team->Finish();
 
-  for (const auto& log : logs) log->Commit();
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    logs[i]->Commit();
+    WriteWorldPicture(folder / (simulation.robots()[i].options().name + ".png"),
+                      simulation.scenery(),
+                      logs[i]->paths());
+  }
   const std::string json = SimulationJson(simulation, logs);
   io::WriteTextFile(folder / "metrics.json", json);
   if (arguments.verbosity.json) {

@@ -25,12 +25,13 @@ void SimulatedLog::Take(const sim::Reading& reading) {
   path_length_m_ += (T_world_robot_.Inverse() * reading.T_world_robot).translation_m().norm();
   T_world_robot_ = reading.T_world_robot;
   T_world_odometry_ = *T_world_odom_ * reading.T_odom_robot;
-  ++scans_;
+  paths_.truth.push_back({.stamp = stamp, .T_map_robot = T_world_robot_});
+  paths_.odometry.push_back({.stamp = stamp, .T_map_robot = T_world_odometry_});
 
   carmen_.Write(io::TruePoseReading{stamp, reading.T_world_robot, reading.T_odom_robot});
   carmen_.Write(io::ScanReading{reading.scan, reading.T_odom_robot, "front"});
-  io::WriteTumLine(truth_.stream(), {.stamp = stamp, .T_map_robot = T_world_robot_});
-  io::WriteTumLine(odometry_.stream(), {.stamp = stamp, .T_map_robot = T_world_odometry_});
+  io::WriteTumLine(truth_.stream(), paths_.truth.back());
+  io::WriteTumLine(odometry_.stream(), paths_.odometry.back());
   log_.ThrowIfFailed();
 }
 

@@ -10,6 +10,7 @@
 #include "service/io/atomic_file.hpp"
 #include "service/io/carmen_writer.hpp"
 #include "service/pipeline/reading_sink.hpp"
+#include "service/pipeline/world_picture.hpp"
 
 namespace qwsm::pipeline {
 
@@ -26,7 +27,8 @@ class SimulatedLog final : public ReadingSink {
   void Take(const sim::Reading& reading) override;
   void Commit();
 
-  std::size_t scans() const { return scans_; }
+  const WorldPaths& paths() const { return paths_; }
+  std::size_t scans() const { return paths_.truth.size(); }
   double path_length_m() const { return path_length_m_; }
   /// How far odometry ended from the truth.
   Pose2 OdometryError() const { return T_world_robot_.Inverse() * T_world_odometry_; }
@@ -37,7 +39,7 @@ class SimulatedLog final : public ReadingSink {
   io::AtomicFile truth_;
   io::AtomicFile odometry_;
   io::CarmenWriter carmen_;
-  std::size_t scans_ = 0;
+  WorldPaths paths_;
   double path_length_m_ = 0.0;
   std::optional<Pose2> T_world_odom_;
   Pose2 T_world_robot_;

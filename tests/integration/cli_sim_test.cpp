@@ -42,6 +42,7 @@ TEST_F(SimCommand, LeavesALogThatReadsBackWithTheTruth) {
   const Trajectory truth = io::ReadTumFile(File("park", "robot.truth.tum"));
   ASSERT_EQ(truth.size(), 21U);
   EXPECT_EQ(io::ReadTumFile(File("park", "robot.odometry.tum")).size(), 21U);
+  EXPECT_TRUE(ReadFile(File("park", "robot.png")).starts_with("\x89PNG"));
 
   const auto reader = io::OpenLog(File("park", "robot.log"), {});
   std::size_t scans = 0;
