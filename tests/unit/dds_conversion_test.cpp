@@ -134,10 +134,11 @@ TEST_F(WireScan, IsRefusedWhereItMakesNoSense) {
 }
 
 TEST_F(WireScan, RelevantOneComesBackWithItsPlace) {
-  team::TeamScan scan{.key = {.service = "qwsm-1", .robot = "robot1", .sequence = 7},
-                      .scan = Scan(),
-                      .map_robot = {.T_a_b = {3.0, 4.0, -2.5}},
-                      .T_odom_robot = Pose2{1.0, 2.0, 0.5}};
+  team::TeamScan scan;
+  scan.key = {.service = "qwsm-1", .robot = "robot1", .sequence = 7};
+  scan.scan = Scan();
+  scan.map_robot.T_a_b = {3.0, 4.0, -2.5};
+  scan.T_odom_robot = Pose2{1.0, 2.0, 0.5};
   scan.map_robot.covariance << 3, 1, 0, 1, 2, 0, 0, 0, 1;
   const std::string map = "map";
   const wire::RelevantScan sample = ToWire(scan, map);
