@@ -60,7 +60,9 @@ double BestOfAll(const LikelihoodPyramid& map,
   const int reach = static_cast<int>(std::ceil(window.translation_m / cell_m));
   const Eigen::Matrix3d information = window.predicted.covariance.inverse();
   const Pose2& center = window.predicted.T_a_b;
-  const double price = options.prior_points / static_cast<double>(points_robot_m.size());
+  const double price =
+      options.prior_points / std::min(static_cast<double>(points_robot_m.size()),
+                                      static_cast<double>(options.independent_points));
   double best = window.min_score;
   for (int heading = -headings; heading <= headings; ++heading) {
     const Pose2 turned{center.x_m, center.y_m, center.theta_rad + heading * step_rad};

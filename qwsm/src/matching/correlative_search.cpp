@@ -37,6 +37,12 @@ int NearestToZero(int first, int count) {
   return std::min(0, first + count - 1);
 }
 
+// In units of the score, which is a mean over the points.
+double PriceOfSquaredSigma(std::size_t points, const CorrelativeSearchOptions& options) {
+  const auto independent = static_cast<std::size_t>(options.independent_points);
+  return options.prior_points / static_cast<double>(std::min(points, independent));
+}
+
 class BranchAndBound {
  public:
   BranchAndBound(const LikelihoodPyramid& map,
@@ -79,7 +85,7 @@ class BranchAndBound {
  private:
   void PricePriors() {
     information_ = window_.predicted.covariance.inverse();
-    price_ = options_.prior_points / static_cast<double>(points_robot_m_.size());
+    price_ = PriceOfSquaredSigma(points_robot_m_.size(), options_);
     // What is left of the price of an offset when the heading is free: a lower bound at any
     // heading.
     const Eigen::Vector2d cross = information_.topRightCorner<2, 1>();

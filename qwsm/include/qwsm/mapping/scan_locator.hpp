@@ -15,7 +15,7 @@ namespace qwsm {
 
 /// When a place counts as seen before, and where it is looked for.
 struct ReturnOptions {
-  CorrelativeSearchOptions search{.prior_points = 1.4, .lever_m = 8.0};
+  CorrelativeSearchOptions search{.prior_points = 0.15, .lever_m = 8.0};
   double caution = 6.0;
   double min_drift_m = 0.5;
   double max_drift_share = 0.5;

@@ -13,7 +13,8 @@
 namespace qwsm {
 
 struct CorrelativeSearchOptions {
-  double prior_points = 0.6;
+  double prior_points = 0.3;
+  int independent_points = 75;
   double lever_m = 15.0;
 };
 
@@ -25,6 +26,9 @@ void Describe(Visitor& visit, CorrelativeSearchOptions& o) {
              "a squared sigma away from the prediction costs as much as this many points that miss",
          .min = 0,
          .max = 100});
+  visit("independent_points",
+        o.independent_points,
+        {.help = "more points of a scan than these say nothing new", .min = 1, .max = 100000});
   visit("lever_m",
         o.lever_m,
         {.help = "points further than this move by more than a cell per heading step",
