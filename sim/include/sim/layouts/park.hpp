@@ -16,10 +16,10 @@ struct ParkOptions {
   double group_radius_m = 4.0;
   double min_trunk_radius_m = 0.12;
   double max_trunk_radius_m = 0.4;
-  double clearance_m = 2.0;    ///< No trunk stands nearer to the way.
+  double clearance_m = 2.0;   ///< No trunk stands nearer to the way.
   double lonely_share = 0.4;  ///< Of the way, round the sharp turn: few trees are in view there.
-  int lonely_in_view = 2;      ///< That many.
-  int usual_in_view = 5;       ///< On the rest of the way, at least.
+  int lonely_in_view = 2;     ///< That many.
+  int usual_in_view = 4;      ///< On the rest of the way, at least.
 };
 
 template <class Visitor>
