@@ -26,7 +26,7 @@ using qwsm::test::ReadFile;
 constexpr int kStops = 6;
 
 /// Runs slam6d through the shell; `before` stands before it in the command.
-Outcome Run(const std::vector<std::string>& arguments, const std::string& before = "") {
+Outcome RunSlam6d(const std::vector<std::string>& arguments, const std::string& before = "") {
   const qwsm::test::TemporaryFolder streams;
   std::string command =
       before + " '" + (qwsm::test::ProgramPath().parent_path() / "slam6d").string() + "'";
@@ -73,7 +73,7 @@ class Slam6dProgram : public ::testing::Test {
   Outcome Register(std::vector<std::string> more = {}) {
     std::vector<std::string> arguments{"register", scans_, "--output", results_};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return Run(arguments);
+    return RunSlam6d(arguments);
   }
 
   /// The largest distance of the poses in the results from the truth, scan 1 being where it is.
@@ -122,12 +122,12 @@ TEST_F(Slam6dProgram, JudgesItsResultsInBothForms) {
   ASSERT_EQ(Register().exit_code, 0);
   const fs::path tum = results_ / "trajectory.tum";
   for (const fs::path& estimate : {results_, tum}) {
-    const Outcome good = Run({"eval", estimate, "--truth", truth_, "--max-ate", "0.01"});
+    const Outcome good = RunSlam6d({"eval", estimate, "--truth", truth_, "--max-ate", "0.01"});
     EXPECT_EQ(good.exit_code, 0) << good.errors << good.output;
   }
   fs::remove(tum);  // Then the .frames are read.
-  EXPECT_EQ(Run({"eval", results_, "--truth", truth_, "--max-ate", "0.01"}).exit_code, 0);
-  const Outcome bad = Run({"eval", scans_, "--truth", truth_, "--max-ate", "0.01"});
+  EXPECT_EQ(RunSlam6d({"eval", results_, "--truth", truth_, "--max-ate", "0.01"}).exit_code, 0);
+  const Outcome bad = RunSlam6d({"eval", scans_, "--truth", truth_, "--max-ate", "0.01"});
   EXPECT_EQ(bad.exit_code, 1);
   EXPECT_NE(bad.errors.find("is above 0.01"), std::string::npos) << bad.errors;
 }
@@ -189,7 +189,7 @@ TEST_F(Slam6dProgram, LosesNothingToScansOfOnePlace) {
 TEST_F(Slam6dProgram, WritesWhatItHasWhenInterrupted) {
   std::vector<std::string> arguments{"register", "--output", results_};
   for (int round = 0; round < 30; ++round) arguments.push_back(scans_);
-  const Outcome outcome = Run(arguments, "timeout --preserve-status --signal=INT 1");
+  const Outcome outcome = RunSlam6d(arguments, "timeout --preserve-status --signal=INT 1");
   EXPECT_EQ(outcome.exit_code, 130) << outcome.errors;
   EXPECT_NE(outcome.errors.find("slam6d: interrupted"), std::string::npos) << outcome.errors;
   EXPECT_FALSE(io::ReadPoses(results_).empty());
@@ -198,7 +198,7 @@ TEST_F(Slam6dProgram, WritesWhatItHasWhenInterrupted) {
 
 TEST_F(Slam6dProgram, SaysWhatIsWrongWithItsArguments) {
   const auto expect = [](std::vector<std::string> arguments, const std::string& what) {
-    const Outcome outcome = Run(std::move(arguments));
+    const Outcome outcome = RunSlam6d(std::move(arguments));
     EXPECT_EQ(outcome.exit_code, 2) << outcome.errors;
     EXPECT_NE(outcome.errors.find(what), std::string::npos) << outcome.errors;
   };
@@ -214,7 +214,7 @@ TEST_F(Slam6dProgram, SaysWhatIsWrongWithItsArguments) {
 
 TEST_F(Slam6dProgram, ComparesSearches) {
   const fs::path figures = folder_.path() / "figures";
-  const Outcome outcome = Run({"bench-search", scans_, "--output", figures});
+  const Outcome outcome = RunSlam6d({"bench-search", scans_, "--output", figures});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_NE(outcome.output.find("speed-up"), std::string::npos) << outcome.output;
   EXPECT_TRUE(fs::exists(figures / "speed_up.png"));
@@ -222,7 +222,7 @@ TEST_F(Slam6dProgram, ComparesSearches) {
 }
 
 TEST_F(Slam6dProgram, TakesItsOwnConfiguration) {
-  const Outcome dumped = Run({"config", "--set", "slam.icp.metric=point-to-plane"});
+  const Outcome dumped = RunSlam6d({"config", "--set", "slam.icp.metric=point-to-plane"});
   ASSERT_EQ(dumped.exit_code, 0) << dumped.errors;
   const fs::path file = folder_.path() / "mine.yaml";
   std::ofstream(file) << dumped.output;

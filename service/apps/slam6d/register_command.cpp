@@ -63,10 +63,10 @@ std::string ProgressText(double share,
 
 pipeline::Registration Register(pipeline::ScanSeries& series,
                                 const RegistrationOptions& options,
+                                const qwsm::pipeline::Interruption& interruption,
                                 const qwsm::apps::Verbosity& verbosity) {
   qwsm::pipeline::StatusLine line(verbosity.quiet ? qwsm::pipeline::ProgressStyle::kNone
                                                   : qwsm::pipeline::StyleFor(stderr));
-  const qwsm::pipeline::Interruption interruption;
   const pipeline::RegistrationObserver observer{
       .show =
           [&](double share, const std::string& what) {
@@ -110,8 +110,10 @@ ExitCode RunRegister(const RegisterArguments& arguments) {
   if (arguments.dry_run) return TellPlan(files, arguments);
 
   const ResultsFolder folder = OpenResults(arguments, options);
+  const qwsm::pipeline::Interruption interruption;  // From here on there is something to keep.
   pipeline::ScanSeries series(files, starts, options);
-  const pipeline::Registration registration = Register(series, options, arguments.verbosity);
+  const pipeline::Registration registration =
+      Register(series, options, interruption, arguments.verbosity);
   TellDoubts(registration);
   pipeline::WriteResults(registration, options, folder);
   const std::string summary = pipeline::SummaryText(registration);
