@@ -189,7 +189,7 @@ TEST_F(Slam6dProgram, LosesNothingToScansOfOnePlace) {
 TEST_F(Slam6dProgram, WritesWhatItHasWhenInterrupted) {
   std::vector<std::string> arguments{"register", "--output", results_};
   for (int round = 0; round < 30; ++round) arguments.push_back(scans_);
-  const Outcome outcome = RunSlam6d(arguments, "timeout --preserve-status --signal=INT 1");
+  const Outcome outcome = RunSlam6d(arguments, "timeout --foreground --preserve-status --signal=INT 1");
   EXPECT_EQ(outcome.exit_code, 130) << outcome.errors;
   EXPECT_NE(outcome.errors.find("slam6d: interrupted"), std::string::npos) << outcome.errors;
   EXPECT_FALSE(io::ReadPoses(results_).empty());

@@ -43,13 +43,18 @@ def first_include(tree, path):
 
 
 def syntax_check(commands, header):
-    """The command of the source nearest to `header`, changed to parse the header only."""
-    nearest = max(commands, key=lambda entry: len(common(pathlib.Path(entry["file"]), header)))
-    words = shlex.split(nearest["command"])
-    kept = [word for word in words if word.startswith(("-I", "-D", "-std", "-W"))]
-    systems = [word for flag in zip(words, words[1:]) if flag[0] == "-isystem" for word in flag]
+    """The commands of the sources nearest to `header`, together, changed to parse the header only.
+
+    A folder may hold sources of several libraries, each with includes of its own.
+    """
+    closeness = [len(common(pathlib.Path(entry["file"]), header)) for entry in commands]
+    nearest = [entry for entry, close in zip(commands, closeness) if close == max(closeness)]
+    lines = [shlex.split(entry["command"]) for entry in nearest]
+    flags = [word for words in lines for word in words if word.startswith(("-I", "-D", "-std", "-W"))]
+    systems = [pair for words in lines for pair in zip(words, words[1:]) if pair[0] == "-isystem"]
+    kept = list(dict.fromkeys(flags)) + [word for pair in dict.fromkeys(systems) for word in pair]
     includer = ["-include", str(header), "-x", "c++", "/dev/null"]
-    return [compiler(words), *kept, *systems, "-fsyntax-only", *includer]
+    return [compiler(lines[0]), *kept, "-fsyntax-only", *includer]
 
 
 def compiler(words):
