@@ -1,99 +1,21 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cstdio>
-#include <exception>
-#include <memory>
-#include <stdexcept>
-#include <string>
+#include <utility>
 #include <vector>
 
 #include "service/apps/command.hpp"
-#include "service/apps/help_formatter.hpp"
-#include "service/apps/version.hpp"
-#include "service/config/suggestion.hpp"
-#include "service/io/atomic_file.hpp"
+#include "service/apps/program.hpp"
 
 namespace qwsm::apps {
 namespace {
 
-ExitCode Complain(ExitCode code, const std::string& message) {
-  fmt::print(stderr, "qwsm: {}\n", message);
-  return code;
-}
-
-/// The words a user may have meant: long options, or commands.
-std::vector<std::string> NamesLike(const CLI::App& parser, const std::string& word) {
-  std::vector<std::string> names;
-  if (word.starts_with("-")) {
-    for (const CLI::Option* option : parser.get_options()) {
-      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-    }
-  } else {
-    for (const CLI::App* command : parser.get_subcommands({})) names.push_back(command->get_name());
-  }
-  return names;
-}
-
-/// The innermost command that was named.
-const CLI::App& Innermost(const CLI::App& program) {
-  const CLI::App* parser = &program;
-  while (!parser->get_subcommands().empty()) parser = parser->get_subcommands().front();
-  return *parser;
-}
-
-std::string FullName(const CLI::App& parser) {
-  const CLI::App* parent = parser.get_parent();
-  return parent == nullptr ? parser.get_name() : FullName(*parent) + " " + parser.get_name();
-}
-
-ExitCode ComplainAboutUsage(const CLI::App& program, const CLI::ParseError& error) {
-  const CLI::App& parser = Innermost(program);
-  const std::vector<std::string> extras = program.remaining(true);
-  std::string message = error.what();
-  if (!extras.empty()) {
-    const std::string word = extras.front().substr(0, extras.front().find('='));
-    const bool is_option = word.starts_with("-");
-    const bool has_commands = !parser.get_subcommands({}).empty();
-    const std::string what = is_option ? "option" : (has_commands ? "command" : "argument");
-    message = fmt::format(
-        "unknown {} '{}'{}", what, word, config::DidYouMean(word, NamesLike(parser, word)));
-  } else if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr &&
-             !parser.get_subcommands({}).empty()) {
-    message = "a command is needed";
-  }
-  return Complain(ExitCode::kUsage,
-                  fmt::format("{}\nqwsm: see '{} --help'", message, FullName(parser)));
-}
-
-ExitCode RunChosen(const std::vector<Command>& commands) {
-  const auto chosen = std::ranges::find_if(
-      commands, [](const Command& command) { return command.parser->parsed(); });
-  try {
-    return chosen->run();
-  } catch (const config::ConfigError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return ExitCode::kUsage;
-  } catch (const io::WriteError& error) {
-    return Complain(ExitCode::kIo, error.what());
-  } catch (const std::runtime_error& error) {
-    // Arguments and files that make no sense; the text names them.
-    return Complain(ExitCode::kUsage, error.what());
-  }
-}
-
-ExitCode Run(int argc, const char* const* argv) {
+ExitCode Run(const Arguments& arguments) {
   CLI::App program("Robust weighted scan matching with quadtrees: maps from laser scans.", "qwsm");
-  program.formatter(std::make_shared<HelpFormatter>());
+  PrepareProgram(program);
   program.footer(
       "  qwsm map corridor.log.gz            map a recorded log into results/latest\n"
       "  qwsm sim park                       a simulated robot's log, with the truth\n"
       "  qwsm map --help                     all about one command");
-  program.set_version_flag("--version", "qwsm " + std::string(Version()), "print the version");
-  program.require_subcommand(1);
-  program.get_formatter()->label("SUBCOMMAND", "COMMAND");
 
   std::vector<Command> commands{AddMapCommand(program),
                                 AddLocalizeCommand(program),
@@ -107,25 +29,12 @@ ExitCode Run(int argc, const char* const* argv) {
                                 AddEchoCommand(program),
                                 AddRecordCommand(program)};
   for (Command& command : AddConfigCommands(program)) commands.push_back(std::move(command));
-  try {
-    program.parse(argc, argv);
-  } catch (const CLI::Success& success) {
-    program.exit(success);
-    return ExitCode::kDone;
-  } catch (const CLI::ParseError& error) {
-    return ComplainAboutUsage(program, error);
-  }
-  return RunChosen(commands);
+  return RunProgram(program, commands, arguments);
 }
 
 }  // namespace
 }  // namespace qwsm::apps
 
 int main(int argc, char** argv) {
-  try {
-    return static_cast<int>(qwsm::apps::Run(argc, argv));
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "qwsm: failed: {}\n", error.what());
-    return static_cast<int>(qwsm::apps::ExitCode::kFailed);
-  }
+  return static_cast<int>(qwsm::apps::Run({.count = argc, .values = argv}));
 }
