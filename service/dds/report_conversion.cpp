@@ -24,7 +24,7 @@ std::chrono::nanoseconds Nanoseconds(double duration_s) {
 MatchReport ReportOf(const team::RobotAnswer& answer) {
   const MappingStep& step = answer.step;
   const MatchResult& match = step.match;
-  return {.robot = std::string(answer.robot),
+  return {.robot = answer.robot,
           .stamp = step.stamp,
           .map_robot = step.map_robot,
           .status = step.status,

@@ -33,7 +33,9 @@ void RobotOutbox::Publish(const team::RobotAnswer& answer) const {
   odometry_.Write(odometry);
 
   PublishTransform(answer);
-  // The report goes last: who waits for it has everything.
+}
+
+void RobotOutbox::Report(const team::RobotAnswer& answer) const {
   const MatchReport report = ReportOf(answer);
   reports_.Write(ToWire(report, map_frame_));
 }

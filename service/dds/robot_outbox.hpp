@@ -18,8 +18,10 @@ class RobotOutbox {
               const RobotNames& names,
               const Writer<wire::TFMessage>& transforms);
 
-  /// Pose, odometry, transform and report.
+  /// Pose, odometry and transform.
   void Publish(const team::RobotAnswer& answer) const;
+  /// The report, which goes last: who waits for it has everything.
+  void Report(const team::RobotAnswer& answer) const;
 
  private:
   void PublishTransform(const team::RobotAnswer& answer) const;

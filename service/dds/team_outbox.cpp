@@ -46,6 +46,7 @@ class TeamOutbox::Topics {
   }
 
   void Take(const team::RobotAnswer& answer) { Robot(answer.robot).Publish(answer); }
+  void Report(const team::RobotAnswer& answer) { Robot(answer.robot).Report(answer); }
   void Take(const team::TeamScan& scan) const { shared_scans_.Write(ToWire(scan, map_frame_)); }
   void Take(const team::NewPoints& points) const {
     new_points_.Write(CloudSample(points.points_map_m, points.stamp, map_frame_).sample());
@@ -95,6 +96,7 @@ TeamOutbox::~TeamOutbox() = default;
 
 void TeamOutbox::AddRobot(const std::string& robot) { topics_->Robot(robot); }
 void TeamOutbox::TakeAnswer(const team::RobotAnswer& answer) { topics_->Take(answer); }
+void TeamOutbox::TakeReport(const team::RobotAnswer& answer) { topics_->Report(answer); }
 void TeamOutbox::TakeRelevantScan(const team::TeamScan& scan) { topics_->Take(scan); }
 void TeamOutbox::TakeNewPoints(const team::NewPoints& points) { topics_->Take(points); }
 void TeamOutbox::TakeMap(const team::MapPicture& map) { topics_->Take(map); }

@@ -24,6 +24,7 @@ class TeamOutbox final : public team::TeamSink {
   void AddRobot(const std::string& robot);
 
   void TakeAnswer(const team::RobotAnswer& answer) override;
+  void TakeReport(const team::RobotAnswer& answer) override;
   void TakeRelevantScan(const team::TeamScan& scan) override;
   void TakeNewPoints(const team::NewPoints& points) override;
   void TakeMap(const team::MapPicture& map) override;

@@ -10,6 +10,7 @@ namespace qwsm::pipeline {
 class TeamLog final : public team::TeamSink {
  public:
   void TakeAnswer(const team::RobotAnswer&) override {}
+  void TakeReport(const team::RobotAnswer&) override {}
   void TakeRelevantScan(const team::TeamScan&) override {}
   void TakeNewPoints(const team::NewPoints&) override {}
   void TakeMap(const team::MapPicture&) override {}

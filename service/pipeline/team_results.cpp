@@ -74,7 +74,7 @@ TeamResults::TeamResults(const ResultsFolder& folder, const OccupancyGridOptions
 TeamResults::~TeamResults() = default;
 
 void TeamResults::TakeAnswer(const team::RobotAnswer& answer) {
-  ResultsOf(std::string(answer.robot))
+  ResultsOf(answer.robot)
       .Take(
           {.step = answer.step, .duration = answer.matching, .T_odom_robot = answer.T_odom_robot});
 }

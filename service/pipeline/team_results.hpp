@@ -25,6 +25,7 @@ class TeamResults final : public team::TeamSink {
   ~TeamResults() override;
 
   void TakeAnswer(const team::RobotAnswer& answer) override;
+  void TakeReport(const team::RobotAnswer&) override {}
   void TakeRelevantScan(const team::TeamScan&) override {}
   void TakeNewPoints(const team::NewPoints&) override {}
   void TakeMap(const team::MapPicture&) override {}

@@ -18,6 +18,9 @@ class TeamSinks final : public team::TeamSink {
   void TakeAnswer(const team::RobotAnswer& answer) override {
     for (team::TeamSink* sink : sinks_) sink->TakeAnswer(answer);
   }
+  void TakeReport(const team::RobotAnswer& report) override {
+    for (team::TeamSink* sink : sinks_) sink->TakeReport(report);
+  }
   void TakeRelevantScan(const team::TeamScan& scan) override {
     for (team::TeamSink* sink : sinks_) sink->TakeRelevantScan(scan);
   }

@@ -13,13 +13,14 @@ namespace {
 
 // How often a disk that cannot be written is tried again.
 constexpr std::chrono::milliseconds kRetryPeriod{500};
-// Entries that the disk is waited for together.
-constexpr std::size_t kBatch = 64;
-
 }  // namespace
 
 Journal::Journal(Names names) : names_(std::move(names)) {
-  Reopen();
+  try {
+    Open();
+  } catch (const io::WriteError& error) {
+    Fail(error.what());
+  }
   if (file_) names_.identity = file_->identity();
 }
 
@@ -32,15 +33,6 @@ void Journal::Stop() {
   }
   changed_.notify_all();
   if (thread_.joinable()) thread_.join();
-}
-
-void Journal::Reopen() {
-  file_.reset();
-  try {
-    file_ = io::JournalFile::Continue(names_.file, names_.kind, names_.identity);
-  } catch (const io::WriteError& error) {
-    Fail(error.what());
-  }
 }
 
 std::size_t Journal::Restore(const std::function<void(io::JournalEntry)>& take) {
@@ -62,98 +54,87 @@ std::size_t Journal::Restore(const std::function<void(io::JournalEntry)>& take) 
   return damaged;
 }
 
-void Journal::Append(io::JournalEntry entry, const std::function<void()>& settled) {
-  bool has_to_wait = false;
+void Journal::Append(io::JournalEntry entry, std::function<void()> settled) {
+  Take({.entry = std::move(entry), .settled = std::move(settled)});
+}
+
+void Journal::Tell(std::function<void()> tell) {
+  Take({.entry = std::nullopt, .settled = std::move(tell)});
+}
+
+void Journal::Take(Order order) {
   {
     const std::lock_guard lock(mutex_);
-    has_to_wait = !trouble_.empty();
-    waiting_.push_back({.entry = std::move(entry), .settled = has_to_wait ? nullptr : settled});
+    if (order.entry) ++waiting_;
+    orders_.push_back(std::move(order));
   }
   changed_.notify_all();
-  if (has_to_wait && settled) settled();
 }
 
 void Journal::Work(const std::stop_token& stop) {
-  const auto has_work = [this] { return !waiting_.empty(); };
   while (true) {
-    {
-      std::unique_lock lock(mutex_);
-      if (!changed_.wait(lock, stop, has_work)) return;  // Stopped, and nothing is left.
+    std::vector<Order> orders = WaitForOrders(stop);
+    for (Order& order : orders) {
+      if (order.entry) unstored_.push_back(std::move(*order.entry));
     }
-    if (StoreOldest()) continue;
-    std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, stop, kRetryPeriod, [] { return false; });
-    if (stop.stop_requested()) return;
-    lock.unlock();
-    try {
-      Reopen();
-    } catch (const io::JournalError& error) {
-      Fail(error.what());
+    if (stop.stop_requested() || Clock::now() >= next_try_) Store();
+    for (const Order& order : orders) {
+      if (order.settled) order.settled();
     }
+    if (orders.empty() && stop.stop_requested()) return;
   }
 }
 
-bool Journal::StoreOldest() {
-  if (!file_) return false;
-  const std::vector<io::JournalEntry> entries = OldestEntries();
+/// Returns none where the thread is to stop, or to try a disk again.
+std::vector<Journal::Order> Journal::WaitForOrders(const std::stop_token& stop) {
+  const auto has_orders = [this] { return !orders_.empty(); };
+  std::unique_lock lock(mutex_);
+  is_settling_ = false;
+  changed_.notify_all();
+  if (unstored_.empty()) {
+    changed_.wait(lock, stop, has_orders);
+  } else {
+    changed_.wait_until(lock, stop, next_try_, has_orders);
+  }
+  is_settling_ = true;
+  return std::exchange(orders_, {});
+}
+
+void Journal::Store() {
+  if (unstored_.empty()) return;
   try {
-    file_->Append(entries);
+    if (!file_) Open();
+    file_->Append(unstored_);
   } catch (const std::runtime_error& error) {
-    Fail(error.what());
-    return false;
+    return Fail(error.what());
   }
-  std::vector<std::function<void()>> settled;
-  {
-    const std::lock_guard lock(mutex_);
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-      settled.push_back(std::move(waiting_.front().settled));
-      waiting_.pop_front();
-    }
-    trouble_.clear();
-    stored_ += entries.size();
-  }
-  for (const std::function<void()>& tell : settled) {
-    if (tell) tell();
-  }
-  changed_.notify_all();
-  return true;
-}
-
-std::vector<io::JournalEntry> Journal::OldestEntries() const {
   const std::lock_guard lock(mutex_);
-  std::vector<io::JournalEntry> entries;
-  for (const Waiting& waiting : waiting_) {
-    if (entries.size() == kBatch) break;
-    entries.push_back(waiting.entry);
-  }
-  return entries;
+  stored_ += unstored_.size();
+  waiting_ -= unstored_.size();
+  trouble_.clear();
+  unstored_.clear();
 }
 
-// What waits for a disk is not kept from the other services as well.
+void Journal::Open() {
+  file_ = io::JournalFile::Continue(names_.file, names_.kind, names_.identity);
+}
+
 void Journal::Fail(const std::string& trouble) {
-  std::deque<std::function<void()>> settled;
-  {
-    const std::lock_guard lock(mutex_);
-    trouble_ = trouble;
-    for (Waiting& waiting : waiting_) settled.push_back(std::exchange(waiting.settled, nullptr));
-  }
-  for (const std::function<void()>& tell : settled) {
-    if (tell) tell();
-  }
-  changed_.notify_all();
+  file_.reset();
+  next_try_ = Clock::now() + kRetryPeriod;
+  const std::lock_guard lock(mutex_);
+  trouble_ = trouble;
 }
 
 void Journal::WaitUntilSettled() {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return waiting_.empty() || !trouble_.empty(); });
+  changed_.wait(lock, [this] { return orders_.empty() && !is_settling_; });
 }
 
 JournalStatus Journal::Status() const {
   const std::lock_guard lock(mutex_);
-  return {.file = names_.file.string(),
-          .trouble = trouble_,
-          .stored = stored_,
-          .waiting = waiting_.size()};
+  return {
+      .file = names_.file.string(), .trouble = trouble_, .stored = stored_, .waiting = waiting_};
 }
 
 }  // namespace qwsm::team

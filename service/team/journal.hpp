@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
-#include <deque>
 #include <filesystem>
 #include <functional>
 #include <mutex>
@@ -19,7 +19,10 @@
 
 namespace qwsm::team {
 
-/// Keeps relevant scans on disk, in a thread of its own: whoever appends never waits for the disk.
+/// Keeps relevant scans on disk, in a thread of its own: whoever appends never waits for the disk,
+/// and what is to be told of an entry is told once it is safe. What has come meanwhile is stored
+/// together, so a slow disk is waited for less often, not longer.
+///
 /// While the disk is full or may not be written, entries wait in memory and are tried again; none
 /// is given up. Knows nothing of what the scans are.
 class Journal {
@@ -46,35 +49,45 @@ class Journal {
   std::size_t Restore(const std::function<void(io::JournalEntry)>& take);
 
   /// Stores the entry, later. @param settled is called once it is safely on disk, or has to wait
-  /// for a disk that cannot be written; once for each entry, in their order.
-  void Append(io::JournalEntry entry, const std::function<void()>& settled);
+  /// for a disk that cannot be written.
+  void Append(io::JournalEntry entry, std::function<void()> settled);
+  /// Calls `tell` once all that was appended before is settled. What is told keeps its order.
+  void Tell(std::function<void()> tell);
 
-  /// Stores what waits, unless the disk cannot be written, and then nothing more.
+  /// Stores what waits, unless the disk cannot be written, tells it, and then nothing more.
   void Stop();
-  /// Waits until all is stored, or nothing can be.
+  /// Waits until all is stored, or nothing can be, and told.
   void WaitUntilSettled();
   JournalStatus Status() const;
 
  private:
-  struct Waiting {
-    io::JournalEntry entry;
+  using Clock = std::chrono::steady_clock;
+  struct Order {
+    std::optional<io::JournalEntry> entry;
     std::function<void()> settled;
   };
 
+  void Take(Order order);
   void Work(const std::stop_token& stop);
-  bool StoreOldest();
-  std::vector<io::JournalEntry> OldestEntries() const;
+  std::vector<Order> WaitForOrders(const std::stop_token& stop);
+  void Store();
+  void Open();
   void Fail(const std::string& trouble);
-  void Reopen();
 
   Names names_;
-  std::optional<io::JournalFile> file_;  // Of the thread, once it runs. None where it cannot be.
 
   mutable std::mutex mutex_;  // Guards what follows.
   std::condition_variable_any changed_;
-  std::deque<Waiting> waiting_;  // An entry stays until it is stored.
+  std::vector<Order> orders_;
+  bool is_settling_ = false;  // Orders that were taken from the list.
   std::string trouble_;
   std::uint64_t stored_ = 0;
+  std::uint64_t waiting_ = 0;
+
+  // Of the thread, once it runs.
+  std::optional<io::JournalFile> file_;  // None where it cannot be.
+  std::vector<io::JournalEntry> unstored_;
+  Clock::time_point next_try_{};  // Of a disk that cannot be written.
 
   std::jthread thread_;  // Last: it uses all of the above.
 };

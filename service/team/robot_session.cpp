@@ -187,19 +187,22 @@ void RobotSession::Answer(Work& work, std::span<const ScanPoint> points) {
   const auto answered = steady_clock::now();
   Count(work, step, answered - begun);
   const RobotStatus status = Status();
-  context_.sink.TakeAnswer({.robot = name_,
-                            .step = step,
-                            .T_odom_robot = work.T_odom_robot,
-                            .matching = answered - begun,
-                            .latency = answered - work.arrival.arrived,
-                            .scans = status.counts.scans,
-                            .dropped = status.counts.dropped});
-  if (!step.relevant) return;
-  context_.extend({.key = {.service = context_.service, .robot = name_, .sequence = ++sequence_},
-                   .scan = std::move(observation.scan),
-                   .map_robot = step.map_robot,
-                   .T_odom_robot = work.T_odom_robot},
-                  points);
+  const RobotAnswer answer{.robot = name_,
+                           .step = step,
+                           .T_odom_robot = work.T_odom_robot,
+                           .matching = answered - begun,
+                           .latency = answered - work.arrival.arrived,
+                           .scans = status.counts.scans,
+                           .dropped = status.counts.dropped};
+  context_.sink.TakeAnswer(answer);
+  if (step.relevant) {
+    context_.extend({.key = {.service = context_.service, .robot = name_, .sequence = ++sequence_},
+                     .scan = std::move(observation.scan),
+                     .map_robot = step.map_robot,
+                     .T_odom_robot = work.T_odom_robot},
+                    points);
+  }
+  context_.report(answer);
 }
 
 bool RobotSession::Place(const ScanMap& map, const Work& work, std::span<const ScanPoint> points) {

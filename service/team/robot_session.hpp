@@ -28,6 +28,8 @@ struct SessionContext {
   TeamSink& sink;
   /// Puts a relevant scan into the map, the journal and the network.
   std::function<void(const TeamScan&, std::span<const ScanPoint>)> extend;
+  /// Tells of an answer once what it says is safe.
+  std::function<void(const RobotAnswer&)> report;
 };
 
 /// One robot: takes its messages from any thread, answers its scans one by one in a worker.

@@ -176,39 +176,46 @@ void TeamService::TakeInOne(const TeamScan& scan) {
     ++refused_;
     return;
   }
-  std::atomic<std::uint64_t>& count =
-      Insert(scan, ToPoints(scan.scan), {}) ? taken_in_ : duplicates_;
-  ++count;
+  const bool is_new = Insert(scan, ToPoints(scan.scan), [](const MapAddition&) {});
+  ++(is_new ? taken_in_ : duplicates_);
 }
 
+// Nobody hears of a relevant scan before it is safe: who has heard of it may rely on it.
 void TeamService::Extend(const TeamScan& scan, std::span<const ScanPoint> points) {
-  const auto share = [this, shared = std::make_shared<TeamScan>(scan)] {
+  Insert(scan, points, [this, shared = std::make_shared<TeamScan>(scan)](const MapAddition& added) {
     sink_.TakeRelevantScan(*shared);
-  };
-  const std::shared_ptr<const MapAddition> addition = Insert(scan, points, share);
-  if (!addition) return;
-  std::vector<Eigen::Vector2d> points_map_m;
-  points_map_m.reserve(addition->points.size());
-  for (const MapPoint& point : addition->points) points_map_m.push_back(point.p_map_m);
-  sink_.TakeNewPoints(
-      {.robot = scan.key.robot, .stamp = scan.scan.stamp, .points_map_m = points_map_m});
+    TellNewPoints(*shared, added);
+  });
 }
 
-std::shared_ptr<const MapAddition> TeamService::Insert(const TeamScan& scan,
-                                                       std::span<const ScanPoint> points,
-                                                       const std::function<void()>& settled) {
+bool TeamService::Insert(const TeamScan& scan,
+                         std::span<const ScanPoint> points,
+                         const std::function<void(const MapAddition&)>& settled) {
   std::shared_ptr<const MapAddition> addition;
   {
     const std::lock_guard lock(extension_);
     addition = maps_.Of(scan.key.robot)->Insert(scan, points);
-    if (!addition) return nullptr;
+    if (!addition) return false;
     if (journal_) {
-      journal_->Append(ToJournal(scan), settled);
-      return addition;
+      journal_->Append(ToJournal(scan), [settled, addition] { settled(*addition); });
+      return true;
     }
   }
-  if (settled) settled();
-  return addition;
+  settled(*addition);
+  return true;
+}
+
+void TeamService::Report(const RobotAnswer& answer) {
+  if (!journal_) return sink_.TakeReport(answer);
+  journal_->Tell([this, answer] { sink_.TakeReport(answer); });
+}
+
+void TeamService::TellNewPoints(const TeamScan& scan, const MapAddition& addition) {
+  std::vector<Eigen::Vector2d> points_map_m;
+  points_map_m.reserve(addition.points.size());
+  for (const MapPoint& point : addition.points) points_map_m.push_back(point.p_map_m);
+  sink_.TakeNewPoints(
+      {.robot = scan.key.robot, .stamp = scan.scan.stamp, .points_map_m = points_map_m});
 }
 
 TeamStatus TeamService::Status() const {
@@ -261,8 +268,11 @@ std::shared_ptr<RobotSession> TeamService::SessionOf(std::string_view robot) {
       std::string(robot),
       options_.team.session,
       options_.mapper,
-      SessionContext{
-          .service = identity_, .map = *maps_.Of(robot), .sink = sink_, .extend = extend});
+      SessionContext{.service = identity_,
+                     .map = *maps_.Of(robot),
+                     .sink = sink_,
+                     .extend = extend,
+                     .report = [this](const RobotAnswer& answer) { Report(answer); }});
   if (workers_) workers_->Add(session);
   return sessions_[session->name()] = session;
 }

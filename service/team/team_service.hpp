@@ -94,9 +94,11 @@ class TeamService {
   void Extend(const TeamScan& scan, std::span<const ScanPoint> points);
   void TakeInOne(const TeamScan& scan);
   void Restore();
-  std::shared_ptr<const MapAddition> Insert(const TeamScan& scan,
-                                            std::span<const ScanPoint> points,
-                                            const std::function<void()>& settled);
+  bool Insert(const TeamScan& scan,
+              std::span<const ScanPoint> points,
+              const std::function<void(const MapAddition&)>& settled);
+  void Report(const RobotAnswer& answer);
+  void TellNewPoints(const TeamScan& scan, const MapAddition& addition);
   void PaintMaps(const std::stop_token& stop);
   MapStatus StatusOfMaps() const;
 

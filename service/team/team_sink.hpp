@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -16,10 +17,10 @@
 
 namespace qwsm::team {
 
-/// The answer to one scan. What it refers to lives as long as the call.
+/// The answer to one scan.
 struct RobotAnswer {
-  std::string_view robot;
-  const MappingStep& step;
+  std::string robot;
+  MappingStep step;
   std::optional<Pose2> T_odom_robot;    ///< At the scan's stamp.
   std::chrono::nanoseconds matching{};  ///< Time the match took.
   std::chrono::nanoseconds latency{};   ///< From the scan's arrival to now.
@@ -57,10 +58,15 @@ class TeamSink {
   TeamSink& operator=(const TeamSink&) = delete;
   virtual ~TeamSink() = default;
 
+  /// A pose, as soon as it is known.
   virtual void TakeAnswer(const RobotAnswer& answer) = 0;
+  /// The same again, once all that the service knew by then is safely in the journal, if there is
+  /// one that can be written: that a scan extended the map is told of no scan that may be lost.
+  virtual void TakeReport(const RobotAnswer& answer) = 0;
   /// A relevant scan of a robot of this service, for the other services: safely in the journal if
   /// there is one that can be written. At the start, those of the journal.
   virtual void TakeRelevantScan(const TeamScan& scan) = 0;
+  /// What it added to the map; as safe.
   virtual void TakeNewPoints(const NewPoints& points) = 0;
   virtual void TakeMap(const MapPicture& map) = 0;
   virtual void TakeStatus(const TeamStatus& status) = 0;

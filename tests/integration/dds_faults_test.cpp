@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What must not hurt the service: peers that die, come back, send nonsense; its own death.
+// What must not hurt the service: peers that die, come back, send nonsense.
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
@@ -85,45 +85,6 @@ TEST_F(DdsFaults, LateServiceHasTheMapOfTheFirstOneWhichMayDie) {
   const Outcome of_second = second.End(SIGTERM);
   EXPECT_GT(RelevantScans(of_first), 10);
   EXPECT_EQ(RelevantScans(of_second), RelevantScans(of_first)) << of_second.errors;
-}
-
-std::size_t CountOf(const std::string& part, const std::string& text) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
-    ++count;
-  }
-  return count;
-}
-
-/// How often; QWSM_KILLS=100 for a long night.
-int Kills() {
-  const char* text = std::getenv("QWSM_KILLS");
-  return text == nullptr ? 5 : std::atoi(text);
-}
-
-TEST_F(DdsFaults, KilledServiceHasItsMapBackFromTheJournal) {
-  Daemon echo(network_.Join({"echo", "robot1", "--json", "--verbose"}));
-  ASSERT_TRUE(echo.WaitUntilItSays("listening"));
-  const std::vector<std::string> serve = Serve({"--journal", Path("team.db")});
-  std::mt19937 random(3);
-  std::uniform_int_distribution<int> moment_ms(300, 1500);
-  for (int kill = 0; kill < Kills(); ++kill) {
-    Daemon robot(network_.Join({"replay", Log(), "--robot", "robot1", "--rate", "20"}));
-    Daemon service(serve);
-    ASSERT_TRUE(service.WaitUntilItSays("serving as"));
-    std::this_thread::sleep_for(std::chrono::milliseconds(moment_ms(random)));
-    service.End(SIGKILL);
-    robot.End(SIGKILL);
-  }
-  Daemon service(serve);
-  ASSERT_TRUE(service.WaitUntilItSays("serving as"));
-  EXPECT_EQ(Replay({"--rate", "max"}).exit_code, 0);
-  const Outcome served = service.End();
-  const std::size_t told = CountOf("\"relevant\":true", echo.End().output);
-  EXPECT_GT(told, 10U);
-  // The answer does not wait for the disk: of each kill, the scan being written may be gone. Nobody
-  // has it, for it is offered to other services only once it is safe.
-  EXPECT_GE(RelevantScans(served) + Kills(), static_cast<int>(told)) << served.errors;
 }
 
 /// Sends bytes that are no RTPS, and some that begin like it, to the ports of everybody here.

@@ -140,6 +140,9 @@ TEST(JournalCrash, MapIsTheSameBitForBitAfterARestart) {
     Give(service, 0, kScansOfALap);
     service.WaitUntilIdle();
     before = io::EncodeMap(*service.MapOf("robot1")->Read());
+    const std::vector<MappingStep> reports = sink.reports("robot1");  // In order, though they wait.
+    EXPECT_EQ(reports.size(), static_cast<std::size_t>(kScansOfALap));
+    EXPECT_TRUE(std::ranges::is_sorted(reports, {}, &MappingStep::stamp));
   }
   test::RecordingSink sink;
   TeamService service(LosslessOptions(), sink, file);

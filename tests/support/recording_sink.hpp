@@ -17,7 +17,11 @@ class RecordingSink : public team::TeamSink {
  public:
   void TakeAnswer(const team::RobotAnswer& answer) override {
     const std::lock_guard lock(mutex_);
-    steps_[std::string(answer.robot)].push_back(answer.step);
+    steps_[answer.robot].push_back(answer.step);
+  }
+  void TakeReport(const team::RobotAnswer& answer) override {
+    const std::lock_guard lock(mutex_);
+    reports_[answer.robot].push_back(answer.step);
   }
   void TakeRelevantScan(const team::TeamScan& scan) override {
     const std::lock_guard lock(mutex_);
@@ -45,6 +49,11 @@ class RecordingSink : public team::TeamSink {
     const auto found = steps_.find(robot);
     return found == steps_.end() ? std::vector<MappingStep>() : found->second;
   }
+  std::vector<MappingStep> reports(const std::string& robot) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = reports_.find(robot);
+    return found == reports_.end() ? std::vector<MappingStep>() : found->second;
+  }
   std::vector<team::TeamScan> relevant() const {
     const std::lock_guard lock(mutex_);
     return relevant_;
@@ -69,6 +78,7 @@ class RecordingSink : public team::TeamSink {
  private:
   mutable std::mutex mutex_;
   std::map<std::string, std::vector<MappingStep>> steps_;
+  std::map<std::string, std::vector<MappingStep>> reports_;
   std::vector<team::TeamScan> relevant_;
   std::size_t new_points_ = 0;
   std::map<std::string, OccupancyGrid> maps_;
