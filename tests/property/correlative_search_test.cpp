@@ -12,6 +12,8 @@
 #include <random>
 #include <vector>
 
+#include "qwsm/search/likelihood_window.hpp"
+
 namespace qwsm {
 namespace {
 
@@ -41,8 +43,11 @@ double ScoreAt(const LikelihoodPyramid& map,
   double sum = 0.0;
   for (const Eigen::Vector2d& p_robot : points_robot_m) {
     const Eigen::Vector2d p_map = T_map_turned * p_robot;
-    const auto cell = map.At(0, map.CellIndex(p_map.x()) + x, map.CellIndex(p_map.y()) + y);
-    if (cell.drift_code <= max_drift_code) sum += cell.likelihood;
+    const GridCell cell{map.CellIndex(p_map.x()) + x, map.CellIndex(p_map.y()) + y};
+    const int drift_code = map.DriftCodeAt(LikelihoodTile::kFirstDriftLevel, cell.x, cell.y);
+    if (max_drift_code == LikelihoodPyramid::kUnmapped || drift_code <= max_drift_code) {
+      sum += map.LikelihoodAt(0, cell.x, cell.y);
+    }
   }
   return sum / (255.0 * static_cast<double>(points_robot_m.size()));
 }

@@ -38,7 +38,7 @@ TEST(LikelihoodPyramid, IsTheGreatestLikelihoodOfAllPoints) {
         double nearest_m = 1e9;
         for (const auto& p_m : points_m) nearest_m = std::min(nearest_m, (p_m - cell_m).norm());
         const double expected = std::exp(-0.5 * std::pow(nearest_m / sigma_m, 2));
-        const double likelihood = pyramid.At(0, x, y).likelihood / 255.0;
+        const double likelihood = pyramid.LikelihoodAt(0, x, y) / 255.0;
         EXPECT_LE(likelihood, expected + 1e-9);
         // What is left out is hardly likely.
         if (nearest_m < 2.0 * sigma_m) {
@@ -60,16 +60,26 @@ TEST(LikelihoodPyramid, HigherLevelsBoundWhatABeamMovedWithinThemMeets) {
       const int x = any_cell(random);
       const int y = any_cell(random);
       for (int level = 1; level < LikelihoodPyramid::kLevels; ++level) {
-        const auto bound = pyramid.At(level, x, y);
+        const int bound = pyramid.LikelihoodAt(level, x, y);
         for (int dy = 0; dy < 1 << level; ++dy) {
           for (int dx = 0; dx < 1 << level; ++dx) {
-            const auto cell = pyramid.At(0, x + dx, y + dy);
-            ASSERT_LE(cell.likelihood, bound.likelihood);
-            ASSERT_GE(cell.drift_code, bound.drift_code);
+            ASSERT_LE(pyramid.LikelihoodAt(0, x + dx, y + dy), bound);
           }
         }
       }
     }
+  }
+}
+
+TEST(LikelihoodPyramid, CoarserLevelsHoldTheSmallestDrift) {
+  LikelihoodPyramid pyramid;
+  pyramid.Insert({1.0, 1.0}, 0.04);
+  pyramid.Insert({1.05, 1.0}, 0.01);
+  pyramid.Insert({1.1, 1.0}, 0.09);
+  const int cell = pyramid.CellIndex(1.05);
+  for (int level = LikelihoodTile::kFirstDriftLevel; level < LikelihoodPyramid::kLevels; ++level) {
+    EXPECT_EQ(pyramid.DriftCodeAt(level, cell, pyramid.CellIndex(1.0)),
+              LikelihoodPyramid::DriftCode(0.01));
   }
 }
 
@@ -87,13 +97,13 @@ TEST(LikelihoodPyramid, DriftCodesAreMonotoneAndNearlyExact) {
 
 TEST(LikelihoodPyramid, IsEmptyWhereNothingWasStoredAndAfterClearing) {
   LikelihoodPyramid pyramid;
-  EXPECT_EQ(pyramid.At(0, 0, 0).likelihood, 0);
+  EXPECT_EQ(pyramid.LikelihoodAt(0, 0, 0), 0);
   pyramid.Insert({1.0, -2.0}, 1e-4);
-  EXPECT_GT(pyramid.At(0, pyramid.CellIndex(1.0), pyramid.CellIndex(-2.0)).likelihood, 200);
-  EXPECT_EQ(pyramid.At(0, 2'000'000'000, -2'000'000'000).likelihood, 0);
-  EXPECT_EQ(pyramid.At(0, 0, 0).drift_code, LikelihoodPyramid::kUnmapped);
+  EXPECT_GT(pyramid.LikelihoodAt(0, pyramid.CellIndex(1.0), pyramid.CellIndex(-2.0)), 200);
+  EXPECT_EQ(pyramid.LikelihoodAt(0, 2'000'000'000, -2'000'000'000), 0);
+  EXPECT_EQ(pyramid.DriftCodeAt(1, 0, 0), LikelihoodPyramid::kUnmapped);
   pyramid.Clear();
-  EXPECT_EQ(pyramid.At(0, pyramid.CellIndex(1.0), pyramid.CellIndex(-2.0)).likelihood, 0);
+  EXPECT_EQ(pyramid.LikelihoodAt(0, pyramid.CellIndex(1.0), pyramid.CellIndex(-2.0)), 0);
 }
 
 }  // namespace

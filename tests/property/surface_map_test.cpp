@@ -97,9 +97,8 @@ TEST(SurfaceMap, AfterAScanIsRemovedIsWhatItWouldHaveBeenWithoutIt) {
     for (int x = -20; x < 20; ++x) {
       for (int y = -20; y < 20; ++y) {
         // Stored positions are rounded to a micrometre, likelihoods to a 255th.
-        EXPECT_NEAR(with.likelihood().At(0, x, y).likelihood,
-                    without.likelihood().At(0, x, y).likelihood,
-                    1);
+        EXPECT_NEAR(
+            with.likelihood().LikelihoodAt(0, x, y), without.likelihood().LikelihoodAt(0, x, y), 1);
       }
     }
   }

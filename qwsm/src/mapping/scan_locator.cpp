@@ -39,9 +39,9 @@ KnownSurroundings SurroundingsOf(const LikelihoodPyramid& map,
     std::uint8_t code = LikelihoodPyramid::kUnmapped;
     for (const int dy : {-kStride, 0, kStride}) {
       for (const int dx : {-kStride, 0, kStride}) {
-        code = std::min(code,
-                        map.At(kLevel, map.CellIndex(p_map.x()) + dx, map.CellIndex(p_map.y()) + dy)
-                            .drift_code);
+        code = std::min(
+            code,
+            map.DriftCodeAt(kLevel, map.CellIndex(p_map.x()) + dx, map.CellIndex(p_map.y()) + dy));
       }
     }
     if (code > max_code) continue;
@@ -63,39 +63,54 @@ MatchResult ScanLocator::Locate(const ScanMap& map,
                                 std::span<const ScanPoint> points,
                                 const UncertainPose2& predicted,
                                 MatchTrace* trace) const {
+  const LikelihoodPyramid& likelihood = map.surfaces().likelihood();
+  const std::vector<Eigen::Vector2d> thinned = ThinOut(points, options_.search_spacing_m);
   const double sigmas = options_.window_sigmas;
-  const MatchResult narrow =
-      SearchAndMatch(map, points, predicted, options_.narrow_share * sigmas, trace);
+
+  const auto near = Search(likelihood, thinned, predicted, options_.narrow_share * sigmas, 0.0);
+  const MatchResult narrow = MatchFrom(near, map, points, predicted, trace);
   if (narrow.overlap >= options_.confident_overlap) return narrow;
-  const MatchResult full = SearchAndMatch(map, points, predicted, sigmas, trace);
+
+  const auto better = Search(likelihood, thinned, predicted, sigmas, near ? near->score : 0.0);
+  const MatchResult full = better ? MatchFrom(better, map, points, predicted, trace) : narrow;
   if (full.overlap >= options_.widen_below_overlap) return full;
-  const MatchResult wide =
-      SearchAndMatch(map, points, Widened(predicted, options_.widen_factor), sigmas, trace);
+
+  const UncertainPose2 doubted = Widened(predicted, options_.widen_factor);
+  const auto far = Search(likelihood, thinned, doubted, sigmas, 0.0);
+  const MatchResult wide = MatchFrom(far, map, points, doubted, trace);
   return wide.overlap > full.overlap + options_.widen_gain ? wide : full;
 }
 
-MatchResult ScanLocator::SearchAndMatch(const ScanMap& map,
-                                        std::span<const ScanPoint> points,
-                                        const UncertainPose2& predicted,
-                                        double window_sigmas,
-                                        MatchTrace* trace) const {
+// The best pose within so many sigmas of the prediction, if it scores more than `min_score`.
+std::optional<FoundPose> ScanLocator::Search(const LikelihoodPyramid& map,
+                                             std::span<const Eigen::Vector2d> points_robot_m,
+                                             const UncertainPose2& predicted,
+                                             double sigmas,
+                                             double min_score) const {
+  if (points_robot_m.size() < kMinSearchPoints) return std::nullopt;
+  return SearchPose(
+      map,
+      points_robot_m,
+      {.predicted = predicted,
+       .translation_m = std::min(options_.max_window_m, sigmas * SigmaXY(predicted.covariance)),
+       .rotation_rad = std::min(options_.max_window_rad, sigmas * SigmaTheta(predicted.covariance)),
+       .min_score = min_score},
+      options_.search);
+}
+
+// Matches from the pose found, or from the prediction where none was.
+MatchResult ScanLocator::MatchFrom(const std::optional<FoundPose>& found,
+                                   const ScanMap& map,
+                                   std::span<const ScanPoint> points,
+                                   const UncertainPose2& predicted,
+                                   MatchTrace* trace) const {
   MatchPrior prior{.predicted = predicted,
                    .start = predicted.T_a_b,
                    .start_error = {.translation_m = SigmaXY(predicted.covariance),
                                    .rotation_rad = SigmaTheta(predicted.covariance)}};
-  const std::vector<Eigen::Vector2d> thinned = ThinOut(points, options_.search_spacing_m);
-  if (thinned.size() >= kMinSearchPoints) {
-    const SearchWindow window{
-        .predicted = predicted,
-        .translation_m =
-            std::min(options_.max_window_m, window_sigmas * SigmaXY(predicted.covariance)),
-        .rotation_rad =
-            std::min(options_.max_window_rad, window_sigmas * SigmaTheta(predicted.covariance))};
-    const auto found = SearchPose(map.surfaces().likelihood(), thinned, window, options_.search);
-    if (found) {
-      prior.start = found->T_map_robot;
-      prior.start_error = {.translation_m = options_.search_error_m};
-    }
+  if (found) {
+    prior.start = found->T_map_robot;
+    prior.start_error = {.translation_m = options_.search_error_m};
   }
   return matcher_.Match(map.surfaces(), points, prior, trace);
 }

@@ -136,11 +136,16 @@ class ScanLocator {
   const ScanLocatorOptions& options() const { return options_; }
 
  private:
-  MatchResult SearchAndMatch(const ScanMap& map,
-                             std::span<const ScanPoint> points,
-                             const UncertainPose2& predicted,
-                             double window_sigmas,
-                             MatchTrace* trace) const;
+  std::optional<FoundPose> Search(const LikelihoodPyramid& map,
+                                  std::span<const Eigen::Vector2d> points_robot_m,
+                                  const UncertainPose2& predicted,
+                                  double sigmas,
+                                  double min_score) const;
+  MatchResult MatchFrom(const std::optional<FoundPose>& found,
+                        const ScanMap& map,
+                        std::span<const ScanPoint> points,
+                        const UncertainPose2& predicted,
+                        MatchTrace* trace) const;
   std::optional<Pose2> OnlyPlace(const LikelihoodPyramid& map,
                                  std::span<const Eigen::Vector2d> surroundings_robot_m,
                                  SearchWindow window) const;

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <unordered_map>
 #include <vector>
+
+#include "qwsm/search/likelihood_tile.hpp"
+#include "qwsm/search/paged_pool.hpp"
 
 namespace qwsm {
 
@@ -34,40 +36,37 @@ void Describe(Visitor& visit, LikelihoodPyramidOptions& o) {
 /// Level 0 holds the maximum over the stored points of exp(-d^2 / 2 sigma^2), scaled to 0..255. A
 /// cell c of level l holds the maximum over the level-0 cells c 2^l .. c 2^l + 2^(l+1) - 2 in each
 /// axis: an upper bound for a beam that ends anywhere in c and is then moved by 0 .. 2^l - 1 cells
-/// (Olson 2009; Hess et al. 2016). Beside the likelihood each cell holds the smallest drift of the
-/// points in it, so that a search can be restricted to what was mapped with little drift.
+/// (Olson 2009; Hess et al. 2016). The coarser levels hold the smallest drift of the points in the
+/// same cells as well, so that a search can be restricted to what was mapped with little drift.
 ///
-/// Stored in square tiles that exist only where points are, behind a directory that grows by
-/// doubling: reading a cell takes constant time for any extent.
+/// Stored in square tiles that exist only where points are. Searches read a LikelihoodWindow.
 class LikelihoodPyramid {
  public:
-  static constexpr int kLevels = 5;
-  static constexpr std::uint8_t kUnmapped = std::numeric_limits<std::uint8_t>::max();
+  using Tile = LikelihoodTile;
+  static constexpr int kLevels = Tile::kLevels;
+  static constexpr std::uint8_t kUnmapped = Tile::kUnmapped;
 
-  struct Cell {
-    std::uint8_t likelihood = 0;
-    std::uint8_t drift_code = kUnmapped;  ///< See DriftCode().
-  };
-
-  explicit LikelihoodPyramid(const LikelihoodPyramidOptions& options = {});
+  explicit LikelihoodPyramid(const LikelihoodPyramidOptions& options = {}) : options_(options) {}
 
   double cell_size_m() const { return options_.cell_size_m; }
-  /// Raises the cells around a point.
+  /// Raises the cells around a point. @pre |coordinate| < 2^31 cells
   void Insert(const Eigen::Vector2d& p_m, double drift_m2);
   /// Forgets everything.
-  void Clear();
+  void Clear() { *this = LikelihoodPyramid(options_); }
 
   /// Index of the level-0 cell that holds a coordinate.
   int CellIndex(double coordinate_m) const {
-    return static_cast<int>(std::floor(coordinate_m / options_.cell_size_m));
+    const double cells = coordinate_m / options_.cell_size_m;
+    const int truncated = static_cast<int>(cells);  // std::floor() is a call on plain x86-64.
+    return truncated - static_cast<int>(cells < truncated);
   }
-  /// The cell of `level` around the level-0 cell (x, y); an empty cell where nothing is stored.
-  Cell At(int level, int x, int y) const {
-    const auto column = static_cast<std::uint32_t>((x >> kTileBits) - first_column_);
-    const auto row = static_cast<std::uint32_t>((y >> kTileBits) - first_row_);
-    if (column >= columns_ || row >= rows_) return {};
-    return tiles_[directory_[std::size_t{row} * columns_ + column]][OffsetInTile(level, x, y)];
-  }
+  /// The cell of `level` around the level-0 cell (x, y); 0 where nothing is stored.
+  std::uint8_t LikelihoodAt(int level, int x, int y) const;
+  /// The same; kUnmapped where nothing is stored. @pre level >= Tile::kFirstDriftLevel
+  std::uint8_t DriftCodeAt(int level, int x, int y) const;
+  /// The tile of the level-0 cells column * kSide .. column * kSide + kSide - 1, and so for rows;
+  /// null where nothing is stored. Valid until the next insertion.
+  const Tile* FindTile(int column, int row) const;
 
   /// Drift variance on a logarithmic scale of 8 bits: monotone, a fifth of an octave per step.
   static std::uint8_t DriftCode(double drift_m2);
@@ -76,33 +75,32 @@ class LikelihoodPyramid {
   std::size_t bytes() const;
 
  private:
-  static constexpr int kTileBits = 6;
-  static constexpr int kTileSide = 1 << kTileBits;
-  // 64^2 + 32^2 + 16^2 + 8^2 + 4^2 cells: one tile of each level.
-  static constexpr std::array<std::size_t, kLevels> kLevelStart = {0, 4096, 5120, 5376, 5440};
-  static constexpr std::size_t kTileCells = 5456;
-  static constexpr std::uint32_t kEmptyTile = 0;
-  using Tile = std::array<Cell, kTileCells>;
+  // Likelihood along one axis of consecutive cells of a level, around a point.
+  struct Profile {
+    int first = 0;
+    std::vector<double> values;
 
-  static std::size_t OffsetInTile(int level, int x, int y) {
-    const int column = (x & (kTileSide - 1)) >> level;
-    const int row = (y & (kTileSide - 1)) >> level;
-    return kLevelStart[static_cast<std::size_t>(level)] +
-           static_cast<std::size_t>((row << (kTileBits - level)) + column);
+    int last() const { return first + static_cast<int>(values.size()) - 1; }
+    double At(int cell) const {
+      return cell < first || cell > last() ? 0.0 : values[static_cast<std::size_t>(cell - first)];
+    }
+    void Coarsen();
+  };
+
+  static std::uint64_t Key(int column, int row) {
+    return std::uint64_t{static_cast<std::uint32_t>(column)} << 32 |
+           static_cast<std::uint32_t>(row);
   }
-  // Likelihood along one axis of the cells first .. last around a point.
-  std::vector<double> Profile(double center_m, int first, int last) const;
-  Cell& Touch(int level, int x, int y);
-  void Raise(int x, int y, Cell value);
-  void GrowDirectory(int column, int row);
+  void FillProfile(double center_m, Profile& profile) const;
+  Tile& TileAt(int column, int row);
+  void Raise(int level, std::uint8_t drift_code);
+  void RaiseTile(int level, int column, int row, std::uint8_t drift_code);
 
   LikelihoodPyramidOptions options_;
-  int first_column_ = 0;
-  int first_row_ = 0;
-  std::uint32_t columns_ = 0;
-  std::uint32_t rows_ = 0;
-  std::vector<std::uint32_t> directory_;  // Row-major; kEmptyTile where nothing is stored.
-  std::vector<Tile> tiles_ = std::vector<Tile>(1);  // The first one stays empty.
+  std::unordered_map<std::uint64_t, std::uint32_t> directory_;  // Tiles by Key().
+  PagedPool<Tile, 4> tiles_;
+  Profile columns_;  // Of the point being inserted; kept for their memory.
+  Profile rows_;
 };
 
 }  // namespace qwsm

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "qwsm/search/likelihood_pyramid.hpp"
+
+namespace qwsm {
+
+/// A cell of level 0.
+struct GridCell {
+  int x = 0;
+  int y = 0;
+};
+
+/// The part of a likelihood pyramid that one search looks at, as plain arrays: a search reads each
+/// cell many times, and reads it here at a tenth of the cost.
+class LikelihoodWindow {
+ public:
+  /// @param low, high cells to be read, both included.
+  /// @param max_drift_code what drifted more counts as unmapped.
+  LikelihoodWindow(const LikelihoodPyramid& pyramid,
+                   GridCell low,
+                   GridCell high,
+                   std::uint8_t max_drift_code);
+
+  /// Sum of the likelihoods of cells that are moved by an offset, at a level.
+  /// @pre the offset is a multiple of 2^level; the moved cells are in the window.
+  int Sum(int level, std::span<const GridCell> cells, GridCell offset) const {
+    const Plane& plane = planes_[static_cast<std::size_t>(level)];
+    const int x = offset.x - first_tile_.x * LikelihoodTile::kSide;
+    const int y = offset.y - first_tile_.y * LikelihoodTile::kSide;
+    int sum = 0;
+    for (const GridCell& cell : cells) {
+      sum += plane.At((cell.x + x) >> level, (cell.y + y) >> level);
+    }
+    return sum;
+  }
+
+ private:
+  // All cells of one level, row after row.
+  struct Plane {
+    Plane(int columns, int rows, std::uint8_t value)
+        : width(columns),
+          height(rows),
+          cells(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), value) {}
+
+    std::uint8_t At(int x, int y) const { return cells[static_cast<std::size_t>(y * width + x)]; }
+    std::uint8_t& At(int x, int y) { return cells[static_cast<std::size_t>(y * width + x)]; }
+    void Copy(const std::uint8_t* tile, int side, int column, int row);
+    std::uint8_t Smallest(GridCell low, GridCell high) const;
+
+    int width;
+    int height;
+    std::vector<std::uint8_t> cells;
+  };
+
+  template <class Visit>
+  void ForEachTile(const LikelihoodPyramid& pyramid, Visit visit) const;
+  void ForgetDrifted(const LikelihoodPyramid& pyramid, std::uint8_t max_drift_code);
+  Plane EmptyPlane(int level, std::uint8_t value) const;
+
+  GridCell first_tile_;        // Column and row,
+  GridCell tiles_;             // and how many columns and rows.
+  std::vector<Plane> planes_;  // By level.
+};
+
+}  // namespace qwsm
