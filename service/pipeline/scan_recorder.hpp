@@ -41,7 +41,7 @@ class ScanRecorder final : public dds::RobotListener {
   void WriteFirst();
 
   io::CarmenWriter carmen_;
-  team::OdometryBuffer odometry_;
+  team::OdometryBuffer<Pose2> odometry_;
   bool expects_odometry_ = false;
   std::deque<Waiting> waiting_;
   std::size_t scans_ = 0;

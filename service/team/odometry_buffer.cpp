@@ -15,13 +15,21 @@ Pose2 Interpolate(const Pose2& a, const Pose2& b, double share) {
           NormalizeAngle(a.theta_rad + share * NormalizeAngle(b.theta_rad - a.theta_rad))};
 }
 
+slam6d::Pose3 Interpolate(const slam6d::Pose3& a, const slam6d::Pose3& b, double share) {
+  const Eigen::Vector3d turn_rad =
+      slam6d::RotationVector(slam6d::NearestRotation(a.rotation.transpose() * b.rotation));
+  return {.rotation = a.rotation * slam6d::RotationFromVector(share * turn_rad),
+          .translation_m = a.translation_m + share * (b.translation_m - a.translation_m)};
+}
+
 double Seconds(std::chrono::nanoseconds duration) {
   return std::chrono::duration<double>(duration).count();
 }
 
 }  // namespace
 
-bool OdometryBuffer::Add(Timestamp stamp, const Pose2& T_odom_robot) {
+template <class Pose>
+bool OdometryBuffer<Pose>::Add(Timestamp stamp, const Pose& T_odom_robot) {
   if (!IsFinite(T_odom_robot)) return false;
   switch (guard_.Judge(stamp)) {
     case StampVerdict::kDuplicate:
@@ -36,7 +44,8 @@ bool OdometryBuffer::Add(Timestamp stamp, const Pose2& T_odom_robot) {
   return Insert({.stamp = stamp, .T_odom_robot = T_odom_robot});
 }
 
-bool OdometryBuffer::Insert(const Reading& reading) {
+template <class Pose>
+bool OdometryBuffer<Pose>::Insert(const Reading& reading) {
   const auto later = std::ranges::upper_bound(readings_, reading.stamp, {}, &Reading::stamp);
   const bool is_older_than_all = later == readings_.begin() && !readings_.empty();
   if (is_older_than_all ||
@@ -48,11 +57,13 @@ bool OdometryBuffer::Insert(const Reading& reading) {
   return true;
 }
 
-bool OdometryBuffer::Covers(Timestamp stamp) const {
+template <class Pose>
+bool OdometryBuffer<Pose>::Covers(Timestamp stamp) const {
   return !readings_.empty() && readings_.back().stamp >= stamp;
 }
 
-std::optional<Pose2> OdometryBuffer::At(Timestamp stamp) const {
+template <class Pose>
+std::optional<Pose> OdometryBuffer<Pose>::At(Timestamp stamp) const {
   const auto after = std::ranges::lower_bound(readings_, stamp, {}, &Reading::stamp);
   if (after != readings_.end() && after->stamp == stamp) return after->T_odom_robot;
   if (after == readings_.begin()) return std::nullopt;
@@ -72,5 +83,8 @@ std::optional<Pose2> OdometryBuffer::At(Timestamp stamp) const {
                      before->T_odom_robot,
                      1.0 + Seconds(stamp - before->stamp) / Seconds(step));
 }
+
+template class OdometryBuffer<Pose2>;
+template class OdometryBuffer<slam6d::Pose3>;
 
 }  // namespace qwsm::team

@@ -10,10 +10,7 @@
 #include <vector>
 
 #include "qwsm/mapping/robot_tracker.hpp"
-#include "service/team/latency_histogram.hpp"
-#include "service/team/odometry_buffer.hpp"
-#include "service/team/scan_queue.hpp"
-#include "service/team/stamp_guard.hpp"
+#include "service/team/session_intake.hpp"
 #include "service/team/team_map.hpp"
 #include "service/team/team_options.hpp"
 #include "service/team/team_sink.hpp"
@@ -45,7 +42,7 @@ class RobotSession final : public Lane {
                const MapperOptions& mapper,
                SessionContext context);
 
-  const std::string& name() const { return name_; }
+  const std::string& name() const { return intake_.name(); }
 
   /// Where the robot starts if nothing better is known.
   void SetStart(const UncertainPose2& map_robot);
@@ -56,63 +53,40 @@ class RobotSession final : public Lane {
 
   /// @return false if it was refused. A scan that is taken may still be dropped for newer ones.
   bool TakeScan(LaserScan scan);
-  void TakeOdometry(Timestamp stamp, const Pose2& T_odom_robot);
+  void TakeOdometry(Timestamp stamp, const Pose2& T_odom_robot) {
+    intake_.TakeOdometry(stamp, T_odom_robot);
+  }
   /// Whether scans are to wait for odometry. They are, from the first reading on.
-  void ExpectOdometry(bool expected);
+  void ExpectOdometry(bool expected) { intake_.ExpectOdometry(expected); }
   /// Somebody says where the robot is now.
   void PlaceAt(const UncertainPose2& map_robot);
 
   RobotStatus Status() const;
 
-  std::optional<Time> ReadyAt() const override;
+  std::optional<Time> ReadyAt() const override { return intake_.ReadyAt(); }
   void RunOne() override;
 
  private:
-  struct Arrival {
-    LaserScan scan;
-    Time arrived{};
-  };
-  struct Work {
-    Arrival arrival;
-    std::optional<Pose2> T_odom_robot;
-    std::optional<UncertainPose2> told;
-    bool is_interrupted = false;  // The robot, or its clock, was away since the last scan.
-  };
+  using Work = SessionIntake<Planar>::Work;
 
-  std::optional<Work> Take();
-  bool AwaitsOdometry(const LaserScan& scan) const;
   void Answer(Work& work, std::span<const ScanPoint> points);
   bool Place(const ScanMap& map, const Work& work, std::span<const ScanPoint> points);
   bool FindPlaceIn(const ScanMap& map, Timestamp stamp, std::span<const ScanPoint> points);
-  void WatchOdometry(const Work& work);
-  void Count(const Work& work, const MappingStep& step, std::chrono::nanoseconds matching);
+  void Note(const Work& work, const MappingStep& step, std::chrono::nanoseconds matching);
   void Tell(bool is_warning, std::string_view text) const;
 
-  const std::string name_;
-  const SessionOptions options_;
   const SessionContext context_;
+  SessionIntake<Planar> intake_;
 
   mutable std::mutex mutex_;  // Guards what follows.
-  RobotState state_ = RobotState::kExpected;
-  StampGuard guard_;
-  OdometryBuffer odometry_;
-  bool expects_odometry_ = false;
-  ScanQueue<Arrival> queue_;
   std::optional<UncertainPose2> told_;
   std::optional<UncertainPose2> start_;
-  bool is_interrupted_ = false;
-  SessionCounts counts_;
-  LatencyHistogram matching_;
-  LatencyHistogram latency_;
   UncertainPose2 map_robot_;
-  Timestamp stamp_{};
 
   // Of the worker alone.
   RobotTracker tracker_;
   bool is_placed_ = false;
   std::optional<Timestamp> looked_for_place_;
-  std::optional<Pose2> T_odom_last_;
-  Timestamp last_stamp_{};
   std::uint64_t sequence_ = 0;
 };
 

@@ -17,9 +17,6 @@ namespace {
 
 using std::chrono::steady_clock;
 
-// More come from a mistake or an attack.
-constexpr std::size_t kMaxRobots = 256;
-
 std::string NewIdentity(const std::string& name) {
   return fmt::format("{}-{:08x}", name, std::random_device{}());
 }
@@ -27,10 +24,6 @@ std::string NewIdentity(const std::string& name) {
 TeamServiceOptions WithQuadtree(TeamServiceOptions options) {
   options.mapper.matcher = MatcherKind::kQWsm;
   return options;
-}
-
-int ThreadCount(int wanted) {
-  return wanted > 0 ? wanted : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 io::JournalEntry ToJournal(const TeamScan& scan) {
@@ -66,14 +59,15 @@ TeamService::TeamService(const TeamServiceOptions& options,
       sink_(sink),
       begun_(steady_clock::now()),
       identity_(NewIdentity(options.team.service)),
-      maps_(options.team.map, options.mapper.map) {
+      maps_(options.team.map, options.mapper.map),
+      sessions_([this](std::string robot) { return MakeSession(std::move(robot)); }) {
   if (!journal.empty()) {
     journal_ = std::make_unique<Journal>(Journal::Names{
         .file = journal, .kind = std::string(io::kScanJournal), .identity = identity_});
     Restore();
   }
   for (const RobotStartOptions& robot : options_.team.robots) {
-    SessionOf(robot.name)->SetStart(StartOf(robot));
+    if (const auto session = sessions_.Of(robot.name)) session->SetStart(StartOf(robot));
   }
 }
 
@@ -102,11 +96,7 @@ void TeamService::Start() {
   const TeamOptions& team = options_.team;
   for (const TeamScan& scan : offered_) sink_.TakeRelevantScan(scan);
   offered_ = {};
-  {
-    const std::lock_guard lock(mutex_);
-    workers_ = std::make_unique<WorkerPool>(ThreadCount(team.threads));
-    for (const auto& [robot, session] : sessions_) workers_->Add(session);
-  }
+  sessions_.Start(team.threads);
   const std::chrono::duration<double> map_period(team.map_period_s);
   const std::chrono::duration<double> status_period(team.status_period_s);
   if (team.map_period_s > 0.0) {
@@ -120,7 +110,7 @@ void TeamService::Start() {
 void TeamService::Stop() {
   painting_.reset();
   reporting_.reset();
-  if (workers_) workers_->Stop();
+  sessions_.Stop();
   if (!journal_) return;
   journal_->Stop();
   const JournalStatus journal = journal_->Status();
@@ -131,38 +121,8 @@ void TeamService::Stop() {
 }
 
 void TeamService::WaitUntilIdle() {
-  if (workers_) workers_->WaitUntilIdle();
+  sessions_.WaitUntilIdle();
   if (journal_) journal_->WaitUntilSettled();
-}
-
-void TeamService::Join(std::string_view robot) {
-  if (const auto session = SessionOf(robot)) session->Join();
-}
-
-void TeamService::Lose(std::string_view robot) {
-  if (const auto session = Find(robot)) session->Lose();
-}
-
-bool TeamService::TakeScan(std::string_view robot, LaserScan scan) {
-  const auto session = SessionOf(robot);
-  if (!session || !session->TakeScan(std::move(scan))) return false;
-  Wake();
-  return true;
-}
-
-void TeamService::TakeOdometry(std::string_view robot, Timestamp stamp, const Pose2& T_odom_robot) {
-  const auto session = SessionOf(robot);
-  if (!session) return;
-  session->TakeOdometry(stamp, T_odom_robot);
-  Wake();
-}
-
-void TeamService::ExpectOdometry(std::string_view robot, bool expected) {
-  if (const auto session = SessionOf(robot)) session->ExpectOdometry(expected);
-}
-
-void TeamService::PlaceAt(std::string_view robot, const UncertainPose2& map_robot) {
-  if (const auto session = SessionOf(robot)) session->PlaceAt(map_robot);
 }
 
 void TeamService::TakeIn(std::vector<TeamScan> scans) {
@@ -219,11 +179,8 @@ void TeamService::TellNewPoints(const TeamScan& scan, const MapAddition& additio
 }
 
 TeamStatus TeamService::Status() const {
-  TeamStatus status{.service = identity_, .uptime = steady_clock::now() - begun_};
-  {
-    const std::lock_guard lock(mutex_);
-    for (const auto& [robot, session] : sessions_) status.robots.push_back(session->Status());
-  }
+  TeamStatus status{
+      .service = identity_, .uptime = steady_clock::now() - begun_, .robots = sessions_.Statuses()};
   status.map = StatusOfMaps();
   if (journal_) status.journal = journal_->Status();
   return status;
@@ -251,35 +208,17 @@ void TeamService::PaintMaps(const std::stop_token& stop) {
   }
 }
 
-std::shared_ptr<RobotSession> TeamService::Find(std::string_view robot) const {
-  const std::lock_guard lock(mutex_);
-  const auto found = sessions_.find(robot);
-  return found == sessions_.end() ? nullptr : found->second;
-}
-
-std::shared_ptr<RobotSession> TeamService::SessionOf(std::string_view robot) {
-  const std::lock_guard lock(mutex_);
-  if (const auto known = sessions_.find(robot); known != sessions_.end()) return known->second;
-  if (sessions_.size() >= kMaxRobots) return nullptr;
+std::shared_ptr<RobotSession> TeamService::MakeSession(std::string robot) {
   const auto extend = [this](const TeamScan& scan, std::span<const ScanPoint> points) {
     Extend(scan, points);
   };
-  auto session = std::make_shared<RobotSession>(
-      std::string(robot),
-      options_.team.session,
-      options_.mapper,
-      SessionContext{.service = identity_,
-                     .map = *maps_.Of(robot),
-                     .sink = sink_,
-                     .extend = extend,
-                     .report = [this](const RobotAnswer& answer) { Report(answer); }});
-  if (workers_) workers_->Add(session);
-  return sessions_[session->name()] = session;
-}
-
-void TeamService::Wake() {
-  const std::lock_guard lock(mutex_);
-  if (workers_) workers_->Wake();
+  SessionContext context{.service = identity_,
+                         .map = *maps_.Of(robot),
+                         .sink = sink_,
+                         .extend = extend,
+                         .report = [this](const RobotAnswer& answer) { Report(answer); }};
+  return std::make_shared<RobotSession>(
+      std::move(robot), options_.team.session, options_.mapper, std::move(context));
 }
 
 }  // namespace qwsm::team

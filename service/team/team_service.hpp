@@ -14,6 +14,7 @@
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "qwsm/mapping/mapper_options.hpp"
@@ -22,10 +23,10 @@
 #include "service/team/map_painter.hpp"
 #include "service/team/periodic_task.hpp"
 #include "service/team/robot_session.hpp"
+#include "service/team/session_list.hpp"
 #include "service/team/team_maps.hpp"
 #include "service/team/team_options.hpp"
 #include "service/team/team_sink.hpp"
-#include "service/team/worker_pool.hpp"
 
 namespace qwsm::team {
 
@@ -68,15 +69,23 @@ class TeamService {
   const std::string& identity() const { return identity_; }
 
   /// A robot's publisher is there. What takes messages of a robot makes it join as well.
-  void Join(std::string_view robot);
+  void Join(std::string_view robot) { sessions_.Join(robot); }
   /// It is gone.
-  void Lose(std::string_view robot);
+  void Lose(std::string_view robot) { sessions_.Lose(robot); }
   /// @return false if the scan was refused: malformed, late or a duplicate. See its counts.
-  bool TakeScan(std::string_view robot, LaserScan scan);
-  void TakeOdometry(std::string_view robot, Timestamp stamp, const Pose2& T_odom_robot);
+  bool TakeScan(std::string_view robot, LaserScan scan) {
+    return sessions_.TakeScan(robot, std::move(scan));
+  }
+  void TakeOdometry(std::string_view robot, Timestamp stamp, const Pose2& T_odom_robot) {
+    sessions_.TakeOdometry(robot, stamp, T_odom_robot);
+  }
   /// Whether somebody publishes its odometry: only then do scans wait for it.
-  void ExpectOdometry(std::string_view robot, bool expected);
-  void PlaceAt(std::string_view robot, const UncertainPose2& map_robot);
+  void ExpectOdometry(std::string_view robot, bool expected) {
+    sessions_.ExpectOdometry(robot, expected);
+  }
+  void PlaceAt(std::string_view robot, const UncertainPose2& map_robot) {
+    sessions_.PlaceAt(robot, map_robot);
+  }
 
   /// Takes in relevant scans of other services, several at once where they are there: they are
   /// inserted by stamp, so that services that start late get the same map from the same scans.
@@ -88,9 +97,7 @@ class TeamService {
   std::shared_ptr<const TeamMap> MapOf(std::string_view robot) { return maps_.Of(robot); }
 
  private:
-  std::shared_ptr<RobotSession> Find(std::string_view robot) const;
-  std::shared_ptr<RobotSession> SessionOf(std::string_view robot);
-  void Wake();
+  std::shared_ptr<RobotSession> MakeSession(std::string robot);
   void Extend(const TeamScan& scan, std::span<const ScanPoint> points);
   void TakeInOne(const TeamScan& scan);
   void Restore();
@@ -113,12 +120,10 @@ class TeamService {
   std::atomic<std::uint64_t> duplicates_ = 0;
   std::atomic<std::uint64_t> refused_ = 0;
 
-  mutable std::mutex mutex_;  // Of the list; sessions look after themselves.
-  std::map<std::string, std::shared_ptr<RobotSession>, std::less<>> sessions_;
+  SessionList<RobotSession> sessions_;
   std::map<std::string, MapPainter> painters_;  // Of the task that paints.
 
   std::unique_ptr<Journal> journal_;  // Null: there is none.
-  std::unique_ptr<WorkerPool> workers_;
   std::unique_ptr<PeriodicTask> painting_;
   std::unique_ptr<PeriodicTask> reporting_;
 };

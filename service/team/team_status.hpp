@@ -51,7 +51,7 @@ struct LatencySummary {
 struct RobotStatus {
   std::string name;
   RobotState state = RobotState::kExpected;
-  UncertainPose2 map_robot;  ///< At its last answered scan.
+  UncertainPose2 map_robot{};  ///< At its last answered scan.
   Timestamp stamp{};         ///< Of that scan.
   std::size_t waiting = 0;   ///< Scans in the queue.
   SessionCounts counts;

@@ -27,8 +27,8 @@ MAY_USE = {
     "service/config": LIBRARIES | {"service/dds", "service/team"},  # Of these, options.
     "service/io": {"qwsm", "slam6d"},
     "service/graph": {"slam6d"},
-    "service/dds": {"qwsm", "idl", "service/team"},
-    "service/team": {"qwsm", "service/io"},
+    "service/dds": {"qwsm", "slam6d", "idl", "service/team"},
+    "service/team": {"qwsm", "slam6d", "service/io"},
     "service/pipeline": LIBRARIES | BORDER | {"service/team"},
     "service/apps": LIBRARIES | BORDER | {"service/team", "service/pipeline"},
 }

@@ -89,5 +89,53 @@ TEST(Pose3, ScaledMotionsAddUp) {
   EXPECT_NEAR((2.0 * half.translation_m - motion.translation_m).norm(), 0.0, 1e-12);
 }
 
+TEST(Pose3, QuaternionsCarryARotationAndBringItBackToTheLastBit) {
+  std::mt19937 random(11);
+  for (int i = 0; i < 100'000; ++i) {
+    const Eigen::Matrix3d measured = RotationFromVector(Draw(random, i % 2 == 0 ? 3.0 : 1e-6));
+    const Eigen::Matrix3d carried = RotationFromQuaternion(QuaternionOf(measured));
+    ASSERT_LT(RotationAngle(measured.transpose() * carried), 2e-13) << "case " << i;
+    ASSERT_EQ(RotationFromQuaternion(QuaternionOf(carried)), carried) << "case " << i;
+    ASSERT_EQ(RotationFromQuaternion(-3.0 * QuaternionOf(carried)), carried) << "case " << i;
+  }
+  for (const double angle_rad : {0.0, 0.5 * kPi, kPi}) {
+    const Eigen::Matrix3d R =
+        RotationFromQuaternion(QuaternionOf(RotationFromRollPitchYaw({0.0, 0.0, angle_rad})));
+    EXPECT_EQ(RotationFromQuaternion(QuaternionOf(R)), R) << angle_rad;
+  }
+  EXPECT_FALSE(RotationFromQuaternion(Eigen::Vector4d::Zero()).allFinite());
+}
+
+TEST(Pose3, ComposedCovariancePredictsTheSpread) {
+  std::mt19937 random(12);
+  std::normal_distribution<double> normal;
+  const auto draw_spread = [&] {
+    Matrix6d A;
+    for (double& a : A.reshaped()) a = 0.01 * normal(random);
+    return Matrix6d(A * A.transpose());
+  };
+  const UncertainPose3 a_b{DrawPose(random), draw_spread()};
+  const UncertainPose3 b_c{{RotationFromVector(Draw(random, 1.0)), {2.0, -1.0, 0.5}},
+                           draw_spread()};
+  const auto disturb = [&](const UncertainPose3& pose) {
+    Vector6d e;
+    for (double& x : e) x = normal(random);
+    e = pose.covariance.llt().matrixL() * e;
+    return Pose3{RotationFromVector(e.tail<3>()) * pose.T_a_b.rotation,
+                 pose.T_a_b.translation_m + e.head<3>()};
+  };
+  const UncertainPose3 a_c = a_b * b_c;
+  Matrix6d spread = Matrix6d::Zero();
+  constexpr int kDraws = 20'000;
+  for (int i = 0; i < kDraws; ++i) {
+    const Pose3 drawn = disturb(a_b) * disturb(b_c);
+    Vector6d e;
+    e << drawn.translation_m - a_c.T_a_b.translation_m,
+        RotationVector(drawn.rotation * a_c.T_a_b.rotation.transpose());
+    spread += e * e.transpose() / kDraws;
+  }
+  EXPECT_LT((spread - a_c.covariance).norm(), 0.05 * a_c.covariance.norm());
+}
+
 }  // namespace
 }  // namespace slam6d

@@ -68,6 +68,25 @@ Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& nearly) {
   return U * svd.matrixV().transpose();
 }
 
+// Three components on a grid that is coarse beside the rounding of what makes a quaternion of a
+// matrix; the fourth, one of the large ones, follows from them.
+Eigen::Matrix3d RotationFromQuaternion(const Eigen::Vector4d& xyzw) {
+  constexpr double kGrid = 0x1p-47;
+  constexpr double kLarge = 0.49;  // One is 0.5 at least; a quarter turn is no borderline case.
+  Eigen::Vector4d q = xyzw.normalized();
+  if (!(q.squaredNorm() > kLarge)) return Eigen::Matrix3d::Constant(std::nan(""));
+  Eigen::Index last = 3;
+  while (std::abs(q(last)) < kLarge) --last;
+  q = (q * std::copysign(1.0 / kGrid, q(last))).array().round() * kGrid;
+  q(last) = 0.0;
+  q(last) = std::sqrt(1.0 - q.squaredNorm());
+  return Eigen::Quaterniond(q).toRotationMatrix();
+}
+
+Eigen::Vector4d QuaternionOf(const Eigen::Matrix3d& rotation) {
+  return Eigen::Quaterniond(rotation).coeffs();
+}
+
 Pose3 ScaledMotion(const Pose3& motion, double share) {
   return {.rotation = RotationFromVector(share * RotationVector(motion.rotation)),
           .translation_m = share * motion.translation_m};
@@ -75,6 +94,19 @@ Pose3 ScaledMotion(const Pose3& motion, double share) {
 
 bool IsFinite(const Pose3& pose) {
   return pose.rotation.allFinite() && pose.translation_m.allFinite();
+}
+
+UncertainPose3 operator*(const UncertainPose3& a_b, const UncertainPose3& b_c) {
+  UncertainPose3 a_c{.T_a_b = a_b.T_a_b * b_c.T_a_b};
+  const Eigen::Matrix3d& R = a_b.T_a_b.rotation;
+  Matrix6d by_b = Matrix6d::Identity();  // A turn of b moves c on a lever.
+  by_b.topRightCorner<3, 3>() = -Skew(a_c.T_a_b.translation_m - a_b.T_a_b.translation_m);
+  Matrix6d by_c = Matrix6d::Zero();
+  by_c.topLeftCorner<3, 3>() = R;
+  by_c.bottomRightCorner<3, 3>() = R;
+  a_c.covariance =
+      by_b * a_b.covariance * by_b.transpose() + by_c * b_c.covariance * by_c.transpose();
+  return a_c;
 }
 
 }  // namespace slam6d

@@ -50,11 +50,20 @@ Eigen::Vector3d RollPitchYaw(const Eigen::Matrix3d& rotation);
 /// The rotation nearest to `nearly`; long products of rotations are brought back by it.
 Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& nearly);
 
+/// The rotation of a quaternion (x, y, z, w) of any length, rounded to 1e-13 rad, and its inverse.
+/// Rounded so, a rotation that has been on the way as a quaternion once comes back the
+/// same to the last bit every time after. Not finite where the quaternion has no direction.
+Eigen::Matrix3d RotationFromQuaternion(const Eigen::Vector4d& xyzw);
+Eigen::Vector4d QuaternionOf(const Eigen::Matrix3d& rotation);
+
 /// The pose at `share` of the way from identity to `motion`: translation and rotation vector
 /// scaled.
 Pose3 ScaledMotion(const Pose3& motion, double share);
 
 /// Whether all numbers are finite.
 bool IsFinite(const Pose3& pose);
+
+/// The pose of c in a, from that of b in a and that of c in b, whose errors are independent.
+UncertainPose3 operator*(const UncertainPose3& a_b, const UncertainPose3& b_c);
 
 }  // namespace slam6d

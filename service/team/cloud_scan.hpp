@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+
+#include "qwsm/sensor/laser_scan.hpp"
+#include "slam6d/cloud/point_cloud.hpp"
+
+namespace qwsm::team {
+
+/// One 3D scan of a robot.
+struct CloudScan {
+  Timestamp stamp{};
+  slam6d::PointCloud cloud;      ///< In the sensor's frame, metres.
+  slam6d::Pose3 T_robot_sensor;  ///< Where the sensor sits.
+};
+
+/// A scan and where odometry had the robot then.
+struct CloudObservation {
+  CloudScan scan;
+  std::optional<slam6d::Pose3> T_odom_robot;
+};
+
+/// More points in one scan are a mistake or an attack.
+inline constexpr std::size_t kMaxCloudPoints = 20'000'000;
+
+/// Why a scan must not be registered; empty if it may.
+std::string_view ObjectionTo(const CloudScan& scan);
+/// Why a pose must not be believed; empty if it may.
+std::string_view ObjectionTo(const slam6d::UncertainPose3& pose);
+
+}  // namespace qwsm::team
