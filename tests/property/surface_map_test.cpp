@@ -122,6 +122,22 @@ TEST(SurfaceMap, AWallIsALineAcrossItsNormal) {
   EXPECT_LT(surface.across_m2, 0.02 * 0.02);
 }
 
+TEST(SurfaceMap, TheSidesOfAThinWallAreTwoSurfaces) {
+  SurfaceMap map;
+  const Eigen::Vector2d left(0.0, 1.0);
+  for (int i = 0; i < 40; ++i) {
+    map.Insert({.p_map_m = {0.02 * i, 0.05}, .normal_map = left}, 0);
+    map.Insert({.p_map_m = {0.02 * i, -0.05}, .normal_map = -left}, 1);
+  }
+  const auto nearest = map.quadtree().Nearest({0.4, 0.05}, 0.01);
+  ASSERT_TRUE(nearest);
+  EXPECT_NEAR(map.SurfaceAt(nearest->id).mean_m.y(), 0.05, 1e-5);
+  EXPECT_TRUE(map.IsOnOtherSide(nearest->id, -left));
+  EXPECT_FALSE(map.IsOnOtherSide(nearest->id, left));
+  EXPECT_FALSE(map.IsOnOtherSide(nearest->id, Eigen::Vector2d(1.0, 0.0)));  // Around the corner.
+  EXPECT_FALSE(map.IsOnOtherSide(nearest->id, Eigen::Vector2d::Zero()));
+}
+
 TEST(SurfaceMap, RefusesWhatIsNoPlace) {
   SurfaceMap map;
   EXPECT_FALSE(map.Insert({.p_map_m = {std::nan(""), 0.0}}, 0));

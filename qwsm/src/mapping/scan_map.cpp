@@ -20,13 +20,12 @@ MapAddition ScanMap::Prepare(const LaserScan& scan,
   MapAddition addition{.scan = scan, .map_robot = map_robot, .points = {}};
   addition.points.reserve(points.size());
   const FrameCovariance covariance = FrameCovariance::Of(map_robot);
-  const std::vector<Eigen::Vector2d> normals_robot = EstimateNormals(points);
   const Eigen::Matrix2d R_map_robot = map_robot.T_a_b.Rotation();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector2d p_map = map_robot.T_a_b * points[i].p_robot_m;
     if (options_.insertion == InsertionRule::kNewSurface && !IsNewSurface(p_map)) continue;
     addition.points.push_back({.p_map_m = p_map,
-                               .normal_map = R_map_robot * normals_robot[i],
+                               .normal_map = R_map_robot * points[i].normal_robot,
                                .spacing_m = points[i].spacing_m,
                                .drift_m2 = covariance.PositionVariance(p_map)});
   }

@@ -15,6 +15,7 @@ constexpr double kPairDistancePerError = 5.0;  // Pairs are sought as far as the
 constexpr double kSmallestDoubt_m = 0.002;     // Below, annealing has ended;
 constexpr double kSmallestDoubt_rad = 0.0002;  // the same ten metres away.
 constexpr double kInlierSigmas = 3.0;
+constexpr double kFirstCircle_m = 0.1;  // Beyond a point that cannot be paired: the next surface.
 
 // Derivative of R u + t by (x, y, theta), [ I | J R u ], for arm = R u.
 Eigen::Matrix<double, 2, 3> DerivativeByPose(const Eigen::Vector2d& arm) {
@@ -73,7 +74,9 @@ NormalEquations Pairing::Linearize(const Pose2& T_map_cur, const Doubt& doubt) {
     Pair& pair = pairs_[i];
     // The neighbouring beam ended near here.
     if (i > 0 && pair.cursor.revision == 0) pair.cursor = pairs_[i - 1].cursor;
-    if (!FindPair(p_map, Reach(doubt_m2), pair)) continue;
+    const Query query{
+        .p_map = p_map, .normal_map = R * point.normal_robot, .reach_m = Reach(doubt_m2)};
+    if (!FindPair(query, pair)) continue;
     ++equations.pairs;
     equations.sum_of_distances_m += std::sqrt(pair.distance_m2);
     if (options_.weighting == PairWeighting::kIdentity) {
@@ -121,9 +124,9 @@ double Pairing::Extent_m2(const ScanPoint& point) const {
   return options_.small_object_m * options_.small_object_m + UniformVariance(point.spacing_m);
 }
 
-bool Pairing::FindPair(const Eigen::Vector2d& p_map, double reach_m, Pair& pair) const {
-  const auto nearest = map_.quadtree().Nearest(p_map, reach_m, pair.cursor);
-  if (!nearest || map_.Drift_m2(nearest->id) > max_drift_m2_) {
+bool Pairing::FindPair(const Query& query, Pair& pair) const {
+  const std::optional<Neighbor> nearest = NearestThatMayPair(query, pair.cursor);
+  if (!nearest) {
     pair.id.reset();
     return false;
   }
@@ -132,6 +135,37 @@ bool Pairing::FindPair(const Eigen::Vector2d& p_map, double reach_m, Pair& pair)
   pair.distance_m2 = nearest->distance_m2;
   pair.nearest_m = nearest->position_m;
   return true;
+}
+
+bool Pairing::MayPair(const Query& query, PointId id) const {
+  return map_.Drift_m2(id) <= max_drift_m2_ && !map_.IsOnOtherSide(id, query.normal_map);
+}
+
+std::optional<Neighbor> Pairing::NearestThatMayPair(const Query& query,
+                                                    SearchCursor& cursor) const {
+  const auto nearest = map_.quadtree().Nearest(query.p_map, query.reach_m, cursor);
+  if (!nearest || MayPair(query, nearest->id)) return nearest;
+  // Seldom: look around in widening circles.
+  double radius_m = std::min(query.reach_m, std::sqrt(nearest->distance_m2) + kFirstCircle_m);
+  while (true) {
+    const std::optional<Neighbor> found = NearestThatMayPairWithin(radius_m, query);
+    if (found || radius_m >= query.reach_m) return found;
+    radius_m = std::min(2.0 * radius_m, query.reach_m);
+  }
+}
+
+std::optional<Neighbor> Pairing::NearestThatMayPairWithin(double radius_m,
+                                                          const Query& query) const {
+  std::optional<Neighbor> nearest;
+  map_.quadtree().ForEachInRadius(
+      query.p_map, radius_m, [&](PointId id, const Eigen::Vector2d& position_m) {
+        const double distance_m2 = (position_m - query.p_map).squaredNorm();
+        if (nearest && nearest->distance_m2 <= distance_m2) return;
+        if (MayPair(query, id)) {
+          nearest = {.id = id, .distance_m2 = distance_m2, .position_m = position_m};
+        }
+      });
+  return nearest;
 }
 
 }  // namespace qwsm

@@ -66,7 +66,16 @@ class Pairing {
   double Reach(double doubt_m2) const;
   Eigen::Matrix2d NoiseInMap(const Eigen::Matrix2d& R_map_cur, const ScanPoint& point) const;
   double Extent_m2(const ScanPoint& point) const;
-  bool FindPair(const Eigen::Vector2d& p_map, double reach_m, Pair& pair) const;
+  // What a pair is sought for: a point of the scan as it lies in the map.
+  struct Query {
+    Eigen::Vector2d p_map;
+    Eigen::Vector2d normal_map;
+    double reach_m = 0.0;
+  };
+  bool FindPair(const Query& query, Pair& pair) const;
+  bool MayPair(const Query& query, PointId id) const;
+  std::optional<Neighbor> NearestThatMayPair(const Query& query, SearchCursor& cursor) const;
+  std::optional<Neighbor> NearestThatMayPairWithin(double radius_m, const Query& query) const;
 
   const SurfaceMap& map_;
   std::span<const ScanPoint> points_;

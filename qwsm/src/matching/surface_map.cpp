@@ -11,6 +11,8 @@ namespace qwsm {
 namespace {
 
 constexpr double kNormalScale = 32767.0;
+// Normals with such a cosine between them are of opposite sides; around a corner they are not.
+constexpr double kOpposite = -0.5;
 
 // Variance across a surface, from that of a few samples and what is expected before any. Fitting
 // the line has used up two samples, and the expectation counts as two.
@@ -44,19 +46,22 @@ bool SurfaceMap::Insert(const MapPoint& point, ScanId scan) {
       .own_normal_y = static_cast<std::int16_t>(std::lround(kNormalScale * point.normal_map.y())),
       .spacing_m = static_cast<float>(point.spacing_m),
       .drift_m2 = static_cast<float>(point.drift_m2)};
-  GatherNeighbors(insertion->id);
+  Neighborhood& own = neighborhoods_[insertion->id];
+  ForEachNeighbor(insertion->id, [&](PointId other, const Eigen::Vector2d& offset_m) {
+    own.Add(offset_m);
+    neighborhoods_[other].Add(-offset_m);
+  });
   likelihood_.Insert(point.p_map_m, point.drift_m2);
   return true;
 }
 
-void SurfaceMap::GatherNeighbors(PointId id) {
-  Neighborhood& own = neighborhoods_[id];
+template <class Visit>
+void SurfaceMap::ForEachNeighbor(PointId id, Visit visit) const {
   const Eigen::Vector2d p_m = quadtree_.Position(id);
+  const Eigen::Vector2d normal = OwnNormal(id);
   quadtree_.ForEachInRadius(
       p_m, options_.neighborhood_radius_m, [&](PointId other, const Eigen::Vector2d& other_m) {
-        if (other == id) return;
-        own.Add(other_m - p_m);
-        neighborhoods_[other].Add(p_m - other_m);
+        if (other != id && !IsOnOtherSide(other, normal)) visit(other, other_m - p_m);
       });
 }
 
@@ -70,12 +75,8 @@ void SurfaceMap::RemoveScan(ScanId scan) {
            .own_normal_y = own.own_normal_y,
            .spacing_m = own.spacing_m,
            .drift_m2 = own.drift_m2};
-    const Eigen::Vector2d p_m = quadtree_.Position(id);
-    quadtree_.ForEachInRadius(
-        p_m, options_.neighborhood_radius_m, [&](PointId other, const Eigen::Vector2d& other_m) {
-          if (other != id) own.Add(other_m - p_m);
-        });
-    likelihood_.Insert(p_m, static_cast<double>(own.drift_m2));
+    ForEachNeighbor(id, [&](PointId, const Eigen::Vector2d& offset_m) { own.Add(offset_m); });
+    likelihood_.Insert(quadtree_.Position(id), static_cast<double>(own.drift_m2));
   }
 }
 
@@ -87,6 +88,10 @@ std::size_t SurfaceMap::bytes() const {
 Eigen::Vector2d SurfaceMap::OwnNormal(PointId id) const {
   const Neighborhood& own = neighborhoods_[id];
   return Eigen::Vector2d(own.own_normal_x, own.own_normal_y) / kNormalScale;
+}
+
+bool SurfaceMap::IsOnOtherSide(PointId id, const Eigen::Vector2d& normal_map) const {
+  return OwnNormal(id).dot(normal_map) < kOpposite;
 }
 
 // A scan puts about so many points into a neighbourhood as its beams are spaced.

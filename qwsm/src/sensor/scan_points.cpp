@@ -85,6 +85,14 @@ Eigen::Vector2d NormalOfSparse(std::span<const ScanPoint> points, std::size_t i)
   return {-tangent.y(), tangent.x()};
 }
 
+Eigen::Vector2d NormalTowardsLaser(std::span<const ScanPoint> points, std::size_t i) {
+  const std::size_t first = NeighborhoodEnd(points, i, false);
+  const std::size_t last = NeighborhoodEnd(points, i, true);
+  const std::span<const ScanPoint> around = points.subspan(first, last - first + 1);
+  const Eigen::Vector2d normal = around.size() >= 3 ? NormalOf(around) : NormalOfSparse(points, i);
+  return normal.dot(points[i].beam_robot) > 0.0 ? Eigen::Vector2d(-normal) : normal;
+}
+
 }  // namespace
 
 std::vector<ScanPoint> ToPoints(const LaserScan& scan) {
@@ -99,12 +107,16 @@ std::vector<ScanPoint> ToPoints(const LaserScan& scan) {
     const Eigen::Vector2d beam_robot(std::cos(bearing_robot_rad), std::sin(bearing_robot_rad));
     points.push_back({.p_robot_m = T_robot_laser.translation_m() + range_m * beam_robot,
                       .beam_robot = beam_robot,
+                      .normal_robot = Eigen::Vector2d::Zero(),
                       .range_m = range_m,
                       .arc_m = range_m * step_rad,
                       .spacing_m = 0.0,
                       .beam = beam});
   }
-  for (std::size_t i = 0; i < points.size(); ++i) points[i].spacing_m = SurfaceSpacing(points, i);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i].spacing_m = SurfaceSpacing(points, i);
+    points[i].normal_robot = NormalTowardsLaser(points, i);
+  }
   return points;
 }
 
@@ -119,18 +131,6 @@ std::vector<Eigen::Vector2d> ThinOut(std::span<const ScanPoint> points, double s
     thinned.push_back(point.p_robot_m);
   }
   return thinned;
-}
-
-std::vector<Eigen::Vector2d> EstimateNormals(std::span<const ScanPoint> points) {
-  std::vector<Eigen::Vector2d> normals;
-  normals.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::size_t first = NeighborhoodEnd(points, i, false);
-    const std::size_t last = NeighborhoodEnd(points, i, true);
-    const std::span<const ScanPoint> around = points.subspan(first, last - first + 1);
-    normals.push_back(around.size() >= 3 ? NormalOf(around) : NormalOfSparse(points, i));
-  }
-  return normals;
 }
 
 }  // namespace qwsm

@@ -50,9 +50,10 @@ void Describe(Visitor& visit, SurfaceMapOptions& o) {
 /// A point to be stored.
 struct MapPoint {
   Eigen::Vector2d p_map_m = Eigen::Vector2d::Zero();
-  Eigen::Vector2d normal_map = Eigen::Vector2d::Zero();  ///< Zero where the scan shows no line.
-  double spacing_m = 0.0;                                ///< To the next sample of its surface.
-  double drift_m2 = 0.0;  ///< Variance of its position owing to the pose it was seen from.
+  /// Towards the laser that saw it; zero where the scan shows no line.
+  Eigen::Vector2d normal_map = Eigen::Vector2d::Zero();
+  double spacing_m = 0.0;  ///< To the next sample of its surface.
+  double drift_m2 = 0.0;   ///< Variance of its position owing to the pose it was seen from.
 };
 
 /// The local distribution of stored points around one of them.
@@ -74,7 +75,8 @@ inline double UniformVariance(double length_m) { return length_m * length_m / 12
 inline double UniformLength(double variance_m2) { return std::sqrt(12.0 * variance_m2); }
 
 /// What scans are matched against: points in a quadtree, each with the moments of its
-/// neighbourhood, kept up to date as points come and go.
+/// neighbourhood, kept up to date as points come and go. A thin wall has two surfaces, one on each
+/// side: points that were seen from opposite sides do not share a neighbourhood.
 ///
 /// Const members may be called from several threads at once.
 class SurfaceMap {
@@ -97,6 +99,9 @@ class SurfaceMap {
   double Drift_m2(PointId id) const { return static_cast<double>(neighborhoods_[id].drift_m2); }
   /// The normal a point was stored with; zero if none.
   Eigen::Vector2d OwnNormal(PointId id) const;
+  /// Whether a point lies on the other side of a thin wall than what has this normal. What has no
+  /// normal has no side.
+  bool IsOnOtherSide(PointId id, const Eigen::Vector2d& normal_map) const;
 
  private:
   // Moments of the stored points within the neighbourhood radius, relative to the point itself.
@@ -115,7 +120,9 @@ class SurfaceMap {
     void Add(const Eigen::Vector2d& offset_m);
   };
 
-  void GatherNeighbors(PointId id);
+  // Calls visit(PointId, offset_m) for the other points of the same neighbourhood.
+  template <class Visit>
+  void ForEachNeighbor(PointId id, Visit visit) const;
   double Looks(const Neighborhood& n) const;
 
   SurfaceMapOptions options_;

@@ -15,6 +15,9 @@ namespace qwsm {
 struct ScanPoint {
   Eigen::Vector2d p_robot_m;
   Eigen::Vector2d beam_robot;  ///< Unit vector from the laser to the point.
+  /// Unit normal of the surface, towards the laser, by a line through the neighbouring beams'
+  /// points; zero where they are no line (a corner, an edge, a lone point).
+  Eigen::Vector2d normal_robot = Eigen::Vector2d::Zero();
   double range_m = 0.0;
   double arc_m = 0.0;      ///< From this beam to the next one at this range.
   double spacing_m = 0.0;  ///< To the next sample of the same surface; arc_m for a small object.
@@ -27,9 +30,5 @@ std::vector<ScanPoint> ToPoints(const LaserScan& scan);
 /// Points at least `spacing_m` apart, walking along the scan: near surfaces, on which beams crowd,
 /// count no more than far ones.
 std::vector<Eigen::Vector2d> ThinOut(std::span<const ScanPoint> points, double spacing_m);
-
-/// Unit normals of the surfaces that the scan itself shows, by a line through each point's
-/// neighbouring beams; zero where the neighbourhood is no line (a corner, an edge, a lone point).
-std::vector<Eigen::Vector2d> EstimateNormals(std::span<const ScanPoint> points);
 
 }  // namespace qwsm
