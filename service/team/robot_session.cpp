@@ -70,6 +70,7 @@ RobotStatus RobotSession::Status() const {
 void RobotSession::RunOne() {
   std::optional<Work> work = intake_.Take();
   if (!work) return;
+  HideTeammates(*work);
   const std::vector<ScanPoint> points = ToPoints(work->scan);
   Answer(*work, points);
 }
@@ -90,6 +91,7 @@ void RobotSession::Answer(Work& work, std::span<const ScanPoint> points) {
   }
   const auto answered = steady_clock::now();
   Note(work, step, answered - begun);
+  context_.map.robots().Report(name(), step.map_robot.T_a_b.translation_m(), answered);
   const SessionCounts counts = intake_.Status().counts;
   const RobotAnswer answer{.robot = name(),
                            .step = step,
@@ -150,6 +152,20 @@ bool RobotSession::FindPlaceIn(const ScanMap& map,
   tracker_.PlaceAt(Loosened({.T_a_b = found->best.T_map_robot}));
   Tell(false, "was found in the map");
   return true;
+}
+
+// To a robot in a corridor, another one that comes along is the only thing that tells how far it
+// has gone: wrongly, for it moves.
+void RobotSession::HideTeammates(Work& work) {
+  const std::optional<Pose2> T_odom_last = std::exchange(T_odom_last_, work.T_odom_robot);
+  if (!is_placed_) return;
+  const bool is_motion_known = work.T_odom_robot && T_odom_last && work.odometry_goes_on;
+  const Pose2 T_last_robot =
+      is_motion_known ? T_odom_last->Inverse() * *work.T_odom_robot : Pose2{};
+  HideRobots(context_.map.robots().OthersThan(name(), steady_clock::now()),
+             context_.teammate_radius_m,
+             tracker_.map_robot().T_a_b * T_last_robot,
+             work.scan);
 }
 
 void RobotSession::Note(const Work& work,

@@ -23,6 +23,7 @@ struct SessionContext {
   std::string service;  ///< For the keys of its relevant scans.
   TeamMap& map;
   TeamSink& sink;
+  double teammate_radius_m = 0.0;  ///< See TeamOptions.
   /// Puts a relevant scan into the map, the journal and the network.
   std::function<void(const TeamScan&, std::span<const ScanPoint>)> extend;
   /// Tells of an answer once what it says is safe.
@@ -72,6 +73,7 @@ class RobotSession final : public Lane {
   void Answer(Work& work, std::span<const ScanPoint> points);
   bool Place(const ScanMap& map, const Work& work, std::span<const ScanPoint> points);
   bool FindPlaceIn(const ScanMap& map, Timestamp stamp, std::span<const ScanPoint> points);
+  void HideTeammates(Work& work);
   void Note(const Work& work, const MappingStep& step, std::chrono::nanoseconds matching);
   void Tell(bool is_warning, std::string_view text) const;
 
@@ -86,6 +88,7 @@ class RobotSession final : public Lane {
   // Of the worker alone.
   RobotTracker tracker_;
   bool is_placed_ = false;
+  std::optional<Pose2> T_odom_last_;
   std::optional<Timestamp> looked_for_place_;
   std::uint64_t sequence_ = 0;
 };

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "qwsm/mapping/scan_map.hpp"
+#include "service/team/robot_positions.hpp"
 #include "service/team/team_scan.hpp"
 #include "service/team/twin_state.hpp"
 
@@ -45,6 +46,9 @@ class TeamMap {
   std::shared_ptr<const MapAddition> Insert(const TeamScan& scan,
                                             std::span<const ScanPoint> points);
 
+  /// Where those who are matched against this map are at the moment.
+  RobotPositions& robots() { return robots_; }
+
   /// Whether the caller, who does not know where its robot is, may be the one to begin the map
   /// there and so define its frame. True once.
   bool Begin() { return !has_begun_.exchange(true); }
@@ -58,6 +62,7 @@ class TeamMap {
   bool Register(const TeamScan& scan);
 
   State state_;
+  RobotPositions robots_;
   std::atomic<bool> has_begun_ = false;
   mutable std::mutex register_;
   std::unordered_set<ScanKey, ScanKeyHash> known_;

@@ -80,6 +80,7 @@ struct TeamOptions {
   MapSharing map = MapSharing::kTeam;
   std::vector<RobotStartOptions> robots;
   SessionOptions session;
+  double teammate_radius_m = 0.7;
   int threads = 0;
   double map_period_s = 5.0;
   double status_period_s = 1.0;
@@ -91,6 +92,11 @@ void Describe(Visitor& visit, TeamOptions& o) {
   visit("map", o.map, {.help = "team: one map for all; each-robot: one each"});
   visit("robots", o.robots, {.help = "where robots start"});
   visit("session", o.session, {.help = "how each robot is listened to"});
+  visit("teammate_radius_m",
+        o.teammate_radius_m,
+        {.help = "what is seen this near to another robot of the map is that robot",
+         .min = 0,
+         .max = 100});
   visit("threads",
         o.threads,
         {.help = "that match scans; 0: as many as the computer has cores", .min = 0, .max = 256});

@@ -137,6 +137,11 @@ void TeamService::TakeInOne(const TeamScan& scan) {
     return;
   }
   const bool is_new = Insert(scan, ToPoints(scan.scan), [](const MapAddition&) {});
+  if (is_new) {
+    maps_.Of(scan.key.robot)
+        ->robots()
+        .Report(scan.key.robot, scan.map_robot.T_a_b.translation_m(), steady_clock::now());
+  }
   ++(is_new ? taken_in_ : duplicates_);
 }
 
@@ -215,6 +220,7 @@ std::shared_ptr<RobotSession> TeamService::MakeSession(std::string robot) {
   SessionContext context{.service = identity_,
                          .map = *maps_.Of(robot),
                          .sink = sink_,
+                         .teammate_radius_m = options_.team.teammate_radius_m,
                          .extend = extend,
                          .report = [this](const RobotAnswer& answer) { Report(answer); }};
   return std::make_shared<RobotSession>(

@@ -54,6 +54,11 @@ class RecordingSink : public team::TeamSink {
     const auto found = reports_.find(robot);
     return found == reports_.end() ? std::vector<MappingStep>() : found->second;
   }
+  /// @pre the robot was answered.
+  MappingStep last_step(const std::string& robot) const {
+    const std::lock_guard lock(mutex_);
+    return steps_.at(robot).back();
+  }
   std::vector<team::TeamScan> relevant() const {
     const std::lock_guard lock(mutex_);
     return relevant_;

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What sharing a map does to accuracy: four simulated robots in one office, once with a map each
+// and once with one for all, scan for scan in the same order.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "qwsm/metrics/error_statistics.hpp"
+#include "service/config/options_io.hpp"
+#include "service/team/team_service.hpp"
+#include "sim/simulation.hpp"
+#include "tests/support/recording_sink.hpp"
+
+namespace qwsm::team {
+namespace {
+
+constexpr std::size_t kRobots = 4;
+
+/// How well robots are told where they start; the first one defines the frame and knows.
+struct ToldStart {
+  double sigma_m = 0.0;
+  double sigma_rad = 0.0;
+};
+
+std::vector<sim::Reading> Drive(int seed) {
+  sim::Simulation simulation(config::LoadOptions<sim::ScenarioOptions>(
+      {.file = QWSM_SOURCE_DIR "/configs/scenarios/team.yaml",
+       .settings = {"seed=" + std::to_string(seed), "duration_s=90"}}));
+  std::vector<sim::Reading> readings;
+  while (std::optional<sim::Reading> reading = simulation.Next()) {
+    readings.push_back(std::move(*reading));
+  }
+  return readings;
+}
+
+std::string NameOf(std::size_t robot) { return "robot" + std::to_string(robot + 1); }
+
+UncertainPose2 StartOf(const sim::Reading& first, const ToldStart& told, std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  // Zero would be a claim that nobody can keep, and next to it there is no error to speak of.
+  constexpr double kExact = 1e-3;
+  const bool is_told_poorly = first.robot > 0 && told.sigma_m > 0.0;
+  const double sigma_m = is_told_poorly ? told.sigma_m : kExact;
+  const double sigma_rad = is_told_poorly ? told.sigma_rad : kExact;
+  Pose2 error;
+  if (is_told_poorly) {
+    error = {sigma_m * normal(random), sigma_m * normal(random), sigma_rad * normal(random)};
+  }
+  UncertainPose2 start{.T_a_b = first.T_world_robot * error};
+  start.covariance.diagonal() = Eigen::Vector3d(sigma_m, sigma_m, sigma_rad).cwiseAbs2();
+  return start;
+}
+
+/// The root mean square of the errors of each robot's positions, in the frame of the world.
+std::array<double, kRobots> Errors_m(const std::vector<sim::Reading>& readings,
+                                     MapSharing sharing,
+                                     const ToldStart& told = {}) {
+  test::RecordingSink sink;
+  TeamServiceOptions options;
+  options.team.map = sharing;
+  options.team.threads = 1;
+  options.team.map_period_s = 0.0;
+  TeamService service(options, sink);
+  service.Start();
+  std::mt19937_64 random(7);
+  std::array<std::vector<double>, kRobots> errors_m;
+  std::array<bool, kRobots> is_placed{};
+  for (const sim::Reading& reading : readings) {
+    const std::string robot = NameOf(reading.robot);
+    if (!std::exchange(is_placed[reading.robot], true)) {
+      service.PlaceAt(robot, StartOf(reading, told, random));
+    }
+    service.TakeOdometry(robot, reading.scan.stamp, reading.T_odom_robot);
+    service.TakeScan(robot, reading.scan);
+    service.WaitUntilIdle();
+    const Pose2 error = reading.T_world_robot.Inverse() * sink.last_step(robot).map_robot.T_a_b;
+    errors_m[reading.robot].push_back(error.translation_m().norm());
+  }
+  std::array<double, kRobots> rmse_m{};
+  for (std::size_t i = 0; i < kRobots; ++i) rmse_m[i] = Summarize(errors_m[i]).rmse;
+  return rmse_m;
+}
+
+class TeamDrive : public ::testing::TestWithParam<int> {};
+
+TEST_P(TeamDrive, OneMapForAllIsAsAccurateAsOneEach) {
+  const std::vector<sim::Reading> readings = Drive(GetParam());
+  const std::array<double, kRobots> each_m = Errors_m(readings, MapSharing::kEachRobot);
+  const std::array<double, kRobots> shared_m = Errors_m(readings, MapSharing::kTeam);
+  for (std::size_t i = 0; i < kRobots; ++i) {
+    RecordProperty(NameOf(i),
+                   std::to_string(shared_m[i]) + " m, alone " + std::to_string(each_m[i]));
+    // A robot alone may have been a few millimetres luckier.
+    EXPECT_LT(shared_m[i], 2.0 * each_m[i]) << NameOf(i);
+  }
+  EXPECT_LT(Summarize({shared_m.begin(), shared_m.end()}).median,
+            Summarize({each_m.begin(), each_m.end()}).median);
+}
+
+INSTANTIATE_TEST_SUITE_P(, TeamDrive, ::testing::Values(1, 2, 3));
+
+}  // namespace
+}  // namespace qwsm::team
