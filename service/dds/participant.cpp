@@ -45,8 +45,14 @@ constexpr std::string_view kUnicastOnThisHost =
     "</ParticipantIndex><MaxAutoParticipantIndex>100</MaxAutoParticipantIndex>"
     "<Peers><Peer Address=\"localhost\"/></Peers>";
 
-/// What the options say, in Cyclone's language; later parts of a configuration win over earlier.
-std::string ConfigurationOf(const NetworkOptions& options) {
+// A map of 4 MB comes in bursts; `min` stays at the system's default, for asking more may fail.
+constexpr std::string_view kDefaults =
+    "<CycloneDDS><Domain id=\"any\"><Internal>"
+    "<SocketReceiveBufferSize min=\"default\" max=\"4MB\"/>"
+    "</Internal></Domain></CycloneDDS>";
+
+/// What the options say, in Cyclone's language.
+std::string ToXml(const NetworkOptions& options) {
   std::string xml = "<CycloneDDS><Domain id=\"any\"><General>";
   if (!options.interface.empty()) {
     xml += fmt::format("<Interfaces><NetworkInterface name=\"{}\"/></Interfaces>",
@@ -54,13 +60,18 @@ std::string ConfigurationOf(const NetworkOptions& options) {
   }
   xml += options.interface == "lo" ? kUnicastOnThisHost : "</General><Discovery>";
   if (!options.tag.empty()) xml += fmt::format("<Tag>{}</Tag>", EscapeXml(options.tag));
-  // A map of 4 MB comes in bursts; `min` stays at the system's default, for asking more may fail.
-  xml +=
-      "</Discovery><Internal><SocketReceiveBufferSize min=\"default\" max=\"4MB\"/></Internal>"
-      "</Domain></CycloneDDS>";
+  return xml + "</Discovery></Domain></CycloneDDS>";
+}
+
+/// Later parts of a configuration win over earlier ones.
+std::string ConfigurationOf(const NetworkOptions& options) {
   const char* environment = std::getenv("CYCLONEDDS_URI");
   const bool is_configured = environment != nullptr && *environment != '\0';
-  return is_configured ? fmt::format("{},{}", environment, xml) : xml;
+  return fmt::format("{},{}{}{}",
+                     kDefaults,
+                     is_configured ? environment : "",
+                     is_configured ? "," : "",
+                     ToXml(options));
 }
 
 Entity CreateParticipant(std::uint32_t domain) {

@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "service/dds/writer.hpp"
+#include "service/dds/topic.hpp"
 
 namespace qwsm::dds {
 namespace {
@@ -44,9 +44,7 @@ UntypedReader::UntypedReader(const Participant& participant,
                              const std::string& topic,
                              Profile profile) {
   const Qos qos = QosOf(profile);
-  const std::string name = DdsTopicName(topic);
-  topic_ = Entity(
-      dds_create_topic(participant.handle(), &descriptor, name.c_str(), nullptr, nullptr), topic);
+  topic_ = MakeTopic(participant, descriptor, topic);
   reader_ = Entity(dds_create_reader(participant.handle(), topic_.handle(), qos.get(), nullptr),
                    topic + ": cannot be read");
   dds_set_status_mask(handle(), DDS_DATA_AVAILABLE_STATUS);  // What a WaitSet wakes up for.

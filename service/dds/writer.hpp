@@ -11,10 +11,6 @@
 
 namespace qwsm::dds {
 
-/// The DDS topic of a ROS topic: `/robot1/scan` is `rt/robot1/scan`.
-/// @throws DdsError where it has other characters than letters, digits, _ and /.
-std::string DdsTopicName(const std::string& ros_topic);
-
 /// What writers of all types have in common.
 class UntypedWriter {
  public:
