@@ -21,7 +21,8 @@ class RobotPublisher::Topics {
         odom_frame_(names_.Frame(kOdometryFrame)),
         robot_frame_(names_.Frame(kRobotFrame)),
         static_transforms_(participant, kStaticTransformsTopic, Profile::kStaticTransformsOut),
-        truth_(participant, names_.Topic(kTruthTopic), Profile::kSensorOut) {
+        truth_(participant, names_.Topic(kTruthTopic), Profile::kSensorOut),
+        told_poses_(participant, names_.Topic(kInitialPoseTopic), Profile::kSensorOut) {
     // Scans last: when somebody discovers them, everything else is known already.
     if (use == OdometryUse::kPublished) {
       odometry_.emplace(participant, names_.Topic(kOdometryTopic), Profile::kSensorOut);
@@ -32,6 +33,7 @@ class RobotPublisher::Topics {
   bool has_listener() const {
     return scans_->reader_count() > 0 && (!odometry_ || odometry_->reader_count() > 0);
   }
+  bool has_pose_listener() const { return told_poses_.reader_count() > 0; }
   const RobotNames& names() const { return names_; }
 
   /// A laser that is mounted anew gets a new frame: transforms and scans may overtake each other.
@@ -59,6 +61,14 @@ class RobotPublisher::Topics {
     return scans_->Write(ToWire(observation.scan, laser_frame_));
   }
 
+  void TellPose(Timestamp stamp, const UncertainPose2& map_robot) {
+    wire::PoseWithCovarianceStamped sample{};
+    sample.header = HeaderOf(stamp, map_frame_);
+    sample.pose.pose = ToWire(map_robot.T_a_b);
+    CopyCovariance(map_robot.covariance, sample.pose.covariance);
+    told_poses_.Write(sample);
+  }
+
   void PublishTruth(Timestamp stamp, const Pose2& T_world_robot) {
     truth_.Write(OdometryOf(stamp, world_frame_, T_world_robot));
   }
@@ -82,11 +92,13 @@ class RobotPublisher::Topics {
   std::string odom_frame_;
   std::string robot_frame_;
   std::string world_frame_ = kWorldFrame;
+  std::string map_frame_ = kMapFrame;
   std::string laser_frame_;
   std::optional<Pose2> T_robot_laser_;
   int placements_ = 0;
   Writer<wire::TFMessage> static_transforms_;
   Writer<wire::Odometry> truth_;
+  Writer<wire::PoseWithCovarianceStamped> told_poses_;
   std::optional<Writer<wire::Odometry>> odometry_;
   std::optional<Writer<wire::LaserScan>> scans_;
 };
@@ -111,6 +123,14 @@ bool RobotPublisher::WaitForListener(const Pose2& T_robot_laser, std::chrono::na
 
 bool RobotPublisher::Publish(const Observation& observation) {
   return topics_->Publish(observation);
+}
+
+bool RobotPublisher::has_listener() const { return topics_->has_listener(); }
+
+bool RobotPublisher::has_pose_listener() const { return topics_->has_pose_listener(); }
+
+void RobotPublisher::TellPose(Timestamp stamp, const UncertainPose2& map_robot) {
+  topics_->TellPose(stamp, map_robot);
 }
 
 void RobotPublisher::PublishTruth(Timestamp stamp, const Pose2& T_world_robot) {

@@ -29,6 +29,11 @@ class RobotPublisher {
   /// Odometry goes first, so that it is there when its scan arrives.
   /// @returns false where a listener did not take it in time.
   bool Publish(const Observation& observation);
+  /// Whether somebody listens to the scans; to where the robot is told to be.
+  bool has_listener() const;
+  bool has_pose_listener() const;
+  /// Tells where the robot is, as an operator would (initialpose).
+  void TellPose(Timestamp stamp, const UncertainPose2& map_robot);
   void PublishTruth(Timestamp stamp, const Pose2& T_world_robot);
 
   /// Waits until all that was published has arrived at every reliable listener.

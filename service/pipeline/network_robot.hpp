@@ -18,7 +18,8 @@ namespace qwsm::pipeline {
 enum class NetworkPace { kFree, kAnswers };
 
 /// A simulated robot on the network: publishes what it measures and where it really is, and takes
-/// commands if somebody outside drives it.
+/// commands if somebody outside drives it. Robots of a team say once where they start, so that the
+/// frame of their map is that of the world.
 class NetworkRobot final : public ReadingSink {
  public:
   /// @param robot index in the simulation, which outlives this, as does the participant.
@@ -38,9 +39,13 @@ class NetworkRobot final : public ReadingSink {
   const dds::RobotNames& names() const { return publisher_.names(); }
 
  private:
+  bool HasBegun(const sim::Reading& reading);
+
   sim::Simulation& simulation_;
   std::size_t robot_;
   NetworkPace pace_;
+  bool has_begun_;
+  int scans_held_back_ = 0;
   dds::MatchReportReader reports_;
   dds::CommandReader commands_;
   dds::RobotPublisher publisher_;
