@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/apps/messages.hpp"
 
+#include <fmt/format.h>
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_sinks.h>
@@ -9,9 +10,37 @@
 
 #include <cerrno>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 namespace qwsm::apps {
+namespace {
+
+constexpr const char* kTime = "%Y-%m-%dT%H:%M:%S.%eZ";
+
+class JsonFormatter final : public spdlog::formatter {
+ public:
+  void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& line) override {
+    spdlog::memory_buf_t time;
+    time_.format(message, time);
+    nlohmann::ordered_json json;
+    json["time"] = fmt::to_string(time);
+    const auto level = spdlog::level::to_string_view(message.level);
+    json["level"] = std::string(level.data(), level.size());
+    json["message"] = std::string(message.payload.data(), message.payload.size());
+    const std::string text = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    line.append(text.data(), text.data() + text.size());
+    line.push_back('\n');
+  }
+  std::unique_ptr<spdlog::formatter> clone() const override {
+    return std::make_unique<JsonFormatter>();
+  }
+
+ private:
+  spdlog::pattern_formatter time_{kTime, spdlog::pattern_time_type::utc, ""};
+};
+
+}  // namespace
 
 void StartMessages(const Verbosity& verbosity) {
   const auto console = std::make_shared<spdlog::sinks::stderr_sink_mt>();
@@ -24,9 +53,15 @@ void StartMessages(const Verbosity& verbosity) {
   spdlog::set_default_logger(std::make_shared<spdlog::logger>("program", console));
 }
 
+void WriteMessagesAsJson() {
+  for (const spdlog::sink_ptr& sink : spdlog::default_logger()->sinks()) {
+    sink->set_formatter(std::make_unique<JsonFormatter>());
+  }
+}
+
 void CopyMessagesTo(const std::filesystem::path& file) {
   const auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string(), true);
-  sink->set_formatter(std::make_unique<spdlog::pattern_formatter>("%Y-%m-%dT%H:%M:%S.%eZ %l: %v",
+  sink->set_formatter(std::make_unique<spdlog::pattern_formatter>(std::string(kTime) + " %l: %v",
                                                                   spdlog::pattern_time_type::utc));
   spdlog::default_logger()->sinks().push_back(sink);
   spdlog::default_logger()->flush_on(spdlog::level::info);

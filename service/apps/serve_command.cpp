@@ -111,6 +111,7 @@ void Summarize(const team::TeamStatus& status) {
 
 ExitCode RunServe(const ServeArguments& arguments) {
   const NetworkSession session(arguments.network);
+  if (arguments.network.verbosity.json) WriteMessagesAsJson();
   std::optional<pipeline::ResultsFolder> folder;
   if (arguments.output) {
     folder.emplace(*arguments.output, arguments.force);
@@ -142,7 +143,7 @@ Command AddServeCommand(CLI::App& program) {
   parser->add_flag("--force", arguments->force, "write into a folder that holds other things");
   parser->add_option("--journal", arguments->journal, "where relevant scans are kept for restarts")
       ->type_name("FILE");
-  AddNetworkArguments(*parser, arguments->network, "not used");
+  AddNetworkArguments(*parser, arguments->network, "messages as JSON, one object a line");
   return {.parser = parser, .run = [arguments] { return RunServe(*arguments); }};
 }
 

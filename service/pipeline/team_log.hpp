@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "service/pipeline/repeat_filter.hpp"
 #include "service/team/team_sink.hpp"
 
 namespace qwsm::pipeline {
 
-/// Turns what is worth a line into messages.
+/// Turns what is worth a line into messages, the same one at most every ten seconds.
 class TeamLog final : public team::TeamSink {
  public:
   void TakeAnswer(const team::RobotAnswer&) override {}
@@ -18,6 +19,7 @@ class TeamLog final : public team::TeamSink {
   void TakeEvent(const team::TeamEvent& event) override;
 
  private:
+  RepeatFilter repeats_{std::chrono::seconds(10)};
   std::uint64_t dropped_ = 0;  // As told last.
 };
 
