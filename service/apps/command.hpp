@@ -65,6 +65,7 @@ Command AddExperimentCommand(CLI::App& program);
 Command AddServeCommand(CLI::App& program);
 Command AddReplayCommand(CLI::App& program);
 Command AddEchoCommand(CLI::App& program);
+Command AddWatchCommand(CLI::App& program);
 Command AddRecordCommand(CLI::App& program);
 std::vector<Command> AddConfigCommands(CLI::App& program);
 

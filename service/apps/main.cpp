@@ -27,6 +27,7 @@ ExitCode Run(const Arguments& arguments) {
                                 AddServeCommand(program),
                                 AddReplayCommand(program),
                                 AddEchoCommand(program),
+                                AddWatchCommand(program),
                                 AddRecordCommand(program)};
   for (Command& command : AddConfigCommands(program)) commands.push_back(std::move(command));
   return RunProgram(program, commands, arguments);
