@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// How the service bears more robots than one, and more than it can bear; bench/team_load is the
+// long run with figures.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "tests/support/network.hpp"
+#include "tests/support/team_traffic.hpp"
+
+namespace qwsm::test {
+namespace {
+
+constexpr std::size_t kQueueScans = 4;  // SessionOptions::queue_scans.
+
+class DdsLoad : public ::testing::Test {
+ protected:
+  dds::NetworkOptions Network() const { return {.interface = "lo", .tag = network_.tag()}; }
+
+  PrivateNetwork network_;
+};
+
+TEST_F(DdsLoad, SixteenRobotsAreAllAnswered) {
+  TeamTraffic team({.robots = 16, .rate_hz = 10.0, .duration_s = 4.0});
+  Daemon service(network_.Join({"serve"}));
+  ASSERT_TRUE(team.Join(Network()));
+  // On a machine that is busy with something else, more slowly: what counts is that nothing is
+  // lost.
+  const TrafficResult result = team.Run(team.scans_left(), 0.5);
+  EXPECT_EQ(result.counted, result.sent);
+  EXPECT_EQ(result.answered, result.sent);
+  EXPECT_EQ(result.dropped, 0U);
+  EXPECT_EQ(result.out_of_order, 0U);
+  EXPECT_EQ(service.End().exit_code, 0);
+}
+
+TEST_F(DdsLoad, FourTimesTooMuchCostsTheOldestScansAndBoundsTheLatency) {
+  constexpr int kRobots = 4;
+  TeamTraffic team({.robots = kRobots, .rate_hz = 50.0, .duration_s = 20.0});
+  Daemon service(network_.Join({"serve", "--set", "team.threads=1"}));
+  ASSERT_TRUE(team.Join(Network()));
+  const TrafficResult calm = team.Run(400, 0.5);
+  ASSERT_GT(calm.answered, 0U);
+  const std::chrono::duration<double> match = Quantile(calm.matching, 0.5);
+  const double speed = 4.0 / (match.count() * kRobots * 50.0);
+
+  const TrafficResult result = team.Run(team.scans_left(), speed);
+  RecordProperty("speed", std::to_string(speed));
+  ASSERT_GT(result.answered, 0U);
+  EXPECT_GT(result.dropped, result.answered);
+  EXPECT_EQ(result.out_of_order, 0U);  // The oldest go, never the newer ones.
+  // Every scan was answered or dropped, but for those of which no later report tells.
+  EXPECT_NEAR(static_cast<double>(calm.answered + result.answered + result.dropped),
+              static_cast<double>(result.counted),
+              kRobots * (kQueueScans + 1));
+  // What is answered has waited for no more than what was in all queues.
+  EXPECT_LT(Quantile(result.latency, 0.9),
+            3 * kRobots * (kQueueScans + 1) * Quantile(result.matching, 0.9));
+  EXPECT_EQ(service.End().exit_code, 0);
+}
+
+}  // namespace
+}  // namespace qwsm::test

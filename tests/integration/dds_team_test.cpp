@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A team through the network, as its operator sees it: the simulator, the service and the terminal
+// as processes on loopback.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+
+#include "tests/support/network.hpp"
+
+namespace qwsm::test {
+namespace {
+
+class DdsTeam : public ::testing::Test {
+ protected:
+  std::string Path(const std::string& name) const { return folder_.path() / name; }
+
+  /// The simulator takes the network as `--network`, for `--set` is of the scenario.
+  Outcome Simulate(const std::string& scenario, const std::string& duration_s) const {
+    return RunProgram({"sim",
+                       scenario,
+                       "--duration",
+                       duration_s,
+                       "--output",
+                       Path("driven"),
+                       "--quiet",
+                       "--dds",
+                       "--wait-for-answers",
+                       "--network",
+                       "interface=lo",
+                       "--network",
+                       "tag=" + network_.tag()});
+  }
+
+  TemporaryFolder folder_;
+  PrivateNetwork network_;
+};
+
+TEST_F(DdsTeam, FindsAllRobotsOfTheSimulatorInTheFrameOfTheWorld) {
+  Daemon service(network_.JoinService({"serve", "--output", Path("served"), "--verbose"}));
+  ASSERT_TRUE(service.WaitUntilItSays("serving as"));
+  const Outcome driven = Simulate("team", "5");
+  ASSERT_EQ(driven.exit_code, 0) << driven.errors;
+  const Outcome served = service.End();
+  ASSERT_EQ(served.exit_code, 0) << served.errors;
+  for (const std::string robot : {"robot_1", "robot_2", "robot_3", "robot_4"}) {
+    // Not aligned: where they start is part of what is compared.
+    const Outcome compared = RunProgram({"eval",
+                                         Path("served/" + robot),
+                                         "--truth",
+                                         Path("driven/" + robot + ".truth.tum"),
+                                         "--max-ate",
+                                         "0.1"});
+    EXPECT_EQ(compared.exit_code, 0) << robot << compared.output << compared.errors;
+  }
+}
+
+TEST_F(DdsTeam, IsWatchedAtAGlance) {
+  Daemon service(network_.JoinService({"serve", "--verbose"}));
+  ASSERT_TRUE(service.WaitUntilItSays("serving as"));
+  Daemon watch(network_.Join({"watch", "--period", "0.2", "--verbose"}));
+  ASSERT_TRUE(watch.WaitUntilItSays("listening"));
+  const Outcome driven = Simulate("team", "2");
+  ASSERT_EQ(driven.exit_code, 0) << driven.errors;
+  const Outcome watched = watch.End();
+  EXPECT_EQ(watched.exit_code, 0) << watched.errors;
+  const std::string table = watched.output.substr(watched.output.rfind("robot "));
+  EXPECT_NE(table.find("latency ms"), std::string::npos) << table;
+  for (const char* robot : {"robot_1", "robot_2", "robot_3", "robot_4"}) {
+    EXPECT_NE(table.find(robot), std::string::npos) << table;
+  }
+  EXPECT_NE(watched.output.find("matched"), std::string::npos) << watched.output;
+  // Not on a terminal: nothing is overwritten.
+  EXPECT_EQ(watched.output.find('\x1b'), std::string::npos);
+}
+
+TEST_F(DdsTeam, WhoWatchesAloneIsToldSo) {
+  const Outcome watched = network_.Run({"watch", "--duration", "0.1"});
+  EXPECT_EQ(watched.exit_code, 0) << watched.errors;
+  EXPECT_EQ(watched.output, "nobody is reported on yet\n");
+}
+
+TEST_F(DdsTeam, JournalIsMappedAsALogIs) {
+  Daemon service(network_.JoinService({"serve", "--journal", Path("team.db"), "--verbose"}));
+  ASSERT_TRUE(service.WaitUntilItSays("serving as"));
+  const Outcome driven = Simulate("team", "4");
+  ASSERT_EQ(driven.exit_code, 0) << driven.errors;
+  const Outcome served = service.End();
+  ASSERT_EQ(served.exit_code, 0) << served.errors;
+  const Outcome mapped = RunProgram({"map", Path("team.db"), "--output", Path("mapped"), "--json"});
+  ASSERT_EQ(mapped.exit_code, 0) << mapped.errors;
+  EXPECT_TRUE(std::filesystem::exists(Path("mapped/map.png")));
+  const std::size_t at = served.output.find(" points of ");
+  ASSERT_NE(at, std::string::npos) << served.output;
+  // A line for each scan.
+  EXPECT_EQ(std::ranges::count(mapped.output, '\n'), std::stoi(served.output.substr(at + 11)));
+}
+
+}  // namespace
+}  // namespace qwsm::test
