@@ -7,6 +7,7 @@ namespace sim::testing {
 ScenarioOptions EmptyFloor() {
   RobotOptions robot;
   robot.odometry.travel_noise_m = 0.0;
+  robot.odometry.calibration = {.scale_sigma = 0.0, .balance_sigma = 0.0, .turn_sigma = 0.0};
   robot.laser.range_sigma_m = 0.0;
   robot.driver.kind = DriverKind::kExternal;
   ScenarioOptions scenario;

@@ -15,8 +15,11 @@ using namespace std::chrono_literals;
 
 constexpr WheelDriveOptions kTwoWheels{.type = DriveType::kDifferential, .track_m = 0.4};
 
+constexpr CalibrationOptions kExact{.scale_sigma = 0.0, .balance_sigma = 0.0, .turn_sigma = 0.0};
+
 TEST(WheelOdometry, FollowsACircle) {
-  WheelOdometry odometry({.ticks_per_turn = 10000000, .travel_noise_m = 0.0}, kTwoWheels, 1);
+  WheelOdometry odometry(
+      {.ticks_per_turn = 10000000, .travel_noise_m = 0.0, .calibration = kExact}, kTwoWheels, 1);
   // A quarter of a circle of 1 m radius in one second.
   const double arc_m = 0.5 * std::numbers::pi;
   for (int step = 0; step < 100; ++step) odometry.Advance({0.8 * arc_m, 1.2 * arc_m}, 10ms);
@@ -28,7 +31,8 @@ TEST(WheelOdometry, FollowsACircle) {
 TEST(WheelOdometry, MovesByWholeEncoderStepsAndLosesNone) {
   constexpr int kTicks = 100;
   const double tick_m = 2.0 * std::numbers::pi * kTwoWheels.wheel_radius_m / kTicks;
-  WheelOdometry odometry({.ticks_per_turn = kTicks, .travel_noise_m = 0.0}, kTwoWheels, 1);
+  WheelOdometry odometry(
+      {.ticks_per_turn = kTicks, .travel_noise_m = 0.0, .calibration = kExact}, kTwoWheels, 1);
   for (int step = 1; step <= 1000; ++step) {
     odometry.Advance({0.1, 0.1}, 10ms);
     const double ticks = odometry.T_odom_robot().x_m / tick_m;
@@ -42,7 +46,10 @@ TEST(WheelOdometry, NoiseGrowsWithTheRootOfTheDistance) {
   constexpr double kDistance_m = 4.0;
   double squares_m2 = 0.0;
   for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
-    WheelOdometry odometry({.ticks_per_turn = 1000000, .travel_noise_m = 0.01}, kTwoWheels, seed);
+    WheelOdometry odometry(
+        {.ticks_per_turn = 1000000, .travel_noise_m = 0.01, .calibration = kExact},
+        kTwoWheels,
+        seed);
     for (int step = 0; step < 400; ++step) odometry.Advance({1.0, 1.0}, 10ms);
     // The difference of the two sides turns the robot by itself over the track.
     const double turned_m = odometry.T_odom_robot().theta_rad * kTwoWheels.track_m;
@@ -53,13 +60,40 @@ TEST(WheelOdometry, NoiseGrowsWithTheRootOfTheDistance) {
 }
 
 TEST(WheelOdometry, WrongRadiusShowsAsScaleAndCurve) {
-  WheelOdometry odometry(
-      {.ticks_per_turn = 1000000, .travel_noise_m = 0.0, .right_radius_error = 0.02},
-      kTwoWheels,
-      1);
+  WheelOdometry odometry({.ticks_per_turn = 1000000,
+                          .travel_noise_m = 0.0,
+                          .right_radius_error = 0.02,
+                          .calibration = kExact},
+                         kTwoWheels,
+                         1);
   for (int step = 0; step < 100; ++step) odometry.Advance({1.0, 1.0}, 10ms);
   EXPECT_NEAR(odometry.T_odom_robot().theta_rad, 0.02 / kTwoWheels.track_m, 1e-4);
   EXPECT_NEAR(odometry.T_odom_robot().translation_m().norm(), 1.01, 1e-3);
+}
+
+TEST(WheelOdometry, IsCalibratedAsWellAsItsOptionsSay) {
+  constexpr int kRobots = 400;
+  const OdometryOptions options{
+      .ticks_per_turn = 1000000,
+      .travel_noise_m = 0.0,
+      .calibration = {.scale_sigma = 0.01, .balance_sigma = 0.004, .turn_sigma = 0.02}};
+  double scale2 = 0.0;
+  double balance2 = 0.0;
+  double turn2 = 0.0;
+  for (std::uint64_t seed = 0; seed < kRobots; ++seed) {
+    WheelOdometry ahead(options, kTwoWheels, seed);
+    for (int step = 0; step < 100; ++step) ahead.Advance({1.0, 1.0}, 10ms);
+    WheelOdometry on_the_spot(options, kTwoWheels, seed);
+    for (int step = 0; step < 100; ++step) on_the_spot.Advance({-0.2, 0.2}, 10ms);
+    scale2 += std::pow(ahead.T_odom_robot().translation_m().norm() - 1.0, 2);
+    balance2 += std::pow(ahead.T_odom_robot().theta_rad * kTwoWheels.track_m, 2);
+    turn2 += std::pow(on_the_spot.T_odom_robot().theta_rad - 1.0, 2);
+  }
+  const double tolerance = 4.0 / std::sqrt(2.0 * kRobots);
+  EXPECT_NEAR(std::sqrt(scale2 / kRobots) / 0.01, 1.0, tolerance);
+  EXPECT_NEAR(std::sqrt(balance2 / kRobots) / 0.004, 1.0, tolerance);
+  // What is too far is also turned too far.
+  EXPECT_NEAR(std::sqrt(turn2 / kRobots) / std::hypot(0.01, 0.02), 1.0, tolerance);
 }
 
 TEST(Gyro, IsBiasedAndNoisyAsItsOptionsSay) {

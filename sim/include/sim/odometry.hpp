@@ -11,6 +11,27 @@
 
 namespace sim {
 
+/// How well the wheels were measured before the drive, as relative errors that stay the same during
+/// it: what UMBmark tells apart (Borenstein and Feng 1996). Each robot draws its own by the seed.
+struct CalibrationOptions {
+  double scale_sigma = 0.005;    ///< Of the mean radius of all wheels.
+  double balance_sigma = 0.002;  ///< Of the right wheels' radius over the left ones'.
+  double turn_sigma = 0.02;      ///< Of the effective track.
+};
+
+template <class Visitor>
+void Describe(Visitor& visit, CalibrationOptions& o) {
+  visit("scale_sigma",
+        o.scale_sigma,
+        {.help = "relative sigma of the distance travelled", .min = 0, .max = 0.1});
+  visit("balance_sigma",
+        o.balance_sigma,
+        {.help = "relative sigma of right wheels against left ones", .min = 0, .max = 0.1});
+  visit("turn_sigma",
+        o.turn_sigma,
+        {.help = "relative sigma of the angle turned", .min = 0, .max = 0.1});
+}
+
 struct OdometryOptions {
   int ticks_per_turn = 2000;  ///< Of a wheel.
   /// How unevenly a wheel's turning is read: sigma of the distance after one metre, growing with
@@ -20,6 +41,7 @@ struct OdometryOptions {
       0.0;  ///< How much too large the left wheels are thought to be; relative.
   double right_radius_error = 0.0;
   double turn_factor_error = 0.0;  ///< Relative error of the calibrated effective track.
+  CalibrationOptions calibration;  ///< In addition to these three, drawn at random.
 };
 
 template <class Visitor>
@@ -39,6 +61,7 @@ void Describe(Visitor& visit, OdometryOptions& o) {
   visit("turn_factor_error",
         o.turn_factor_error,
         {.help = "relative error of the calibrated effective track", .min = -0.5, .max = 0.5});
+  visit("calibration", o.calibration, {.help = "errors that each robot draws for itself"});
 }
 
 /// Dead reckoning from the turning of the wheels, calibrated on firm floor. It sees the rims, not
@@ -62,8 +85,10 @@ class WheelOdometry {
   /// Distance the encoder newly reports.
   double Read(Encoder& encoder, double rim_mps, std::chrono::duration<double> duration);
 
-  OdometryOptions options_;
+  double travel_noise_m_;
   double tick_m_;
+  double left_scale_ = 1.0;  ///< Of a distance as read over the one rolled.
+  double right_scale_ = 1.0;
   double effective_track_m_;
   Encoder left_;
   Encoder right_;

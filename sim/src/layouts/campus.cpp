@@ -42,40 +42,50 @@ void AddHouse(const CampusOptions& options,
                            .width_m = width_m - back_m});
 }
 
-/// Trees and lamp posts on a rectangle round the house, at uneven distances.
+/// The rectangle round a place, counter-clockwise and closed.
+Route WayRound(const Eigen::Vector2d& centre_m, const Eigen::Vector2d& half_m) {
+  const double min_x_m = centre_m.x() - half_m.x();
+  const double max_x_m = centre_m.x() + half_m.x();
+  const double min_y_m = centre_m.y() - half_m.y();
+  const double max_y_m = centre_m.y() + half_m.y();
+  return {{min_x_m, min_y_m},
+          {max_x_m, min_y_m},
+          {max_x_m, max_y_m},
+          {min_x_m, max_y_m},
+          {min_x_m, min_y_m}};
+}
+
+Eigen::Vector2d HalfBlock(const CampusOptions& options) {
+  return 0.5 * Eigen::Vector2d(options.block_length_m, options.block_width_m);
+}
+
+/// From the middle of a street to its trees and posts.
+Eigen::Vector2d ToKerb(const CampusOptions& options) {
+  return Eigen::Vector2d::Constant(0.5 * options.street_width_m - kFromHouse_m);
+}
+
+/// Trees and lamp posts along a kerb, at uneven distances.
 void AddPosts(const CampusOptions& options,
-              const Block& block,
+              const Route& kerb,
               RandomEngine& random,
               SceneryOptions& scenery) {
-  const double x_m = 0.5 * (options.block_length_m - options.street_width_m) + kFromHouse_m;
-  const double y_m = 0.5 * (options.block_width_m - options.street_width_m) + kFromHouse_m;
-  const Eigen::Vector2d c_m = block.centre_m;
-  const Route round = Refined({{c_m.x() - x_m, c_m.y() - y_m},
-                               {c_m.x() + x_m, c_m.y() - y_m},
-                               {c_m.x() + x_m, c_m.y() + y_m},
-                               {c_m.x() - x_m, c_m.y() + y_m},
-                               {c_m.x() - x_m, c_m.y() - y_m}},
-                              options.post_spacing_m);
-  for (std::size_t i = 0; i + 1 < round.size(); ++i) {
+  const Route places = Refined(kerb, options.post_spacing_m);
+  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
     const bool is_lamp = Uniform(random, 0.0, 1.0) < 0.4;
-    const Eigen::Vector2d leg_m = round[i + 1].position_m() - round[i].position_m();
-    const Eigen::Vector2d p_m = round[i].position_m() + Uniform(random, 0.0, 0.6) * leg_m;
+    const Eigen::Vector2d leg_m = places[i + 1].position_m() - places[i].position_m();
+    const Eigen::Vector2d p_m = places[i].position_m() + Uniform(random, 0.0, 0.6) * leg_m;
     scenery.rounds.push_back({.x_m = p_m.x(),
                               .y_m = p_m.y(),
                               .radius_m = is_lamp ? kLampRadius_m : Uniform(random, 0.12, 0.4)});
   }
 }
 
-/// Round the block counter-clockwise, in the middle of its streets, back to its lower left corner.
-Route RoundBlock(const CampusOptions& options, const Block& block) {
-  const double x_m = 0.5 * options.block_length_m;
-  const double y_m = 0.5 * options.block_width_m;
-  const Eigen::Vector2d c_m = block.centre_m;
-  return {{c_m.x() - x_m, c_m.y() - y_m},
-          {c_m.x() + x_m, c_m.y() - y_m},
-          {c_m.x() + x_m, c_m.y() + y_m},
-          {c_m.x() - x_m, c_m.y() + y_m},
-          {c_m.x() - x_m, c_m.y() - y_m}};
+/// Along the outer side of the outer streets, where there are no houses.
+void AddOuterPosts(const CampusOptions& options, RandomEngine& random, SceneryOptions& scenery) {
+  const Eigen::Vector2d half_campus_m =
+      HalfBlock(options).cwiseProduct(Eigen::Vector2d(options.columns, options.rows));
+  const Route kerb = WayRound(Eigen::Vector2d::Zero(), half_campus_m + ToKerb(options));
+  AddPosts(options, kerb, random, scenery);
 }
 
 }  // namespace
@@ -89,11 +99,14 @@ Place MakeCampus(const CampusOptions& options, RandomEngine& random) {
       const int column = row % 2 == 0 ? index : options.columns - 1 - index;
       const Block block = BlockAt(options, column, row);
       AddHouse(options, block, random, place.scenery);
-      AddPosts(options, block, random, place.scenery);
-      const Route round = RoundBlock(options, block);
+      const Route kerb = WayRound(block.centre_m, HalfBlock(options) - ToKerb(options));
+      AddPosts(options, kerb, random, place.scenery);
+      // In the middle of the streets, back to the lower left corner.
+      const Route round = WayRound(block.centre_m, HalfBlock(options));
       way.insert(way.end(), round.begin() + (index == 0 ? 0 : 1), round.end());
     }
   }
+  AddOuterPosts(options, random, place.scenery);
   place.routes = {Refined(way, kWaypointSpacing_m)};
   return place;
 }

@@ -7,7 +7,8 @@
 
 namespace sim {
 
-/// Buildings in rows with streets between them, trees and lamp posts along the streets.
+/// Buildings in rows with streets between and around them, trees and lamp posts on both sides of
+/// every street.
 struct CampusOptions {
   int columns = 3;  ///< Of buildings.
   int rows = 2;
