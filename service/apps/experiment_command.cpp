@@ -110,7 +110,7 @@ Command AddExperimentCommand(CLI::App& program) {
   parser
       ->add_option("SCENARIO",
                    arguments->scenario.scenario,
-                   "a YAML file, or park, corridor, office, rubble, campus or team")
+                   "a YAML file, or park, corridor, office, rubble, campus, team or joystick")
       ->required()
       ->type_name("");
   AddResultArguments(*parser, arguments->run, "the figures as JSON on standard output");

@@ -6,6 +6,7 @@
 
 #include "service/config/options_io.hpp"
 #include "service/config/scenario_file.hpp"
+#include "service/pipeline/command_log.hpp"
 
 namespace qwsm::apps {
 
@@ -24,7 +25,9 @@ sim::ScenarioOptions LoadScenario(const ScenarioArguments& arguments) {
                                 .settings = arguments.settings};
   if (arguments.seed) sources.settings.push_back("seed=" + *arguments.seed);
   if (arguments.duration_s) sources.settings.push_back("duration_s=" + *arguments.duration_s);
-  return config::LoadOptions<sim::ScenarioOptions>(sources);
+  auto scenario = config::LoadOptions<sim::ScenarioOptions>(sources);
+  pipeline::ReadCommandLogs(sources.file->parent_path(), scenario);
+  return scenario;
 }
 
 std::string ScenarioText(const sim::ScenarioOptions& scenario) {

@@ -159,7 +159,7 @@ Command AddSimCommand(CLI::App& program) {
   parser
       ->add_option("SCENARIO",
                    arguments->scenario.scenario,
-                   "a YAML file, or park, corridor, office, rubble, campus or team")
+                   "a YAML file, or park, corridor, office, rubble, campus, team or joystick")
       ->required()
       ->type_name("");
   parser

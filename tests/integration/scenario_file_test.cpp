@@ -9,6 +9,7 @@
 #include <string>
 
 #include "service/config/options_io.hpp"
+#include "service/pipeline/command_log.hpp"
 #include "sim/simulation.hpp"
 
 namespace qwsm {
@@ -18,6 +19,13 @@ namespace fs = std::filesystem;
 
 fs::path ScenarioFile(const std::string& name) {
   return fs::path(QWSM_SOURCE_DIR) / "configs" / "scenarios" / (name + ".yaml");
+}
+
+sim::ScenarioOptions Shipped(const std::string& name) {
+  const fs::path file = ScenarioFile(name);
+  auto scenario = config::LoadOptions<sim::ScenarioOptions>({.file = file, .settings = {}});
+  pipeline::ReadCommandLogs(file.parent_path(), scenario);
+  return scenario;
 }
 
 sim::ScenarioOptions LoadText(const std::string& text) {
@@ -41,8 +49,7 @@ std::string Complaint(const std::string& text) {
 class ShippedScenario : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ShippedScenario, CanBeRun) {
-  auto scenario =
-      config::LoadOptions<sim::ScenarioOptions>({.file = ScenarioFile(GetParam()), .settings = {}});
+  sim::ScenarioOptions scenario = Shipped(GetParam());
   scenario.duration_s = 5.0;
   sim::Simulation simulation(scenario);
   std::size_t readings = 0;
@@ -52,16 +59,14 @@ TEST_P(ShippedScenario, CanBeRun) {
 }
 
 TEST_P(ShippedScenario, IsTheSameAfterDumpAndLoad) {
-  const auto scenario =
-      config::LoadOptions<sim::ScenarioOptions>({.file = ScenarioFile(GetParam()), .settings = {}});
-  const std::string yaml = config::DumpOptions(scenario);
+  const std::string yaml = config::DumpOptions(Shipped(GetParam()));
   EXPECT_EQ(config::DumpOptions(LoadText(yaml)), yaml);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Scenarios,
     ShippedScenario,
-    ::testing::Values("park", "corridor", "office", "rubble", "campus", "team"),
+    ::testing::Values("park", "corridor", "office", "rubble", "campus", "team", "joystick"),
     [](const auto& instance) { return std::string(instance.param); });
 
 TEST(ScenarioFile, EveryShippedOneIsTested) {
@@ -69,7 +74,7 @@ TEST(ScenarioFile, EveryShippedOneIsTested) {
   for (const auto& entry : fs::directory_iterator(ScenarioFile("park").parent_path())) {
     files += entry.path().extension() == ".yaml" ? 1 : 0;
   }
-  EXPECT_EQ(files, 6U);
+  EXPECT_EQ(files, 7U);
 }
 
 TEST(ScenarioFile, SaysAllThatIsWrongAndWhere) {
@@ -105,7 +110,8 @@ TEST(ScenarioFile, RefusesContradictionsWhereTheyAre) {
   EXPECT_EQ(Complaint("robots:\n"
                       "  - driver: {kind: recorded}\n"
                       "    laser: {useful_range_m: 30, range_max_m: 30}\n"),
-            "bad.yaml:2:20: robots[0].driver.commands: a recorded drive needs commands\n"
+            "bad.yaml:2:20: robots[0].driver.commands: a recorded drive needs commands or a "
+            "command_log\n"
             "bad.yaml:3:29: robots[0].laser.useful_range_m: must not exceed 97 % of range_max_m, "
             "which stands for 'no echo'");
   EXPECT_EQ(Complaint("seed: 1\n"), "bad.yaml:1:7: robots: a scenario needs one at least");

@@ -9,6 +9,7 @@
 #include <deque>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -62,7 +63,8 @@ struct DriverOptions {
   double arrival_m = 0.4;  ///< A way point counts as reached from here.
   int laps = 1;            ///< How often the way points are gone through.
   std::vector<TimedCommandOptions>
-      commands{};  ///< Of a recorded drive, in the order of their times.
+      commands{};             ///< Of a recorded drive, in the order of their times.
+  std::string command_log{};  ///< A file with these; whoever loads the scenario reads it.
 };
 
 template <class Visitor>
@@ -77,12 +79,19 @@ void Describe(Visitor& visit, DriverOptions& o) {
   visit(
       "laps", o.laps, {.help = "how often the way points are gone through", .min = 1, .max = 1000});
   visit("commands", o.commands, {.help = "a recorded drive, in the order of its times"});
+  visit(
+      "command_log",
+      o.command_log,
+      {.help = "or a file of it, beside the scenario: lines of 'stamp_s forward_mps turn_rad_s'"});
 }
 
 template <class Report>
 void Validate(const DriverOptions& o, Report& report) {
-  if (o.kind == DriverKind::kRecorded && o.commands.empty()) {
-    report("commands", "a recorded drive needs commands");
+  if (o.kind == DriverKind::kRecorded && o.commands.empty() && o.command_log.empty()) {
+    report("commands", "a recorded drive needs commands or a command_log");
+  }
+  if (!o.command_log.empty() && (o.kind != DriverKind::kRecorded || !o.commands.empty())) {
+    report("command_log", "belongs to a recorded drive, and in place of commands");
   }
   const auto is_earlier = [](const auto& a, const auto& b) { return a.start_s < b.start_s; };
   if (!std::ranges::is_sorted(o.commands, is_earlier)) {
