@@ -8,41 +8,86 @@
 namespace qwsm {
 namespace {
 
-constexpr double kForgetting = 0.05;     // Share of the newest motion in what was learned.
-constexpr double kSquaredMiss = 4.0;     // What was found is fused with the prediction, and misses
-                                         // it by about half as much as the truth.
-constexpr double kLargestMisfit = 25.0;  // One jump of the odometry is not to count for a hundred.
+constexpr double kWellHeld = 0.25;    // Share of the best held direction's information.
+constexpr double kForgetting = 0.05;  // Share of the newest lesson in what was learned;
+constexpr double kFirstLessons =
+    4.0;  // the first ones count for more, as in a mean with this many.
+constexpr double kLargestMisfit = 4.0;   // One jump of the odometry is not to count for a hundred.
+constexpr double kSmallestScale = 0.02;  // Odometry is never believed to the last.
+constexpr double kLargestScale = 25.0;
+
+Eigen::Matrix3d Diagonal(const Eigen::Array33d& sigmas) {
+  return sigmas.rowwise().sum().square().matrix().asDiagonal();
+}
 
 }  // namespace
 
-UncertainPose2 MotionModel::Predict(const std::optional<Pose2>& T_odom_robot) const {
-  const bool has_odometry = T_odom_robot && T_odom_last_;
-  const Pose2 motion = has_odometry ? T_odom_last_->Inverse() * *T_odom_robot : T_last_robot_;
-  const double moved_m = motion.translation_m().norm();
-  const double turned_rad = std::abs(motion.theta_rad);
-  const double factor = has_odometry ? 1.0 : noise_.without_odometry;
-  const double sigma_m =
-      factor * (noise_.translation_floor_m + noise_.translation_per_translation * moved_m +
-                noise_.translation_per_rotation_m * turned_rad);
-  const double sigma_rad =
-      factor * (noise_.rotation_floor_rad + noise_.rotation_per_rotation * turned_rad +
-                noise_.rotation_per_translation_rad * moved_m);
-  UncertainPose2 prediction{.T_a_b = motion};
-  prediction.covariance.diagonal() << sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad;
-  if (has_odometry) prediction.covariance *= Doubt();
-  return prediction;
+Eigen::Array33d MotionModel::ModelledSigmas(const Pose2& motion) const {
+  const double way_m = motion.translation_m().norm();
+  const double turn_rad = std::abs(motion.theta_rad);
+  const Eigen::Array3d of_position(noise_.translation_floor_m,
+                                   noise_.translation_per_translation * way_m,
+                                   noise_.translation_per_rotation_m * turn_rad);
+  const Eigen::Array3d of_heading(noise_.rotation_floor_rad,
+                                  noise_.rotation_per_translation_rad * way_m,
+                                  noise_.rotation_per_rotation * turn_rad);
+  Eigen::Array33d sigmas;
+  sigmas << of_position.transpose(), of_position.transpose(), of_heading.transpose();
+  return sigmas;
 }
 
-double MotionModel::Doubt() const { return std::max(1.0, misfit_); }
+PosePrediction MotionModel::Predict(const std::optional<Pose2>& T_odom_robot) const {
+  if (!T_odom_robot || !T_odom_last_) {
+    const UncertainPose2 as_before{
+        .T_a_b = T_last_robot_,
+        .covariance = Diagonal(noise_.without_odometry * ModelledSigmas(T_last_robot_))};
+    return {.cautious = as_before, .learned = as_before};
+  }
+  const Pose2 motion = T_odom_last_->Inverse() * *T_odom_robot;
+  const Eigen::Array33d sigmas = ModelledSigmas(motion);
+  return {.cautious = {.T_a_b = motion,
+                       .covariance = Diagonal(sigmas * learned_scale_.max(1.0).sqrt())},
+          .learned = {.T_a_b = motion, .covariance = Diagonal(sigmas * learned_scale_.sqrt())}};
+}
 
-void MotionModel::Learn(const Pose2& T_last_robot, const std::optional<Pose2>& T_odom_robot) {
+void MotionModel::Learn(const UncertainPose2& predicted,
+                        const MatchResult& found,
+                        const std::optional<Pose2>& T_odom_robot) {
   if (!T_odom_robot || !T_odom_last_) return;
-  const UncertainPose2 predicted = Predict(T_odom_robot);
-  const Pose2 miss = predicted.T_a_b.Inverse() * T_last_robot;
-  const Eigen::Array3d error(miss.x_m, miss.y_m, miss.theta_rad);
-  const Eigen::Array3d variance = predicted.covariance.diagonal().array() / Doubt();
-  const double squared = kSquaredMiss * (error.square() / variance).mean();
-  misfit_ += kForgetting * (std::min(squared, kLargestMisfit) - misfit_);
+  const UncertainPose2 motion = Predict(T_odom_robot).learned;
+  const Eigen::Matrix3d& noise = motion.covariance;
+  Eigen::Array33d shares = ModelledSigmas(motion.T_a_b) * learned_scale_.sqrt();
+  shares.colwise() /= shares.rowwise().sum().eval();
+
+  // Found without regard to the prediction, the pose misses it by the errors of both.
+  const Eigen::Matrix3d expected = predicted.covariance + found.covariance;
+  const double turn_rad = NormalizeAngle(found.T_ref_cur.theta_rad - predicted.T_a_b.theta_rad);
+  Teach(2, shares, turn_rad * turn_rad / expected(2, 2), noise(2, 2) / expected(2, 2));
+
+  const Eigen::Matrix2d R_last_ref =
+      (predicted.T_a_b * motion.T_a_b.Inverse()).Rotation().transpose();
+  const Eigen::Vector2d way_m = found.T_ref_cur.translation_m() - predicted.T_a_b.translation_m();
+  const PositionHold hold = HoldOf(found.information);
+  const Eigen::Vector2d strongest(-hold.weakest.y(), hold.weakest.x());
+  for (const Eigen::Vector2d& direction : {strongest, hold.weakest}) {
+    if (direction == hold.weakest && hold.share() < kWellHeld) continue;
+    const Eigen::Vector2d in_last = R_last_ref * direction;
+    const double expected_m2 = direction.dot(expected.topLeftCorner<2, 2>() * direction);
+    const double noise_m2 = in_last.dot(noise.topLeftCorner<2, 2>() * in_last);
+    const double misfit = std::pow(direction.dot(way_m), 2) / expected_m2;
+    for (const int axis : {0, 1}) {
+      Teach(axis, shares, misfit, std::pow(in_last(axis), 2) * noise_m2 / expected_m2);
+    }
+  }
+}
+
+// Each part of an axis' noise learns by its share of it.
+void MotionModel::Teach(int axis, const Eigen::Array33d& shares, double misfit, double weight) {
+  const auto lesson = weight * shares.row(axis);
+  lessons_.row(axis) += lesson;
+  const auto rate = (lessons_.row(axis) + kFirstLessons).inverse().max(kForgetting);
+  learned_scale_.row(axis) *= 1.0 + rate * lesson * (std::min(misfit, kLargestMisfit) - 1.0);
+  learned_scale_.row(axis) = learned_scale_.row(axis).max(kSmallestScale).min(kLargestScale).eval();
 }
 
 void MotionModel::Remember(const Pose2& T_last_robot, const std::optional<Pose2>& T_odom_robot) {

@@ -24,9 +24,11 @@ ScanLocatorOptions LocatorOptions(const MapperOptions& options) {
 }
 
 // No motion, and next to no error: what is told of a robot is told of its next scan.
-UncertainPose2 Unmoved() {
+PosePrediction Unmoved() {
   constexpr double kSigma = 0.001;  // m, rad.
-  return {.T_a_b = {}, .covariance = kSigma * kSigma * Eigen::Matrix3d::Identity()};
+  const UncertainPose2 there{.T_a_b = {},
+                             .covariance = kSigma * kSigma * Eigen::Matrix3d::Identity()};
+  return {.cautious = there, .learned = there};
 }
 
 // Covariance of a matched pose: as uncertain as the part of the map it was matched to, plus what is
@@ -94,9 +96,6 @@ MappingStep RobotTracker::Track(const ScanMap& map,
     Begin(observation, points, step);
   } else {
     Locate(map, observation, points, step);
-    if (step.status == StepStatus::kMatched) {
-      motion_.Learn(map_last_.T_a_b.Inverse() * step.map_robot.T_a_b, observation.T_odom_robot);
-    }
   }
   step.relevant = IsRelevant(points, step);
   if (step.relevant) FindReturn(map, points, step);
@@ -119,21 +118,24 @@ void RobotTracker::Begin(const Observation& observation,
 void RobotTracker::Locate(const ScanMap& map,
                           const Observation& observation,
                           std::span<const ScanPoint> points,
-                          MappingStep& step) const {
-  UncertainPose2 last_robot = is_told_now_ ? Unmoved() : motion_.Predict(observation.T_odom_robot);
+                          MappingStep& step) {
+  PosePrediction last_robot = is_told_now_ ? Unmoved() : motion_.Predict(observation.T_odom_robot);
   step.match = locator_.Locate(map, points, local_last_ * last_robot);
   if (is_odometry_doubted_) {
-    const UncertainPose2 without_odometry = motion_.Predict(std::nullopt);
+    const PosePrediction without_odometry = motion_.Predict(std::nullopt);
     const MatchResult other = locator_.Locate(map, points, local_last_ * without_odometry);
     if (other.overlap >= step.match.overlap) {
       last_robot = without_odometry;
       step.match = other;
     }
   }
-  step.map_robot = map_last_ * last_robot;
-  step.local_covariance = (local_last_ * last_robot).covariance;
+  step.map_robot = map_last_ * last_robot.cautious;
+  step.local_covariance = (local_last_ * last_robot.cautious).covariance;
   const UncertainPose2 last_in_map{.T_a_b = map_last_.T_a_b};
-  Judge(map, points, (last_in_map * last_robot).covariance, step);
+  Judge(map, points, (last_in_map * last_robot.cautious).covariance, step);
+  if (step.status == StepStatus::kMatched) {
+    motion_.Learn(local_last_ * last_robot.learned, step.match, observation.T_odom_robot);
+  }
 }
 
 // Matched well: the match is the pose. Overlap low: the pose, and the map is extended. Bad: dead

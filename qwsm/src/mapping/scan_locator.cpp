@@ -57,62 +57,100 @@ UncertainPose2 Widened(const UncertainPose2& pose, double factor) {
   return {.T_a_b = pose.T_a_b, .covariance = factor * factor * pose.covariance};
 }
 
+// One scan to be located.
+struct Task {
+  const ScanLocatorOptions& options;
+  const WeightedScanMatcher& matcher;
+  const SurfaceMap& map;
+  std::span<const ScanPoint> points;
+  std::vector<Eigen::Vector2d> thinned;
+  const PosePrediction& predicted;
+  MatchTrace* trace;
+
+  // The best pose within so many sigmas of where it is expected, if it scores more than that.
+  std::optional<FoundPose> Search(const UncertainPose2& expected,
+                                  double sigmas,
+                                  double min_score = 0.0) const {
+    if (thinned.size() < kMinSearchPoints) return std::nullopt;
+    const Eigen::Matrix3d& covariance = expected.covariance;
+    return SearchPose(
+        map.likelihood(),
+        thinned,
+        {.predicted = expected,
+         .translation_m = std::min(options.max_window_m, sigmas * SigmaXY(covariance)),
+         .rotation_rad = std::min(options.max_window_rad, sigmas * SigmaTheta(covariance)),
+         .min_score = min_score},
+        options.search);
+  }
+
+  // Matches from the pose found, or from where it is expected.
+  MatchResult Match(const std::optional<FoundPose>& found, const UncertainPose2& expected) const {
+    MatchPrior prior{.predicted = expected,
+                     .start = expected.T_a_b,
+                     .start_error = {.translation_m = SigmaXY(expected.covariance),
+                                     .rotation_rad = SigmaTheta(expected.covariance)}};
+    if (found) {
+      prior.start = found->T_map_robot;
+      prior.start_error = {.translation_m = options.search_error_m};
+    }
+    return matcher.Match(map, points, prior, trace);
+  }
+
+  // The match, or where few points contradict good odometry, the match according to odometry.
+  MatchResult UnlessDragged(const std::optional<FoundPose>& found, const MatchResult& match) const {
+    if (!ContradictsGoodOdometry(match)) return match;
+    const auto as_told = Search(predicted.learned, options.window_sigmas);
+    const bool has_slipped =
+        !as_told || (found && found->score > as_told->score + options.slip_gain);
+    return has_slipped ? match : Match(as_told, predicted.learned);
+  }
+
+  bool ContradictsGoodOdometry(const MatchResult& match) const {
+    const PositionHold hold = HoldOf(match.information);
+    if (hold.weakest_information == 0.0 || hold.share() > options.weak_share) return false;
+    const UncertainPose2& learned = predicted.learned;
+    const double way_m =
+        hold.weakest.dot(match.T_ref_cur.translation_m() - learned.T_a_b.translation_m());
+    const double of_pairs_m2 = options.matcher.correlated_points / hold.weakest_information;
+    const double of_odometry_m2 =
+        hold.weakest.dot(learned.covariance.topLeftCorner<2, 2>() * hold.weakest);
+    return std::abs(way_m) > options.contradiction_sigmas * std::sqrt(of_pairs_m2 + of_odometry_m2);
+  }
+};
+
 }  // namespace
 
 MatchResult ScanLocator::Locate(const ScanMap& map,
                                 std::span<const ScanPoint> points,
-                                const UncertainPose2& predicted,
+                                const PosePrediction& predicted,
                                 MatchTrace* trace) const {
-  const LikelihoodPyramid& likelihood = map.surfaces().likelihood();
-  const std::vector<Eigen::Vector2d> thinned = ThinOut(points, options_.search_spacing_m);
+  const Task task{.options = options_,
+                  .matcher = matcher_,
+                  .map = map.surfaces(),
+                  .points = points,
+                  .thinned = ThinOut(points, options_.search_spacing_m),
+                  .predicted = predicted,
+                  .trace = trace};
   const double sigmas = options_.window_sigmas;
 
-  const auto near = Search(likelihood, thinned, predicted, options_.narrow_share * sigmas, 0.0);
-  const MatchResult narrow = MatchFrom(near, map, points, predicted, trace);
+  const auto near = task.Search(predicted.cautious, options_.narrow_share * sigmas);
+  const MatchResult narrow = task.UnlessDragged(near, task.Match(near, predicted.cautious));
   if (narrow.overlap >= options_.confident_overlap) return narrow;
 
-  const auto better = Search(likelihood, thinned, predicted, sigmas, near ? near->score : 0.0);
-  const MatchResult full = better ? MatchFrom(better, map, points, predicted, trace) : narrow;
+  const auto better = task.Search(predicted.cautious, sigmas, near ? near->score : 0.0);
+  const MatchResult full =
+      better ? task.UnlessDragged(better, task.Match(better, predicted.cautious)) : narrow;
   if (full.overlap >= options_.widen_below_overlap) return full;
 
-  const UncertainPose2 doubted = Widened(predicted, options_.widen_factor);
-  const auto far = Search(likelihood, thinned, doubted, sigmas, 0.0);
-  const MatchResult wide = MatchFrom(far, map, points, doubted, trace);
+  const UncertainPose2 doubted = Widened(predicted.cautious, options_.widen_factor);
+  const MatchResult wide = task.Match(task.Search(doubted, sigmas), doubted);
   return wide.overlap > full.overlap + options_.widen_gain ? wide : full;
 }
 
-// The best pose within so many sigmas of the prediction, if it scores more than `min_score`.
-std::optional<FoundPose> ScanLocator::Search(const LikelihoodPyramid& map,
-                                             std::span<const Eigen::Vector2d> points_robot_m,
-                                             const UncertainPose2& predicted,
-                                             double sigmas,
-                                             double min_score) const {
-  if (points_robot_m.size() < kMinSearchPoints) return std::nullopt;
-  return SearchPose(
-      map,
-      points_robot_m,
-      {.predicted = predicted,
-       .translation_m = std::min(options_.max_window_m, sigmas * SigmaXY(predicted.covariance)),
-       .rotation_rad = std::min(options_.max_window_rad, sigmas * SigmaTheta(predicted.covariance)),
-       .min_score = min_score},
-      options_.search);
-}
-
-// Matches from the pose found, or from the prediction where none was.
-MatchResult ScanLocator::MatchFrom(const std::optional<FoundPose>& found,
-                                   const ScanMap& map,
-                                   std::span<const ScanPoint> points,
-                                   const UncertainPose2& predicted,
-                                   MatchTrace* trace) const {
-  MatchPrior prior{.predicted = predicted,
-                   .start = predicted.T_a_b,
-                   .start_error = {.translation_m = SigmaXY(predicted.covariance),
-                                   .rotation_rad = SigmaTheta(predicted.covariance)}};
-  if (found) {
-    prior.start = found->T_map_robot;
-    prior.start_error = {.translation_m = options_.search_error_m};
-  }
-  return matcher_.Match(map.surfaces(), points, prior, trace);
+// Whether the pairs alone tell where along every direction the robot is, not what was searched.
+bool ScanLocator::IsHeldByPairs(const MatchResult& match) const {
+  const double weakest = HoldOf(match.information).weakest_information;
+  return options_.matcher.correlated_points < weakest * kFoundSigma_m * kFoundSigma_m;
 }
 
 std::optional<MatchResult> ScanLocator::FindReturn(
@@ -155,7 +193,7 @@ std::optional<MatchResult> ScanLocator::FindReturn(
                       .start_error = {.translation_m = options_.search_error_m},
                       .max_drift_m2 = max_drift_m2});
   const bool fits = match.status == MatchStatus::kConverged && match.overlap >= options.min_overlap;
-  return fits ? std::optional(match) : std::nullopt;
+  return fits && IsHeldByPairs(match) ? std::optional(match) : std::nullopt;
 }
 
 // The place that fits best, unless another one fits nearly as well or it is where we are anyway.

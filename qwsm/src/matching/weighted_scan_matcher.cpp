@@ -20,14 +20,10 @@ constexpr double kPairsOfExpectation = 50.0;  // What the error model is worth b
 // (Zhang, Kaess & Singh 2016).
 void DropFalseHold(double min_share, NormalEquations& equations) {
   Eigen::Matrix3d& A = equations.A;
-  const Eigen::Vector2d cross = A.topRightCorner<2, 1>();
-  const Eigen::Matrix2d of_position =
-      A.topLeftCorner<2, 2>() - cross * cross.transpose() / std::max(A(2, 2), 1e-12);
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
-  axes.computeDirect(of_position);
-  if (axes.eigenvalues()(0) >= min_share * axes.eigenvalues()(1)) return;
+  const PositionHold hold = HoldOf(A);
+  if (hold.share() >= min_share) return;
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
-  direction.head<2>() = axes.eigenvectors().col(0);
+  direction.head<2>() = hold.weakest;
   const Eigen::Matrix3d others = Eigen::Matrix3d::Identity() - direction * direction.transpose();
   A = (others * A * others).eval();
   equations.b = (others * equations.b).eval();

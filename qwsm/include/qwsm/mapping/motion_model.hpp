@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 
 #include "qwsm/geometry/pose2.hpp"
+#include "qwsm/mapping/pose_prediction.hpp"
+#include "qwsm/matching/match_result.hpp"
 
 namespace qwsm {
 
@@ -49,24 +52,30 @@ class MotionModel {
  public:
   explicit MotionModel(const MotionNoise& noise = {}) : noise_(noise) {}
 
-  /// Pose of the robot now in its own last frame; covariance in that frame.
-  UncertainPose2 Predict(const std::optional<Pose2>& T_odom_robot) const;
+  /// Pose of the robot now in its own last frame.
+  PosePrediction Predict(const std::optional<Pose2>& T_odom_robot) const;
 
   /// Tells how the robot really moved, and with which odometry reading.
   void Remember(const Pose2& T_last_robot, const std::optional<Pose2>& T_odom_robot);
 
-  /// Tells how the robot was found to have moved. Odometry that keeps missing it by more than
-  /// modelled is believed less (Mehra 1970).
-  void Learn(const Pose2& T_last_robot, const std::optional<Pose2>& T_odom_robot);
+  /// Tells where the robot was found, having been expected at `predicted`. Each part of the noise
+  /// is scaled as odometry proves better or worse than modelled (Mehra 1970), as far as the pairs
+  /// hold the pose well: along a corridor a single moving object would teach.
+  /// @param predicted with the learned covariance; in the frame of the match.
+  void Learn(const UncertainPose2& predicted,
+             const MatchResult& found,
+             const std::optional<Pose2>& T_odom_robot);
 
  private:
-  // Factor on the modelled variance.
-  double Doubt() const;
+  // Rows: along x, along y, heading. Columns: at rest, per way, per turn.
+  Eigen::Array33d ModelledSigmas(const Pose2& motion) const;
+  void Teach(int axis, const Eigen::Array33d& shares, double misfit, double weight);
 
   MotionNoise noise_;
   std::optional<Pose2> T_odom_last_;
-  double misfit_ = 0.0;  // Running mean of squared errors, in units of the modelled variance.
-  Pose2 T_last_robot_;   // The last motion, for when there is no odometry.
+  Pose2 T_last_robot_;  // The last motion, for when there is no odometry.
+  Eigen::Array33d learned_scale_ = Eigen::Array33d::Ones();  // Of the modelled variances,
+  Eigen::Array33d lessons_ = Eigen::Array33d::Zero();        // and of how many scans.
 };
 
 }  // namespace qwsm

@@ -47,7 +47,7 @@ class RobotTracker {
   void Locate(const ScanMap& map,
               const Observation& observation,
               std::span<const ScanPoint> points,
-              MappingStep& step) const;
+              MappingStep& step);
   void Judge(const ScanMap& map,
              std::span<const ScanPoint> points,
              const Eigen::Matrix3d& motion_covariance,

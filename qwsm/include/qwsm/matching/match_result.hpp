@@ -28,14 +28,26 @@ struct [[nodiscard]] MatchResult {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Of (x, y, theta), prior included.
   Eigen::Matrix3d information =
       Eigen::Matrix3d::Zero();  ///< Of the pairs alone, as if independent.
-  /// The covariance, were each pair the nearest sample as in the papers (Visser et al. 2009, eq. 3):
-  /// with measurement noise and correspondence error, which shrinks as the reference gets denser.
+  /// The covariance, were each pair the nearest sample as in the papers (Visser et al. 2009, eq.
+  /// 3): with measurement noise and correspondence error, which shrinks as the reference gets
+  /// denser.
   Eigen::Matrix3d nearest_sample_covariance = Eigen::Matrix3d::Zero();
   int iterations = 0;
   int pairs = 0;
   double mean_residual_m = 0.0;  ///< Mean distance of a point to its nearest stored point.
   double overlap = 0.0;          ///< Share of the scan's points that agree with the reference.
 };
+
+/// How well the pairs of a match hold a position.
+struct PositionHold {
+  Eigen::Vector2d weakest;         ///< Unit vector: the direction that they hold least,
+  double weakest_information = 0;  ///< and their information about it in 1/m^2, heading unknown.
+  double strongest_information = 0;
+
+  double share() const { return weakest_information / strongest_information; }
+};
+/// @param information of (x, y, theta).
+PositionHold HoldOf(const Eigen::Matrix3d& information);
 
 /// One line per iteration, for whoever wants to watch a match.
 struct MatchIteration {

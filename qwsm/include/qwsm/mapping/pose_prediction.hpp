@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "qwsm/geometry/pose2.hpp"
+
+namespace qwsm {
+
+/// What is expected of a pose before a scan tells. Both have the same `T_a_b`.
+struct PosePrediction {
+  UncertainPose2 cautious;  ///< As uncertain as a slip of the wheels may make it,
+  UncertainPose2 learned;   ///< and as uncertain as odometry has proved to be so far.
+};
+
+inline PosePrediction operator*(const UncertainPose2& a_b, const PosePrediction& b_c) {
+  return {.cautious = a_b * b_c.cautious, .learned = a_b * b_c.learned};
+}
+
+}  // namespace qwsm

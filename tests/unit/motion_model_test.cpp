@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "qwsm/mapping/motion_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace qwsm {
+namespace {
+
+constexpr double kStep_m = 0.1;
+constexpr double kMatchSigma = 0.002;  // m, rad.
+
+/// A robot that drives straight ahead by steps, with odometry off by `error_sigma` (m, rad).
+class Drive {
+ public:
+  explicit Drive(MotionModel& model) : model_(model) { model_.Remember({}, odometry_); }
+
+  /// @param information of the pairs that find each pose.
+  void Go(int steps, double error_sigma, const Eigen::Vector3d& information) {
+    for (int step = 0; step < steps; ++step) {
+      const Pose2 told{kStep_m + error_sigma * normal_(random_),
+                       error_sigma * normal_(random_),
+                       error_sigma * normal_(random_)};
+      odometry_ = odometry_ * told;
+      MatchResult found{.status = MatchStatus::kConverged, .T_ref_cur = {kStep_m, 0.0, 0.0}};
+      found.information = information.asDiagonal();
+      found.covariance = kMatchSigma * kMatchSigma * Eigen::Matrix3d::Identity();
+      model_.Learn(model_.Predict(odometry_).learned, found, odometry_);
+      model_.Remember(found.T_ref_cur, odometry_);
+    }
+  }
+
+  PosePrediction Next() const { return model_.Predict(odometry_ * Pose2{kStep_m, 0.0, 0.0}); }
+
+ private:
+  MotionModel& model_;
+  Pose2 odometry_;
+  std::mt19937_64 random_{7};
+  std::normal_distribution<double> normal_;
+};
+
+double SigmaAlong(const UncertainPose2& pose) { return std::sqrt(pose.covariance(0, 0)); }
+double SigmaAcross(const UncertainPose2& pose) { return std::sqrt(pose.covariance(1, 1)); }
+
+const Eigen::Vector3d kHeldEverywhere(1e5, 1e5, 1e6);
+const Eigen::Vector3d kHeldAcrossOnly(1e3, 1e5, 1e6);
+
+TEST(MotionModel, LearnsHowGoodOdometryIs) {
+  MotionModel model;
+  Drive drive(model);
+  const PosePrediction before = drive.Next();
+  drive.Go(300, 0.008, kHeldEverywhere);
+  const PosePrediction after = drive.Next();
+  EXPECT_EQ(SigmaAlong(before.learned), SigmaAlong(before.cautious));
+  EXPECT_NEAR(SigmaAlong(after.learned), 0.008, 0.004);
+  EXPECT_NEAR(SigmaAcross(after.learned), 0.008, 0.004);
+  // The wheels may slip all the same.
+  EXPECT_NEAR(SigmaAlong(after.cautious), SigmaAlong(before.cautious), 1e-9);
+}
+
+TEST(MotionModel, BelievesOdometryLessThatIsWorseThanModelled) {
+  MotionModel model;
+  Drive drive(model);
+  const PosePrediction before = drive.Next();
+  drive.Go(300, 0.15, kHeldEverywhere);
+  EXPECT_GT(SigmaAlong(drive.Next().cautious), 2.0 * SigmaAlong(before.cautious));
+}
+
+TEST(MotionModel, LearnsNothingAboutADirectionThatFewPairsHold) {
+  MotionModel model;
+  Drive drive(model);
+  const PosePrediction before = drive.Next();
+  drive.Go(300, 0.15, kHeldAcrossOnly);
+  const PosePrediction after = drive.Next();
+  EXPECT_NEAR(SigmaAlong(after.learned), SigmaAlong(before.learned), 1e-6);
+  EXPECT_GT(SigmaAcross(after.learned), 1.5 * SigmaAcross(before.learned));
+}
+
+TEST(MotionModel, WithoutOdometryExpectsTheLastMotionAndIsMoreUncertain) {
+  MotionModel model;
+  model.Remember({kStep_m, 0.02, 0.1}, std::nullopt);
+  const PosePrediction predicted = model.Predict(std::nullopt);
+  EXPECT_EQ(predicted.cautious.T_a_b, (Pose2{kStep_m, 0.02, 0.1}));
+  EXPECT_EQ(predicted.learned.T_a_b, predicted.cautious.T_a_b);
+  EXPECT_GT(SigmaAlong(predicted.cautious), MotionNoise{}.translation_floor_m);
+}
+
+}  // namespace
+}  // namespace qwsm
