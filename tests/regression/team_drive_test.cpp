@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <iterator>
 #include <random>
 #include <string>
 #include <vector>
@@ -29,15 +31,27 @@ struct ToldStart {
   double sigma_rad = 0.0;
 };
 
-std::vector<sim::Reading> Drive(int seed) {
+std::vector<sim::Reading> Drive(int seed, int duration_s) {
   sim::Simulation simulation(config::LoadOptions<sim::ScenarioOptions>(
       {.file = QWSM_SOURCE_DIR "/configs/scenarios/team.yaml",
-       .settings = {"seed=" + std::to_string(seed), "duration_s=90"}}));
+       .settings = {"seed=" + std::to_string(seed), "duration_s=" + std::to_string(duration_s)}}));
   std::vector<sim::Reading> readings;
   while (std::optional<sim::Reading> reading = simulation.Next()) {
     readings.push_back(std::move(*reading));
   }
   return readings;
+}
+
+/// All of the first robot, then the first minute of the others.
+std::vector<sim::Reading> WithTheOthersLater(const std::vector<sim::Reading>& readings) {
+  std::vector<sim::Reading> ordered;
+  std::ranges::copy_if(readings, std::back_inserter(ordered), [](const sim::Reading& reading) {
+    return reading.robot == 0;
+  });
+  std::ranges::copy_if(readings, std::back_inserter(ordered), [](const sim::Reading& reading) {
+    return reading.robot > 0 && reading.scan.stamp < std::chrono::minutes(1);
+  });
+  return ordered;
 }
 
 std::string NameOf(std::size_t robot) { return "robot" + std::to_string(robot + 1); }
@@ -91,7 +105,7 @@ std::array<double, kRobots> Errors_m(const std::vector<sim::Reading>& readings,
 class TeamDrive : public ::testing::TestWithParam<int> {};
 
 TEST_P(TeamDrive, OneMapForAllIsAsAccurateAsOneEach) {
-  const std::vector<sim::Reading> readings = Drive(GetParam());
+  const std::vector<sim::Reading> readings = Drive(GetParam(), 90);
   const std::array<double, kRobots> each_m = Errors_m(readings, MapSharing::kEachRobot);
   const std::array<double, kRobots> shared_m = Errors_m(readings, MapSharing::kTeam);
   for (std::size_t i = 0; i < kRobots; ++i) {
@@ -102,6 +116,20 @@ TEST_P(TeamDrive, OneMapForAllIsAsAccurateAsOneEach) {
   }
   EXPECT_LT(Summarize({shared_m.begin(), shared_m.end()}).median,
             Summarize({each_m.begin(), each_m.end()}).median);
+}
+
+TEST(TeamDriveLater, RobotsThatComeIntoAKnownPlaceAreAsAccurateAsItsMap) {
+  const std::vector<sim::Reading> readings = WithTheOthersLater(Drive(1, 300));
+  const ToldStart poorly{.sigma_m = 0.1, .sigma_rad = 0.05};
+  const std::array<double, kRobots> each_m = Errors_m(readings, MapSharing::kEachRobot, poorly);
+  const std::array<double, kRobots> shared_m = Errors_m(readings, MapSharing::kTeam, poorly);
+  EXPECT_EQ(shared_m[0], each_m[0]);
+  for (std::size_t i = 1; i < kRobots; ++i) {
+    RecordProperty(NameOf(i),
+                   std::to_string(shared_m[i]) + " m, alone " + std::to_string(each_m[i]));
+    EXPECT_LT(shared_m[i], 0.2 * each_m[i]) << NameOf(i);
+    EXPECT_LT(shared_m[i], 3.0 * shared_m[0]) << NameOf(i);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(, TeamDrive, ::testing::Values(1, 2, 3));
