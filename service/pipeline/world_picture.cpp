@@ -21,7 +21,10 @@ struct Solid {
   Eigen::Vector2d half_size_m;
   double radius_m = 0.0;
 
-  double Reach_m() const { return std::max(radius_m, half_size_m.norm()); }
+  /// Half the size of the upright box round it.
+  Eigen::Vector2d Reach_m() const {
+    return (T_world_box.Rotation().cwiseAbs() * half_size_m).array() + radius_m;
+  }
   /// Whether a point is inside, or nearer to it than `slack_m`: thin things stay visible.
   bool Contains(const Eigen::Vector2d& p_world_m, double slack_m) const {
     const Eigen::Vector2d p_box_m = T_world_box.Inverse() * p_world_m;
@@ -55,12 +58,15 @@ std::vector<Solid> SolidsOf(const sim::SceneryOptions& scenery) {
 OccupancyGrid EmptyGrid(const std::vector<Solid>& solids, const WorldPaths& paths) {
   Eigen::Vector2d low_m = paths.truth.front().T_map_robot.translation_m();
   Eigen::Vector2d high_m = low_m;
-  const auto include = [&](const Eigen::Vector2d& p_m, double radius_m) {
-    low_m = low_m.cwiseMin(Eigen::Vector2d(p_m.array() - radius_m));
-    high_m = high_m.cwiseMax(Eigen::Vector2d(p_m.array() + radius_m));
+  const auto include = [&](const Eigen::Vector2d& p_m, const Eigen::Vector2d& reach_m) {
+    low_m = low_m.cwiseMin(p_m - reach_m);
+    high_m = high_m.cwiseMax(p_m + reach_m);
   };
-  for (const StampedPose2& pose : paths.truth) include(pose.T_map_robot.translation_m(), kMargin_m);
+  const Eigen::Vector2d margin_m = Eigen::Vector2d::Constant(kMargin_m);
+  for (const StampedPose2& pose : paths.truth) include(pose.T_map_robot.translation_m(), margin_m);
   for (const Solid& solid : solids) include(solid.T_world_box.translation_m(), solid.Reach_m());
+  low_m -= 0.5 * margin_m;
+  high_m += 0.5 * margin_m;
   const Eigen::Vector2d extent_m = high_m - low_m;
   OccupancyGrid grid;
   grid.cell_m = std::max(kFinestCell_m, std::sqrt(extent_m.prod() / kMaxCells));
@@ -73,15 +79,15 @@ OccupancyGrid EmptyGrid(const std::vector<Solid>& solids, const WorldPaths& path
 
 void Draw(const Solid& solid, OccupancyGrid& grid) {
   const Eigen::Vector2d middle_m = solid.T_world_box.translation_m() - grid.origin_map_m;
-  const double reach_m = solid.Reach_m() + grid.cell_m;
+  const Eigen::Vector2d reach_m = solid.Reach_m().array() + grid.cell_m;
   const auto cell = [&](double at_m, int count) {
     return std::clamp(static_cast<int>(std::floor(at_m / grid.cell_m)), 0, count - 1);
   };
-  for (int y = cell(middle_m.y() - reach_m, grid.height);
-       y <= cell(middle_m.y() + reach_m, grid.height);
+  for (int y = cell(middle_m.y() - reach_m.y(), grid.height);
+       y <= cell(middle_m.y() + reach_m.y(), grid.height);
        ++y) {
-    for (int x = cell(middle_m.x() - reach_m, grid.width);
-         x <= cell(middle_m.x() + reach_m, grid.width);
+    for (int x = cell(middle_m.x() - reach_m.x(), grid.width);
+         x <= cell(middle_m.x() + reach_m.x(), grid.width);
          ++x) {
       const Eigen::Vector2d p_m =
           grid.origin_map_m + grid.cell_m * Eigen::Vector2d(x + 0.5, y + 0.5);
