@@ -27,6 +27,7 @@ ScenarioOptions Park(int seed) {
   ScenarioOptions scenario = Drive(LayoutKind::kPark, seed);
   scenario.ground.everywhere = Surface::kGrass;
   RobotOptions& robot = scenario.robots.front();
+  robot.odometry.calibration = {.scale_sigma = 0.0, .balance_sigma = 0.0, .turn_sigma = 0.0};
   robot.laser.rate_hz = 1.0;
   robot.laser.useful_range_m = 20.0;
   robot.driver.kind = DriverKind::kPoor;
