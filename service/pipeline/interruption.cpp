@@ -27,11 +27,13 @@ void Say(std::string_view text) {
   }
 }
 
-extern "C" void HandleSignal(int) {
+extern "C" void HandleSignal(int number) {
   if (interrupted.exchange(true)) {
     Say("quit without writing results\n");
     _exit(kInterruptedExitCode);
   }
+  // Ctrl-C comes from a person; SIGTERM from a program, which may read what else is said as JSON.
+  if (number == SIGTERM) return;
   Say("interrupted: finishing this scan and writing the results; again to quit at once\n");
 }
 

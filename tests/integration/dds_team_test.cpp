@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 #include <string>
 
 #include "tests/support/network.hpp"
@@ -81,6 +82,21 @@ TEST_F(DdsTeam, WhoWatchesAloneIsToldSo) {
   const Outcome watched = network_.Run({"watch", "--duration", "0.1"});
   EXPECT_EQ(watched.exit_code, 0) << watched.errors;
   EXPECT_EQ(watched.output, "nobody is reported on yet\n");
+}
+
+TEST_F(DdsTeam, ServiceSpeaksJsonToTheProgramsThatCollectMessages) {
+  Daemon service(network_.JoinService({"serve", "--json", "--verbose"}));
+  ASSERT_TRUE(service.WaitUntilItSays("serving as"));
+  const Outcome served = service.End();
+  EXPECT_EQ(served.exit_code, 0);
+  std::istringstream lines(served.errors);
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    EXPECT_TRUE(line.starts_with(R"({"time":"2)")) << line;
+    EXPECT_NE(line.find(R"("level":")"), std::string::npos) << line;
+    EXPECT_TRUE(line.ends_with("\"}")) << line;
+  }
+  EXPECT_GT(count, 1);
 }
 
 TEST_F(DdsTeam, JournalIsMappedAsALogIs) {
