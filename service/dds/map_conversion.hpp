@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -25,22 +23,6 @@ class MapSample {
  private:
   std::vector<std::int8_t> cells_;  // -1 unknown, 0 free, 100 occupied.
   wire::OccupancyGrid sample_{};
-};
-
-/// Points as a cloud of (x, y, z), which points into this object.
-class CloudSample {
- public:
-  /// @param frame outlives this.
-  CloudSample(std::span<const Eigen::Vector2d> points_m, Timestamp stamp, const std::string& frame);
-  CloudSample(const CloudSample&) = delete;
-  CloudSample& operator=(const CloudSample&) = delete;
-
-  const wire::PointCloud2& sample() const { return sample_; }
-
- private:
-  std::vector<float> xyz_m_;
-  std::vector<sensor_msgs_msg_dds__PointField_> fields_;
-  wire::PointCloud2 sample_{};
 };
 
 }  // namespace qwsm::dds

@@ -3,12 +3,15 @@
 #include "service/dds/planar.hpp"
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace qwsm::dds {
 namespace {
 
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+
+constexpr std::size_t kMaxNameLength = 256;
 
 // Indices of x, y and yaw among (x, y, z, roll, pitch, yaw).
 constexpr int kPlanar[3] = {0, 1, 5};
@@ -30,6 +33,16 @@ wire::Time ToWire(Timestamp stamp) {
   const auto seconds = std::chrono::floor<std::chrono::seconds>(stamp);
   return {.sec = static_cast<std::int32_t>(seconds.count()),
           .nanosec = static_cast<std::uint32_t>((stamp - seconds).count())};
+}
+
+double Seconds(std::chrono::nanoseconds duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
+std::chrono::nanoseconds Nanoseconds(double duration_s) {
+  constexpr double kDay_s = 86400.0;
+  if (!(std::abs(duration_s) < kDay_s)) return {};
+  return std::chrono::round<std::chrono::nanoseconds>(std::chrono::duration<double>(duration_s));
 }
 
 wire::Quaternion QuaternionOf(double theta_rad) {
@@ -94,6 +107,14 @@ void CopyCovariance(const Eigen::Matrix3d& of_x_y_theta, double (&of_three)[9]) 
 
 Eigen::Matrix3d CovarianceOf(const double (&of_three)[9]) {
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(of_three, 3, 3);
+}
+
+std::string_view ObjectionTo(const wire::Header& header) {
+  const std::size_t length = strnlen(header.frame_id, kMaxNameLength + 1);
+  if (!FromWire(header.stamp)) return "its stamp is no time";
+  if (length == 0) return "its frame_id is empty";
+  if (length > kMaxNameLength) return "its frame_id is too long";
+  return {};
 }
 
 wire::Header HeaderOf(Timestamp stamp, const std::string& frame) {

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "qwsm/geometry/pose2.hpp"
 #include "qwsm/sensor/laser_scan.hpp"
@@ -16,6 +17,9 @@ namespace qwsm::dds {
 std::optional<Timestamp> FromWire(const wire::Time& time);
 /// @pre the stamp is within 2^31 seconds.
 wire::Time ToWire(Timestamp stamp);
+double Seconds(std::chrono::nanoseconds duration);
+/// Nothing where there is no such duration: a day and more.
+std::chrono::nanoseconds Nanoseconds(double duration_s);
 
 /// A rotation about z whose YawOf() is `theta_rad` to the last bit, so that a replayed log gives
 /// the poses of the log itself. @pre -pi < theta_rad <= pi
@@ -40,6 +44,8 @@ Eigen::Matrix3d CovarianceOf(const double (&of_three)[9]);
 /// A string for a sample that is written while `text` lives.
 inline char* Borrow(const std::string& text) { return const_cast<char*>(text.c_str()); }
 
+/// Why a sample with this header must not be used; empty if it may.
+std::string_view ObjectionTo(const wire::Header& header);
 /// A header for a sample that is written while `frame` lives.
 wire::Header HeaderOf(Timestamp stamp, const std::string& frame);
 

@@ -20,6 +20,7 @@ constexpr Terms TermsOf(Profile profile) {
   switch (profile) {
     case Profile::kSensorIn:
       return {.reliable = false, .latched = false, .depth = 32};
+    case Profile::kSensorInWhole:
     case Profile::kSensorOut:
       return {.reliable = true, .latched = false, .depth = 32};
     case Profile::kAnswer:

@@ -12,6 +12,7 @@ namespace qwsm::dds {
 /// match any ROS 2 node (docs/dds.md).
 enum class Profile {
   kSensorIn,          ///< Scans, odometry and commands as they come: the newest counts.
+  kSensorInWhole,     ///< The same, of writers that repeat what is lost: clouds are large.
   kSensorOut,         ///< The same, from the simulator or a log.
   kAnswer,            ///< Poses, odometry and reports of every scan.
   kAnswerIn,          ///< The same, where each one is wanted.

@@ -2,25 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/dds/report_conversion.hpp"
 
-#include <cmath>
-
 #include "service/dds/planar.hpp"
 
 namespace qwsm::dds {
-namespace {
-
-double Seconds(std::chrono::nanoseconds duration) {
-  return std::chrono::duration<double>(duration).count();
-}
-
-std::chrono::nanoseconds Nanoseconds(double duration_s) {
-  constexpr double kDay_s = 86400.0;
-  if (!(std::abs(duration_s) < kDay_s)) return {};
-  return std::chrono::round<std::chrono::nanoseconds>(std::chrono::duration<double>(duration_s));
-}
-
-}  // namespace
-
 MatchReport ReportOf(const team::RobotAnswer& answer) {
   const MappingStep& step = answer.step;
   const MatchResult& match = step.match;

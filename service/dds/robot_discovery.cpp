@@ -22,6 +22,13 @@ Guid ToGuid(const dds_guid_t& raw) {
   return guid;
 }
 
+bool OffersReliability(const dds_builtintopic_endpoint_t& endpoint) {
+  dds_reliability_kind_t kind = DDS_RELIABILITY_BEST_EFFORT;
+  dds_duration_t longest_wait = 0;
+  return dds_qget_reliability(endpoint.qos, &kind, &longest_wait) &&
+         kind == DDS_RELIABILITY_RELIABLE;
+}
+
 }  // namespace
 
 RobotDiscovery::RobotDiscovery(const Participant& participant, std::string part, std::string type)
@@ -53,13 +60,16 @@ void RobotDiscovery::Note(const void* publication, bool is_alive, Changes& chang
   const Guid guid = ToGuid(endpoint.key);
   if (!is_alive) {
     const auto gone = robot_of_.extract(guid);
-    if (gone && --publishers_of_[gone.mapped()] == 0) changes.left.push_back(gone.mapped());
+    if (!gone || --publishers_of_[gone.mapped()] > 0) return;
+    unreliable_.erase(gone.mapped());
+    changes.left.push_back(gone.mapped());
     return;
   }
   if (robot_of_.contains(guid) || endpoint.type_name != type_) return;
   const std::optional<std::string> robot = RobotNames::RobotOf(endpoint.topic_name, part_);
   if (!robot) return;
   robot_of_[guid] = *robot;
+  if (!OffersReliability(endpoint)) unreliable_.insert(*robot);
   if (++publishers_of_[*robot] == 1) changes.joined.push_back(*robot);
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ class RobotDiscovery {
 
   /// What changed since the last call.
   Changes Take();
+  /// Whether the publishers of a robot repeat what was lost, as far as they are known.
+  bool IsReliable(const std::string& robot) const { return !unreliable_.contains(robot); }
   Entity::Handle handle() const { return reader_.handle(); }
 
  private:
@@ -34,10 +37,13 @@ class RobotDiscovery {
   Entity reader_;
   std::map<Guid, std::string> robot_of_;      // By publisher.
   std::map<std::string, int> publishers_of_;  // By robot.
+  std::set<std::string> unreliable_;          // Robots.
 };
 
 /// Types robots are known by.
 inline constexpr const char* kLaserScanType = "sensor_msgs::msg::dds_::LaserScan_";
+inline constexpr const char* kPointCloudType = "sensor_msgs::msg::dds_::PointCloud2_";
+inline constexpr const char* kRegistrationReportType = "qwsm_msgs::msg::dds_::RegistrationReport_";
 inline constexpr const char* kMatchReportType = "qwsm_msgs::msg::dds_::MatchReport_";
 
 }  // namespace qwsm::dds

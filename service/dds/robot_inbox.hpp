@@ -17,38 +17,50 @@
 namespace qwsm::dds {
 
 /// What one robot says: scans, odometry, and where its operator says it is.
-class RobotInbox {
+template <class Kind>
+class BasicRobotInbox {
  public:
-  /// @param refusals outlives this.
-  RobotInbox(const Participant& participant, const RobotNames& names, Refusals& refusals);
+  /// @param scans how they are listened to. @param refusals outlives this.
+  BasicRobotInbox(const Participant& participant,
+                  const RobotNames& names,
+                  Refusals& refusals,
+                  Profile scans = Profile::kSensorIn);
 
   std::array<Entity::Handle, 3> handles() const;
 
   /// Delivers all that has arrived: odometry before scans, for scans are matched with it.
-  void Deliver(const StaticTransforms& transforms, RobotListener& listener);
+  void Deliver(const BasicStaticTransforms<Kind>& transforms, BasicRobotListener<Kind>& listener);
 
  private:
-  void TakeOdometry(const wire::Odometry& sample, RobotListener& listener);
-  void TakeScan(const wire::LaserScan& sample);
-  void DeliverPlacedScans(const StaticTransforms& transforms, RobotListener& listener);
-  void TakeInitialPose(const wire::PoseWithCovarianceStamped& sample, RobotListener& listener);
-  std::optional<Pose2> LaserOnRobot(const std::string& laser_frame,
-                                    const StaticTransforms& transforms);
+  void TakeOdometry(const wire::Odometry& sample, BasicRobotListener<Kind>& listener);
+  void TakeScan(const typename OnWire<Kind>::Scan& sample);
+  void DeliverPlacedScans(const BasicStaticTransforms<Kind>& transforms,
+                          BasicRobotListener<Kind>& listener);
+  void TakeInitialPose(const wire::PoseWithCovarianceStamped& sample,
+                       BasicRobotListener<Kind>& listener);
+  std::optional<typename Kind::Pose> SensorOnRobot(const std::string& sensor_frame,
+                                                   const BasicStaticTransforms<Kind>& transforms);
 
-  /// A scan that waits until it is known where its laser sits.
+  /// A scan that waits until it is known where its sensor sits.
   struct UnplacedScan {
-    LaserScan scan;
-    std::string laser_frame;
+    typename Kind::Scan scan;
+    std::string sensor_frame;
   };
 
   RobotNames names_;
   Refusals& refusals_;
   std::string robot_frame_;
   Reader<wire::Odometry> odometry_;
-  Reader<wire::LaserScan> scans_;
+  Reader<typename OnWire<Kind>::Scan> scans_;
   Reader<wire::PoseWithCovarianceStamped> initial_poses_;
   std::deque<UnplacedScan> unplaced_;
   std::optional<std::chrono::steady_clock::time_point> unplaced_since_;
 };
+
+using RobotInbox = BasicRobotInbox<team::Planar>;
+using CloudRobotInbox = BasicRobotInbox<team::Spatial>;
+
+extern template class BasicRobotInbox<team::Planar>;
+extern template class BasicRobotInbox<team::Spatial>;
 
 }  // namespace qwsm::dds

@@ -31,6 +31,7 @@ class RobotNames {
 
 /// Names of topics, after the namespace.
 inline constexpr std::string_view kScanTopic = "scan";
+inline constexpr std::string_view kCloudTopic = "points";
 inline constexpr std::string_view kOdometryTopic = "odom";
 inline constexpr std::string_view kTruthTopic = "ground_truth";
 inline constexpr std::string_view kCommandTopic = "cmd_vel";
@@ -38,6 +39,9 @@ inline constexpr std::string_view kInitialPoseTopic = "initialpose";
 inline constexpr std::string_view kPoseTopic = "pose";
 inline constexpr std::string_view kMatchedOdometryTopic = "odometry/matched";
 inline constexpr std::string_view kReportTopic = "match_report";
+inline constexpr std::string_view kRegistrationTopic = "registration_report";
+inline constexpr std::string_view kPathTopic = "path";
+inline constexpr std::string_view kCloudMapTopic = "cloud_map";
 inline constexpr std::string_view kMapTopic = "map";  ///< The team's, where it has no namespace.
 
 /// Topics the whole team shares.

@@ -4,8 +4,7 @@
 
 #include <string>
 
-#include "service/dds/robot_names.hpp"
-#include "service/dds/writer.hpp"
+#include "service/dds/pose_publisher.hpp"
 #include "service/team/team_sink.hpp"
 
 namespace qwsm::dds {
@@ -24,14 +23,8 @@ class RobotOutbox {
   void Report(const team::RobotAnswer& answer) const;
 
  private:
-  void PublishTransform(const team::RobotAnswer& answer) const;
-
   std::string map_frame_;
-  std::string odom_frame_;
-  std::string robot_frame_;
-  const Writer<wire::TFMessage>& transforms_;
-  Writer<wire::PoseWithCovarianceStamped> poses_;
-  Writer<wire::Odometry> odometry_;
+  PosePublisher<team::Planar> poses_;
   Writer<wire::MatchReport> reports_;
 };
 

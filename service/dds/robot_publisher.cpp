@@ -8,13 +8,21 @@
 #include <thread>
 #include <utility>
 
-#include "service/dds/planar.hpp"
-#include "service/dds/scan_conversion.hpp"
+#include "service/dds/wire_kind.hpp"
 #include "service/dds/writer.hpp"
 
 namespace qwsm::dds {
+namespace {
 
-class RobotPublisher::Topics {
+bool IsSame(const Pose2& a, const Pose2& b) { return a == b; }
+bool IsSame(const slam6d::Pose3& a, const slam6d::Pose3& b) {
+  return a.rotation == b.rotation && a.translation_m == b.translation_m;
+}
+
+}  // namespace
+
+template <class Kind>
+class BasicRobotPublisher<Kind>::Topics {
  public:
   Topics(const Participant& participant, RobotNames names, OdometryUse use)
       : names_(std::move(names)),
@@ -27,7 +35,7 @@ class RobotPublisher::Topics {
     if (use == OdometryUse::kPublished) {
       odometry_.emplace(participant, names_.Topic(kOdometryTopic), Profile::kSensorOut);
     }
-    scans_.emplace(participant, names_.Topic(kScanTopic), Profile::kSensorOut);
+    scans_.emplace(participant, names_.Topic(OnWire<Kind>::kScanTopic), Profile::kSensorOut);
   }
 
   bool has_listener() const {
@@ -36,17 +44,17 @@ class RobotPublisher::Topics {
   bool has_pose_listener() const { return told_poses_.reader_count() > 0; }
   const RobotNames& names() const { return names_; }
 
-  /// A laser that is mounted anew gets a new frame: transforms and scans may overtake each other.
-  void PlaceLaser(const Pose2& T_robot_laser) {
-    if (T_robot_laser_ == T_robot_laser) return;
-    T_robot_laser_ = T_robot_laser;
-    laser_frame_ = names_.Frame(kLaserFrame);
-    if (placements_++ > 0) laser_frame_ += "_" + std::to_string(placements_);
-    const wire::Pose pose = ToWire(T_robot_laser);
+  /// A sensor that is mounted anew gets a new frame: transforms and scans may overtake each other.
+  void PlaceSensor(const Pose& T_robot_sensor) {
+    if (T_robot_sensor_ && IsSame(*T_robot_sensor_, T_robot_sensor)) return;
+    T_robot_sensor_ = T_robot_sensor;
+    sensor_frame_ = names_.Frame(kLaserFrame);
+    if (placements_++ > 0) sensor_frame_ += "_" + std::to_string(placements_);
+    const wire::Pose pose = ToWire(T_robot_sensor);
     wire::TransformStamped transform{};
     transform.header = HeaderOf({}, robot_frame_);
-    transform.child_frame_id = Borrow(laser_frame_);
-    transform.transform.translation = {pose.position.x, pose.position.y, 0.0};
+    transform.child_frame_id = Borrow(sensor_frame_);
+    transform.transform.translation = {pose.position.x, pose.position.y, pose.position.z};
     transform.transform.rotation = pose.orientation;
     wire::TFMessage message{};
     message.transforms = {._maximum = 1, ._length = 1, ._buffer = &transform, ._release = false};
@@ -54,14 +62,15 @@ class RobotPublisher::Topics {
   }
 
   bool Publish(const Observation& observation) {
-    PlaceLaser(observation.scan.geometry.T_robot_laser);
+    PlaceSensor(OnWire<Kind>::Mounting(observation.scan));
     if (odometry_ && observation.T_odom_robot) {
       odometry_->Write(OdometryOf(observation.scan.stamp, odom_frame_, *observation.T_odom_robot));
     }
-    return scans_->Write(ToWire(observation.scan, laser_frame_));
+    const typename OnWire<Kind>::Sample sample(observation.scan, sensor_frame_);
+    return scans_->Write(sample.sample());
   }
 
-  void TellPose(Timestamp stamp, const UncertainPose2& map_robot) {
+  void TellPose(Timestamp stamp, const typename Kind::UncertainPose& map_robot) {
     wire::PoseWithCovarianceStamped sample{};
     sample.header = HeaderOf(stamp, map_frame_);
     sample.pose.pose = ToWire(map_robot.T_a_b);
@@ -69,7 +78,7 @@ class RobotPublisher::Topics {
     told_poses_.Write(sample);
   }
 
-  void PublishTruth(Timestamp stamp, const Pose2& T_world_robot) {
+  void PublishTruth(Timestamp stamp, const Pose& T_world_robot) {
     truth_.Write(OdometryOf(stamp, world_frame_, T_world_robot));
   }
 
@@ -80,7 +89,7 @@ class RobotPublisher::Topics {
   }
 
  private:
-  wire::Odometry OdometryOf(Timestamp stamp, const std::string& frame, const Pose2& pose) const {
+  wire::Odometry OdometryOf(Timestamp stamp, const std::string& frame, const Pose& pose) const {
     wire::Odometry sample{};
     sample.header = HeaderOf(stamp, frame);
     sample.child_frame_id = Borrow(robot_frame_);
@@ -93,26 +102,30 @@ class RobotPublisher::Topics {
   std::string robot_frame_;
   std::string world_frame_ = kWorldFrame;
   std::string map_frame_ = kMapFrame;
-  std::string laser_frame_;
-  std::optional<Pose2> T_robot_laser_;
+  std::string sensor_frame_;
+  std::optional<Pose> T_robot_sensor_;
   int placements_ = 0;
   Writer<wire::TFMessage> static_transforms_;
   Writer<wire::Odometry> truth_;
   Writer<wire::PoseWithCovarianceStamped> told_poses_;
   std::optional<Writer<wire::Odometry>> odometry_;
-  std::optional<Writer<wire::LaserScan>> scans_;
+  std::optional<Writer<typename OnWire<Kind>::Scan>> scans_;
 };
 
-RobotPublisher::RobotPublisher(const Participant& participant,
-                               RobotNames names,
-                               OdometryUse odometry)
+template <class Kind>
+BasicRobotPublisher<Kind>::BasicRobotPublisher(const Participant& participant,
+                                               RobotNames names,
+                                               OdometryUse odometry)
     : topics_(std::make_unique<Topics>(participant, std::move(names), odometry)) {}
 
-RobotPublisher::~RobotPublisher() = default;
+template <class Kind>
+BasicRobotPublisher<Kind>::~BasicRobotPublisher() = default;
 
-bool RobotPublisher::WaitForListener(const Pose2& T_robot_laser, std::chrono::nanoseconds timeout) {
+template <class Kind>
+bool BasicRobotPublisher<Kind>::WaitForListener(const Pose& T_robot_sensor,
+                                                std::chrono::nanoseconds timeout) {
   constexpr auto kLook = std::chrono::milliseconds(5);
-  topics_->PlaceLaser(T_robot_laser);
+  topics_->PlaceSensor(T_robot_sensor);
   const auto until = std::chrono::steady_clock::now() + timeout;
   while (!topics_->has_listener()) {
     if (std::chrono::steady_clock::now() >= until) return false;
@@ -121,26 +134,43 @@ bool RobotPublisher::WaitForListener(const Pose2& T_robot_laser, std::chrono::na
   return topics_->WaitForAcknowledgments(until - std::chrono::steady_clock::now());
 }
 
-bool RobotPublisher::Publish(const Observation& observation) {
+template <class Kind>
+bool BasicRobotPublisher<Kind>::Publish(const Observation& observation) {
   return topics_->Publish(observation);
 }
 
-bool RobotPublisher::has_listener() const { return topics_->has_listener(); }
+template <class Kind>
+bool BasicRobotPublisher<Kind>::has_listener() const {
+  return topics_->has_listener();
+}
 
-bool RobotPublisher::has_pose_listener() const { return topics_->has_pose_listener(); }
+template <class Kind>
+bool BasicRobotPublisher<Kind>::has_pose_listener() const {
+  return topics_->has_pose_listener();
+}
 
-void RobotPublisher::TellPose(Timestamp stamp, const UncertainPose2& map_robot) {
+template <class Kind>
+void BasicRobotPublisher<Kind>::TellPose(Timestamp stamp,
+                                         const typename Kind::UncertainPose& map_robot) {
   topics_->TellPose(stamp, map_robot);
 }
 
-void RobotPublisher::PublishTruth(Timestamp stamp, const Pose2& T_world_robot) {
+template <class Kind>
+void BasicRobotPublisher<Kind>::PublishTruth(Timestamp stamp, const Pose& T_world_robot) {
   topics_->PublishTruth(stamp, T_world_robot);
 }
 
-bool RobotPublisher::WaitForAcknowledgments(std::chrono::nanoseconds timeout) {
+template <class Kind>
+bool BasicRobotPublisher<Kind>::WaitForAcknowledgments(std::chrono::nanoseconds timeout) {
   return topics_->WaitForAcknowledgments(timeout);
 }
 
-const RobotNames& RobotPublisher::names() const { return topics_->names(); }
+template <class Kind>
+const RobotNames& BasicRobotPublisher<Kind>::names() const {
+  return topics_->names();
+}
+
+template class BasicRobotPublisher<team::Planar>;
+template class BasicRobotPublisher<team::Spatial>;
 
 }  // namespace qwsm::dds

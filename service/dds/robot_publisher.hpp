@@ -6,25 +6,30 @@
 #include <memory>
 #include <optional>
 
-#include "qwsm/mapping/observation.hpp"
 #include "service/dds/participant.hpp"
 #include "service/dds/robot_names.hpp"
+#include "service/team/sensor_kind.hpp"
 
 namespace qwsm::dds {
 
 /// Whether a robot says how it moved.
 enum class OdometryUse { kPublished, kNone };
 
-/// Publishes as a robot does: scans, odometry and the laser's place on it.
-class RobotPublisher {
+/// Publishes as a robot does: scans, odometry and the sensor's place on it.
+/// @tparam Kind team::Planar or team::Spatial.
+template <class Kind>
+class BasicRobotPublisher {
  public:
-  /// @throws DdsError.
-  RobotPublisher(const Participant& participant, RobotNames names, OdometryUse odometry);
-  ~RobotPublisher();
+  using Pose = typename Kind::Pose;
+  using Observation = typename Kind::Observation;
 
-  /// Waits until somebody listens to the scans, knows where the laser is, and hears the odometry.
+  /// @throws DdsError.
+  BasicRobotPublisher(const Participant& participant, RobotNames names, OdometryUse odometry);
+  ~BasicRobotPublisher();
+
+  /// Waits until somebody listens to the scans, knows where the sensor is, and hears the odometry.
   /// @returns false where nobody came in time.
-  bool WaitForListener(const Pose2& T_robot_laser, std::chrono::nanoseconds timeout);
+  bool WaitForListener(const Pose& T_robot_sensor, std::chrono::nanoseconds timeout);
 
   /// Odometry goes first, so that it is there when its scan arrives.
   /// @returns false where a listener did not take it in time.
@@ -33,8 +38,8 @@ class RobotPublisher {
   bool has_listener() const;
   bool has_pose_listener() const;
   /// Tells where the robot is, as an operator would (initialpose).
-  void TellPose(Timestamp stamp, const UncertainPose2& map_robot);
-  void PublishTruth(Timestamp stamp, const Pose2& T_world_robot);
+  void TellPose(Timestamp stamp, const typename Kind::UncertainPose& map_robot);
+  void PublishTruth(Timestamp stamp, const Pose& T_world_robot);
 
   /// Waits until all that was published has arrived at every reliable listener.
   bool WaitForAcknowledgments(std::chrono::nanoseconds timeout);
@@ -45,5 +50,11 @@ class RobotPublisher {
   class Topics;
   std::unique_ptr<Topics> topics_;
 };
+
+using RobotPublisher = BasicRobotPublisher<team::Planar>;
+using CloudRobotPublisher = BasicRobotPublisher<team::Spatial>;
+
+extern template class BasicRobotPublisher<team::Planar>;
+extern template class BasicRobotPublisher<team::Spatial>;
 
 }  // namespace qwsm::dds

@@ -14,13 +14,6 @@ constexpr std::size_t kMaxNameLength = 256;
 
 std::size_t LengthOf(const char* name) { return strnlen(name, kMaxNameLength + 1); }
 
-std::string_view ObjectionTo(const wire::Header& header) {
-  if (!FromWire(header.stamp)) return "its stamp is no time";
-  if (LengthOf(header.frame_id) == 0) return "its frame_id is empty";
-  if (LengthOf(header.frame_id) > kMaxNameLength) return "its frame_id is too long";
-  return {};
-}
-
 // Before the ranges are copied: an absurd count is to cost nothing.
 std::string_view ObjectionTo(const dds_sequence_float& ranges) {
   if (ranges._length == 0) return "it has no ranges";

@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 
+#include "service/dds/cloud_conversion.hpp"
 #include "service/dds/diagnostics.hpp"
 #include "service/dds/map_conversion.hpp"
 #include "service/dds/planar.hpp"

@@ -24,11 +24,14 @@ using Twist = geometry_msgs_msg_dds__Twist_;
 using TransformStamped = geometry_msgs_msg_dds__TransformStamped_;
 using TFMessage = tf2_msgs_msg_dds__TFMessage_;
 using Odometry = nav_msgs_msg_dds__Odometry_;
+using Path = nav_msgs_msg_dds__Path_;
+using PoseStamped = geometry_msgs_msg_dds__PoseStamped_;
 using OccupancyGrid = nav_msgs_msg_dds__OccupancyGrid_;
 using DiagnosticArray = diagnostic_msgs_msg_dds__DiagnosticArray_;
 using DiagnosticStatus = diagnostic_msgs_msg_dds__DiagnosticStatus_;
 using KeyValue = diagnostic_msgs_msg_dds__KeyValue_;
 using MatchReport = qwsm_msgs_msg_dds__MatchReport_;
+using RegistrationReport = qwsm_msgs_msg_dds__RegistrationReport_;
 using RelevantScan = qwsm_msgs_msg_dds__RelevantScan_;
 using Pose2D = qwsm_msgs_msg_dds__Pose2D_;
 using ParticipantEntitiesInfo = rmw_dds_common_msg_dds__ParticipantEntitiesInfo_;
@@ -64,6 +67,11 @@ inline const dds_topic_descriptor_t* const kDescriptor<DiagnosticArray> =
 template <>
 inline const dds_topic_descriptor_t* const kDescriptor<MatchReport> =
     &qwsm_msgs_msg_dds__MatchReport__desc;
+template <>
+inline const dds_topic_descriptor_t* const kDescriptor<Path> = &nav_msgs_msg_dds__Path__desc;
+template <>
+inline const dds_topic_descriptor_t* const kDescriptor<RegistrationReport> =
+    &qwsm_msgs_msg_dds__RegistrationReport__desc;
 template <>
 inline const dds_topic_descriptor_t* const kDescriptor<RelevantScan> =
     &qwsm_msgs_msg_dds__RelevantScan__desc;

@@ -59,12 +59,16 @@ NumberedPoses ReadFolder(const fs::path& folder, const std::string& ending) {
 
 }  // namespace
 
-void WriteTum3(const fs::path& file, const std::vector<Pose3>& T_map_scan) {
+void WriteTum3(const fs::path& file,
+               const std::vector<Pose3>& T_map_scan,
+               const std::vector<qwsm::Timestamp>& stamps) {
+  constexpr std::string_view kWhole = ".000000000";
   std::string text;
   for (std::size_t scan = 0; scan < T_map_scan.size(); ++scan) {
     const Eigen::Vector3d& t = T_map_scan[scan].translation_m;
     const Eigen::Quaterniond q(T_map_scan[scan].rotation);
-    text += std::to_string(scan);
+    qwsm::io::AppendStamp(text, stamps[scan]);
+    if (text.ends_with(kWhole)) text.erase(text.size() - kWhole.size());  // As of a number.
     for (const double value : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}) {
       text += ' ';
       qwsm::io::AppendNumber(text, value);
@@ -72,6 +76,14 @@ void WriteTum3(const fs::path& file, const std::vector<Pose3>& T_map_scan) {
     text += '\n';
   }
   qwsm::io::WriteTextFile(file, text);
+}
+
+void WriteTum3(const fs::path& file, const std::vector<Pose3>& T_map_scan) {
+  std::vector<qwsm::Timestamp> numbers;
+  for (std::size_t scan = 0; scan < T_map_scan.size(); ++scan) {
+    numbers.push_back(std::chrono::seconds(scan));
+  }
+  WriteTum3(file, T_map_scan, numbers);
 }
 
 NumberedPoses ReadPoses(const fs::path& path) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <vector>
 
+#include "qwsm/sensor/laser_scan.hpp"
 #include "slam6d/geometry/pose3.hpp"
 
 namespace slam6d::io {
@@ -17,6 +18,11 @@ using NumberedPoses = std::map<double, Pose3>;
 /// metres, all digits.
 /// @throws qwsm::io::WriteError where it cannot be written.
 void WriteTum3(const std::filesystem::path& file, const std::vector<Pose3>& T_map_scan);
+
+/// The same with stamps, in seconds. @pre as many as poses.
+void WriteTum3(const std::filesystem::path& file,
+               const std::vector<Pose3>& T_map_scan,
+               const std::vector<qwsm::Timestamp>& stamps);
 
 /// Reads poses: a TUM trajectory, a folder of results that holds one, or a folder of `.frames` or
 /// else `.pose` files of 3DTK.

@@ -6,7 +6,8 @@
 
 namespace qwsm::pipeline {
 
-bool AnswerWindow::WaitFor(std::size_t most, std::chrono::nanoseconds patience) {
+template <class Kind>
+bool BasicAnswerWindow<Kind>::WaitFor(std::size_t most, std::chrono::nanoseconds patience) {
   while (unanswered_.size() > most) {
     if (Take(patience)) continue;
     unanswered_.clear();
@@ -15,9 +16,10 @@ bool AnswerWindow::WaitFor(std::size_t most, std::chrono::nanoseconds patience) 
   return true;
 }
 
-bool AnswerWindow::Take(std::chrono::nanoseconds timeout) {
+template <class Kind>
+bool BasicAnswerWindow<Kind>::Take(std::chrono::nanoseconds timeout) {
   bool came = false;
-  for (const dds::MatchReport& report : reports_.Take(timeout)) {
+  for (const auto& report : reports_.Take(timeout)) {
     came = true;
     ++answered_;
     dropped_ = std::max(dropped_, report.dropped);
@@ -27,5 +29,8 @@ bool AnswerWindow::Take(std::chrono::nanoseconds timeout) {
   }
   return came;
 }
+
+template class BasicAnswerWindow<team::Planar>;
+template class BasicAnswerWindow<team::Spatial>;
 
 }  // namespace qwsm::pipeline

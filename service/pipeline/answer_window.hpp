@@ -13,10 +13,12 @@ namespace qwsm::pipeline {
 
 /// Keeps a publisher of scans from outrunning the service: only so many scans are on their way
 /// before one of them is answered.
-class AnswerWindow {
+/// @tparam Kind of the scans: team::Planar or team::Spatial.
+template <class Kind>
+class BasicAnswerWindow {
  public:
   /// @param size smaller than the queue of the service, so that nothing is dropped there.
-  AnswerWindow(dds::MatchReportReader& reports, std::size_t size)
+  BasicAnswerWindow(dds::BasicReportReader<Kind>& reports, std::size_t size)
       : reports_(reports), size_(size) {}
 
   void NoteSent(Timestamp stamp) { unanswered_.push_back(stamp); }
@@ -35,11 +37,16 @@ class AnswerWindow {
   bool WaitFor(std::size_t most, std::chrono::nanoseconds patience);
   bool Take(std::chrono::nanoseconds timeout);
 
-  dds::MatchReportReader& reports_;
+  dds::BasicReportReader<Kind>& reports_;
   std::size_t size_;
   std::deque<Timestamp> unanswered_;
   std::size_t answered_ = 0;
   std::uint64_t dropped_ = 0;
 };
+
+using AnswerWindow = BasicAnswerWindow<team::Planar>;
+
+extern template class BasicAnswerWindow<team::Planar>;
+extern template class BasicAnswerWindow<team::Spatial>;
 
 }  // namespace qwsm::pipeline

@@ -15,6 +15,7 @@
 #include "service/io/uos_scan.hpp"
 #include "tests/support/drive3.hpp"
 #include "tests/support/program.hpp"
+#include "tests/support/uos_files.hpp"
 
 namespace slam6d {
 namespace {
@@ -38,15 +39,6 @@ Outcome RunSlam6d(const std::vector<std::string>& arguments, const std::string& 
   return {.exit_code = WEXITSTATUS(status), .output = ReadFile(output), .errors = ReadFile(errors)};
 }
 
-/// Centimetres, left-handed: x right, y up, z forward.
-void WriteUos(const fs::path& file, const PointCloud& cloud, double unit_m = 0.01) {
-  std::ofstream stream(file);
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const Eigen::Vector3d p = cloud[i] / unit_m;
-    stream << -p.y() << ' ' << p.z() << ' ' << p.x() << '\n';
-  }
-}
-
 class Slam6dProgram : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -54,21 +46,13 @@ class Slam6dProgram : public ::testing::Test {
     fs::create_directories(truth_);
     for (std::size_t i = 0; i < drive_.scans.size(); ++i) {
       WriteUos(Scan(i), drive_.scans[i]);
-      WritePose(scans_ / Name(i), drive_.T_odom_scan[i]);
+      WriteUosPose(scans_ / (Name(i) + ".pose"), drive_.T_odom_scan[i]);
       io::WriteUosFrames(truth_ / (Name(i) + ".frames"), {}, drive_.T_room_scan[i]);
     }
   }
 
   static std::string Name(std::size_t i) { return "scan00" + std::to_string(i); }
   fs::path Scan(std::size_t i) const { return scans_ / (Name(i) + ".3d"); }
-
-  /// Odometry in the plane: the only angle is about the axis that points up.
-  static void WritePose(fs::path file, const Pose3& pose) {
-    const Eigen::Vector3d t_cm = 100.0 * pose.translation_m;
-    const double yaw_deg = RollPitchYaw(pose.rotation).z() * 180.0 / std::numbers::pi;
-    std::ofstream(file += ".pose")
-        << -t_cm.y() << ' ' << t_cm.z() << ' ' << t_cm.x() << "\r\n0 " << -yaw_deg << " 0\r\n";
-  }
 
   Outcome Register(std::vector<std::string> more = {}) {
     std::vector<std::string> arguments{"register", scans_, "--output", results_};
@@ -189,7 +173,8 @@ TEST_F(Slam6dProgram, LosesNothingToScansOfOnePlace) {
 TEST_F(Slam6dProgram, WritesWhatItHasWhenInterrupted) {
   std::vector<std::string> arguments{"register", "--output", results_};
   for (int round = 0; round < 30; ++round) arguments.push_back(scans_);
-  const Outcome outcome = RunSlam6d(arguments, "timeout --foreground --preserve-status --signal=INT 1");
+  const Outcome outcome =
+      RunSlam6d(arguments, "timeout --foreground --preserve-status --signal=INT 1");
   EXPECT_EQ(outcome.exit_code, 130) << outcome.errors;
   EXPECT_NE(outcome.errors.find("slam6d: interrupted"), std::string::npos) << outcome.errors;
   EXPECT_FALSE(io::ReadPoses(results_).empty());

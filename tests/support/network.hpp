@@ -45,8 +45,9 @@ class PrivateNetwork {
 /// A program that runs until it is told to stop, or the test is over.
 class Daemon {
  public:
-  explicit Daemon(std::vector<std::string> arguments)
-      : program_(std::make_unique<Program>(std::move(arguments))) {}
+  explicit Daemon(std::vector<std::string> arguments, const std::string& program = "qwsm")
+      : program_(std::make_unique<Program>(std::move(arguments),
+                                           Redirection{.output = {}, .program = program})) {}
   Daemon(const Daemon&) = delete;
   Daemon& operator=(const Daemon&) = delete;
   ~Daemon() {

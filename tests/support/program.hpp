@@ -25,8 +25,8 @@ inline std::string ReadFile(const std::filesystem::path& file) {
 }
 
 /// The program stands in bin/ beside the folder of the tests.
-inline std::filesystem::path ProgramPath() {
-  return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "bin/qwsm";
+inline std::filesystem::path ProgramPath(const std::string& name = "qwsm") {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "bin" / name;
 }
 
 /// What a program did.
@@ -40,9 +40,10 @@ struct Outcome {
 struct Redirection {
   std::filesystem::path input = "/dev/null";
   std::filesystem::path output{};
+  std::string program = "qwsm";
 };
 
-/// The program qwsm as its own process.
+/// A program of ours as its own process.
 class Program {
  public:
   explicit Program(std::vector<std::string> arguments, const Redirection& redirection = {}) {
@@ -69,7 +70,7 @@ class Program {
 
  private:
   void Start(std::vector<std::string> arguments, const Redirection& redirection) {
-    arguments.insert(arguments.begin(), ProgramPath());
+    arguments.insert(arguments.begin(), ProgramPath(redirection.program));
     std::vector<char*> argv;
     for (std::string& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);

@@ -5,12 +5,12 @@
 #include <memory>
 
 #include "service/apps/slam6d/commands.hpp"
-#include "service/pipeline/slam6d/registration_options.hpp"
+#include "service/pipeline/slam6d/program_options.hpp"
 
 namespace slam6d::apps {
 
 Command AddConfigCommand(CLI::App& program) {
-  CLI::App* parser = program.add_subcommand("config", "all options of register, as YAML or table");
+  CLI::App* parser = program.add_subcommand("config", "all options, as YAML or table");
   struct Settings {
     qwsm::config::OptionSources sources;
     bool describe = false;
@@ -22,10 +22,10 @@ Command AddConfigCommand(CLI::App& program) {
   parser->add_flag("--describe", settings->describe, "a table with units, bounds and help");
   qwsm::apps::AddConfiguration(*parser, settings->sources);
   return {.parser = parser, .run = [settings] {
-            using pipeline::RegistrationOptions;
-            const auto options = qwsm::config::LoadOptions<RegistrationOptions>(settings->sources);
+            using pipeline::ProgramOptions;
+            const auto options = qwsm::config::LoadOptions<ProgramOptions>(settings->sources);
             fmt::print("{}",
-                       settings->describe ? qwsm::config::DescribeOptions<RegistrationOptions>()
+                       settings->describe ? qwsm::config::DescribeOptions<ProgramOptions>()
                                           : qwsm::config::DumpOptions(options));
             return ExitCode::kDone;
           }};

@@ -15,6 +15,8 @@ ExitCode Run(const qwsm::apps::Arguments& arguments) {
       "  slam6d register --help                     all about one command");
   const std::vector<Command> commands{AddRegisterCommand(program),
                                       AddEvalCommand(program),
+                                      AddServeCommand(program),
+                                      AddReplayCommand(program),
                                       AddBenchSearchCommand(program),
                                       AddConfigCommand(program)};
   return qwsm::apps::RunProgram(program, commands, arguments);

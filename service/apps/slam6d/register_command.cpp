@@ -16,6 +16,7 @@
 #include "service/io/atomic_file.hpp"
 #include "service/pipeline/interruption.hpp"
 #include "service/pipeline/progress_display.hpp"
+#include "service/pipeline/slam6d/program_options.hpp"
 #include "service/pipeline/slam6d/registration_results.hpp"
 
 namespace slam6d::apps {
@@ -44,7 +45,8 @@ ExitCode TellPlan(const std::vector<fs::path>& files, const RegisterArguments& a
 }
 
 /// The folder of this run, with its messages and configuration recorded there.
-ResultsFolder OpenResults(const RegisterArguments& arguments, const RegistrationOptions& options) {
+ResultsFolder OpenResults(const RegisterArguments& arguments,
+                          const pipeline::ProgramOptions& options) {
   ResultsFolder folder = arguments.output ? ResultsFolder(*arguments.output, arguments.force)
                                           : ResultsFolder::ForNow("results");
   qwsm::apps::CopyMessagesTo(folder / "run.log");
@@ -102,7 +104,7 @@ void TellDoubts(const pipeline::Registration& registration) {
 
 ExitCode RunRegister(const RegisterArguments& arguments) {
   qwsm::apps::StartMessages(arguments.verbosity);
-  auto options = qwsm::config::LoadOptions<RegistrationOptions>(arguments.sources);
+  auto options = qwsm::config::LoadOptions<pipeline::ProgramOptions>(arguments.sources);
   if (arguments.threads) options.slam.icp.threads = *arguments.threads;
   const std::vector<fs::path> files = pipeline::FindScans(arguments.scans);
   const io::NumberedPoses starts =

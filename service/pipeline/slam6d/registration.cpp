@@ -21,16 +21,11 @@ double SecondsSince(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-PointCloud WithinRange(const PointCloud& cloud, const SlamOptions& options) {
-  const double max_range_m =
-      options.max_range_m > 0.0 ? options.max_range_m : std::numeric_limits<double>::max();
-  return InRange(cloud, options.min_range_m, max_range_m);
-}
-
 RegisteredScan Add(LoadedScan loaded, Slam& slam) {
   const Clock::time_point begin = Clock::now();
   RegisteredScan scan{.name = std::move(loaded.name),
                       .file = std::move(loaded.file),
+                      .stamp = {},
                       .T_odom_scan = loaded.T_odom_scan,
                       .cloud = WithinRange(loaded.cloud, slam.options()),
                       .step = {}};
@@ -54,6 +49,12 @@ void Refine(Slam& slam, Registration& result, const RegistrationObserver& observ
 
 }  // namespace
 
+PointCloud WithinRange(const PointCloud& cloud, const SlamOptions& options) {
+  const double max_range_m =
+      options.max_range_m > 0.0 ? options.max_range_m : std::numeric_limits<double>::max();
+  return InRange(cloud, options.min_range_m, max_range_m);
+}
+
 Registration RegisterSeries(ScanSeries& series,
                             const SlamOptions& options,
                             const RegistrationObserver& observer) {
@@ -66,7 +67,9 @@ Registration RegisterSeries(ScanSeries& series,
     std::optional<LoadedScan> loaded = series.Next();
     if (!loaded) break;
     for (const std::string& problem : loaded->problems) observer.warn(problem);
+    const auto number = static_cast<std::int64_t>(result.scans.size());
     result.scans.push_back(Add(std::move(*loaded), slam));
+    result.scans.back().stamp = std::chrono::seconds(number);
     const double share =
         static_cast<double>(result.scans.size()) / static_cast<double>(series.size());
     observer.show(share_of_scans * share,

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "qwsm/sensor/laser_scan.hpp"
 #include "service/pipeline/slam6d/scan_series.hpp"
 
 namespace slam6d::pipeline {
@@ -14,6 +15,7 @@ namespace slam6d::pipeline {
 struct RegisteredScan {
   std::string name;
   std::filesystem::path file;
+  qwsm::Timestamp stamp{};  ///< Where none is known, its number in seconds.
   Pose3 T_odom_scan;
   PointCloud cloud;  ///< In the scanner's frame, within range.
   SlamStep step;
@@ -37,6 +39,9 @@ struct RegistrationObserver {
   std::function<void(const std::string& problem)> warn;
   std::function<bool()> should_stop;
 };
+
+/// The points that the registration would use.
+PointCloud WithinRange(const PointCloud& cloud, const SlamOptions& options);
 
 /// Registers all scans of a series and fits them to each other.
 Registration RegisterSeries(ScanSeries& series,

@@ -89,7 +89,9 @@ void WriteResults(const Registration& registration,
                   const qwsm::pipeline::ResultsFolder& folder) {
   const std::vector<Pose3> before = PosesBefore(registration);
   const std::vector<Pose3>& after = registration.T_map_scan;
-  io::WriteTum3(folder / "trajectory.tum", after);
+  std::vector<qwsm::Timestamp> stamps;
+  for (const RegisteredScan& scan : registration.scans) stamps.push_back(scan.stamp);
+  io::WriteTum3(folder / "trajectory.tum", after, stamps);
   for (std::size_t i = 0; i < after.size(); ++i) {
     io::WriteUosFrames(folder / (registration.scans[i].name + ".frames"), before[i], after[i]);
   }

@@ -103,6 +103,9 @@ std::optional<LoadedScan> ScanSeries::Next() {
   ahead_.pop_front();
   CheckRange(read);
   read.scan.T_odom_scan = StartPose(read.scan);
+  // As a network carries it: there and here the same scans give the same poses.
+  Eigen::Matrix3d& R = read.scan.T_odom_scan.rotation;
+  R = RotationFromQuaternion(QuaternionOf(R));
   poses_.push_back(read.scan.T_odom_scan);
   ++given_;
   return std::move(read.scan);

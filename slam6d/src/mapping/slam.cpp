@@ -99,13 +99,18 @@ SlamStep Slam::Add(const PointCloud& scan, const Pose3& T_odom_scan) {
               .model = ScanModel(points, options_.tree),
               .overlap = OverlapModel(points, options_.guess)};
   const bool usable = entry.model.tree.size() >= kLeastPoints;
+  if (!graph_.T_map_scan.empty()) {
+    step.covariance = covariances_.back() + CovarianceOf(kOdometrySigmaM, kOdometrySigmaRad);
+  }
   if (usable) Match(entry, step);
   graph_.T_map_scan.push_back(step.T_map_scan);
+  covariances_.push_back(step.covariance);
   entries_.emplace_back();
   if (!usable) return step;
   entries_.back() = std::move(entry);
   CloseLoops(step);
   step.T_map_scan = graph_.T_map_scan.back();
+  step.covariance = covariances_.back();
   return step;
 }
 
@@ -157,6 +162,17 @@ void Slam::Match(const Entry& entry, SlamStep& step) {
   const Matrix6d covariance =
       match.trusted ? CovarianceOf(match.icp) : CovarianceOf(kOdometrySigmaM, kOdometrySigmaRad);
   Constrain(references.front(), entries_.size(), {step.T_map_scan, covariance});
+  step.covariance = ByLastConstraint().covariance;
+}
+
+UncertainPose3 Slam::Uncertain(std::size_t scan) const {
+  return {.T_a_b = graph_.T_map_scan[scan], .covariance = covariances_[scan]};
+}
+
+/// What the constraint found last says of the later of its scans.
+UncertainPose3 Slam::ByLastConstraint() const {
+  const PoseConstraint& last = graph_.constraints.back();
+  return Uncertain(last.from) * UncertainPose3{last.T_from_to, last.covariance};
 }
 
 /// Keeps what was found out about the pose of scan `to` relative to that of `from`.
@@ -180,6 +196,8 @@ void Slam::CloseLoops(SlamStep& step) {
         Register(std::span(&earlier, 1), cur, graph_.T_map_scan[scan], search);
     if (!match.trusted || match.overlap < options_.loop.min_overlap) continue;
     Constrain(earlier, scan, {match.icp.T_ref_cur, CovarianceOf(match.icp)});
+    const Matrix6d covariance = ByLastConstraint().covariance;
+    if (covariance.trace() < covariances_[scan].trace()) covariances_[scan] = covariance;
     graph_.T_map_scan = closer_.Close(graph_);
     step.loops_to.push_back(earlier);
   }

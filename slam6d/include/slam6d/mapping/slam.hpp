@@ -68,6 +68,8 @@ std::string_view NameOf(SlamStatus status);
 struct SlamStep {
   SlamStatus status = SlamStatus::kUnusable;
   Pose3 T_map_scan;
+  /// Of that pose as in UncertainPose3, with all error since the first scan, the loops' taken out.
+  Matrix6d covariance = Matrix6d::Zero();
   std::size_t points = 0;               ///< After the reduction.
   IcpResult match{};                    ///< With the scans before; its `ref` is the map.
   double overlap = 0.0;                 ///< With the scans before, after the match.
@@ -118,12 +120,15 @@ class Slam {
   void Constrain(std::size_t from, std::size_t to, const UncertainPose3& T_map_to);
   void Match(const Entry& entry, SlamStep& step);
   void CloseLoops(SlamStep& step);
+  UncertainPose3 Uncertain(std::size_t scan) const;
+  UncertainPose3 ByLastConstraint() const;
 
   SlamOptions options_;
   const LoopCloser& closer_;
   std::deque<std::optional<Entry>> entries_;  ///< Nothing for unusable scans.
   Pose3 T_odom_last_;
   PoseGraph graph_;
+  std::vector<Matrix6d> covariances_;  ///< Of the poses in the graph.
 };
 
 }  // namespace slam6d

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <cstdio>
+#include <string>
+
+#include "service/apps/command.hpp"
+#include "service/dds/wire_kind.hpp"
+#include "service/pipeline/network_replay.hpp"
+
+namespace qwsm::apps {
+
+/// Arguments of all commands that replay a record on the network.
+struct ReplayArguments {
+  std::string robot;
+  std::string rate = "1";
+  double wait_s = 10.0;
+};
+
+void AddReplayArguments(CLI::App& parser, ReplayArguments& arguments);
+
+/// @throws UsageError where --rate makes no sense.
+pipeline::ReplayOptions ReplayOptionsOf(const ReplayArguments& arguments,
+                                        const Verbosity& verbosity);
+
+/// Replays all of a source. @param server who could listen, such as `qwsm serve`.
+/// @pre the source has a scan.
+template <class Kind, class Source>
+ExitCode Replay(Source& source,
+                const ReplayArguments& arguments,
+                const dds::NetworkOptions& network,
+                const Verbosity& verbosity,
+                const std::string& server) {
+  const pipeline::Interruption interruption;
+  pipeline::NetworkReplay<Kind, Source> replay(
+      network, ReplayOptionsOf(arguments, verbosity), source);
+  const typename Kind::Pose T_robot_sensor = dds::OnWire<Kind>::Mounting(source.Peek()->scan);
+  if (!replay.WaitForListener(
+          T_robot_sensor, std::chrono::duration<double>(arguments.wait_s), interruption)) {
+    if (interruption.requested()) return ExitCode::kInterrupted;
+    spdlog::error("nobody listens to {}; is '{}' running in the same DDS domain?",
+                  dds::RobotNames(arguments.robot).Topic(dds::OnWire<Kind>::kScanTopic),
+                  server);
+    return ExitCode::kFailed;
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  const bool is_complete = replay.Run(interruption);
+  const auto time = std::chrono::steady_clock::now() - begin;
+  if (!verbosity.quiet) fmt::print("{}", replay.Summary(time));
+  return is_complete ? ExitCode::kDone : ExitCode::kInterrupted;
+}
+
+}  // namespace qwsm::apps

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "service/apps/service_manager.hpp"
+#include "service/apps/slam6d/commands.hpp"
+#include "service/apps/slam6d/network.hpp"
+#include "service/apps/version.hpp"
+#include "service/dds/cloud_inbox.hpp"
+#include "service/dds/cloud_outbox.hpp"
+#include "service/graph/ceres_loop_closer.hpp"
+#include "service/io/atomic_file.hpp"
+#include "service/pipeline/interruption.hpp"
+#include "service/pipeline/slam6d/cloud_results.hpp"
+#include "service/pipeline/slam6d/cloud_sinks.hpp"
+
+namespace slam6d::apps {
+namespace {
+
+using namespace std::chrono_literals;
+using qwsm::pipeline::ResultsFolder;
+
+struct ServeArguments {
+  std::vector<std::string> robots;
+  std::optional<std::filesystem::path> output;
+  bool force = false;
+  NetworkArguments network;
+};
+
+/// The service and everything that listens to it.
+class Server {
+ public:
+  Server(const std::vector<std::string>& robots,
+         const pipeline::ProgramOptions& options,
+         const std::optional<ResultsFolder>& folder)
+      : refusals_([](const std::string& text) { spdlog::warn("{}", text); }),
+        participant_(options.network),
+        outbox_(participant_, options.network, refusals_),
+        results_(folder ? std::make_unique<pipeline::CloudResults>(*folder, options) : nullptr),
+        sinks_(Sinks()),
+        service_({.team = options.team, .slam = options.slam}, closer_, sinks_),
+        inbox_(participant_, robots, service_, outbox_, refusals_) {}
+
+  void Run(const qwsm::pipeline::Interruption& interruption) {
+    qwsm::apps::ServiceManager manager;
+    service_.Start();
+    manager.TellReady("serving");
+    spdlog::info("serving");
+    while (!interruption.requested()) {
+      inbox_.Deliver(100ms);
+      manager.TellAlive("serving");
+    }
+    manager.TellStopping();
+    service_.Stop();
+    if (results_) results_->Finish(service_);
+  }
+
+  qwsm::team::TeamStatus Status() const { return service_.Status(); }
+
+ private:
+  // Files before topics: who hears of an answer finds it kept.
+  std::vector<qwsm::team::CloudSink*> Sinks() {
+    std::vector<qwsm::team::CloudSink*> sinks{&log_, &outbox_};
+    if (results_) sinks.insert(sinks.begin(), results_.get());
+    return sinks;
+  }
+
+  qwsm::dds::Refusals refusals_;
+  qwsm::dds::Participant participant_;
+  pipeline::CloudLog log_;
+  qwsm::dds::CloudOutbox outbox_;
+  std::unique_ptr<pipeline::CloudResults> results_;
+  pipeline::CloudSinks sinks_;
+  graph::CeresLoopCloser closer_;
+  qwsm::team::CloudService service_;
+  qwsm::dds::CloudInbox inbox_;
+};
+
+void Summarize(const qwsm::team::TeamStatus& status) {
+  for (const qwsm::team::RobotStatus& robot : status.robots) {
+    const auto milliseconds = [](std::chrono::nanoseconds duration) {
+      return std::chrono::duration<double, std::milli>(duration).count();
+    };
+    fmt::print(
+        "{:<14} {} of {} scans answered, {} dead reckoned, {} dropped; latency {:.1f} ms, "
+        "p99 {:.1f} ms\n",
+        robot.name.empty() ? "robot" : robot.name,
+        robot.counts.answered,
+        robot.counts.scans,
+        robot.counts.dead_reckoned,
+        robot.counts.dropped,
+        milliseconds(robot.latency.median),
+        milliseconds(robot.latency.p99));
+  }
+}
+
+ExitCode RunServe(const ServeArguments& arguments) {
+  const NetworkSession session(arguments.network);
+  std::optional<ResultsFolder> folder;
+  if (arguments.output) {
+    folder.emplace(*arguments.output, arguments.force);
+    qwsm::apps::CopyMessagesTo(*folder / "run.log");
+    qwsm::io::WriteTextFile(*folder / "config.yaml", qwsm::config::DumpOptions(session.options()));
+  }
+  spdlog::info("version {}", qwsm::apps::Version());
+  const qwsm::pipeline::Interruption interruption;
+  Server server(arguments.robots, session.options(), folder);
+  server.Run(interruption);
+  if (!arguments.network.verbosity.quiet) Summarize(server.Status());
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Command AddServeCommand(CLI::App& program) {
+  CLI::App* parser = program.add_subcommand("serve", "poses and models for robots on the network");
+  auto arguments = std::make_shared<ServeArguments>();
+  parser->footer(
+      "  slam6d serve                      for whoever publishes clouds, until Ctrl-C\n"
+      "  slam6d serve --output run-7       and leave poses, models and pictures there\n"
+      "  ROS_DOMAIN_ID=7 slam6d serve      in another DDS domain");
+  parser->add_option("ROBOT", arguments->robots, "namespaces of robots; else all that appear")
+      ->type_name("");
+  parser->add_option("-o,--output", arguments->output, "folder for the results; else none")
+      ->type_name("DIR");
+  parser->add_flag("--force", arguments->force, "write into a folder that holds other things");
+  AddNetworkArguments(*parser, arguments->network);
+  return {.parser = parser, .run = [arguments] { return RunServe(*arguments); }};
+}
+
+}  // namespace slam6d::apps

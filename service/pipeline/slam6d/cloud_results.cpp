@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/slam6d/cloud_results.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <utility>
+
+#include "service/pipeline/slam6d/registration_results.hpp"
+
+namespace slam6d::pipeline {
+
+void CloudResults::TakeAnswer(const qwsm::team::CloudAnswer& answer) {
+  const std::lock_guard lock(mutex_);
+  std::vector<RegisteredScan>& scans = robots_[answer.robot].scans;
+  scans.push_back({.name = fmt::format("scan{:03}", scans.size()),
+                   .file = {},
+                   .stamp = answer.scan.stamp,
+                   .T_odom_scan = answer.T_odom_sensor,
+                   .cloud = WithinRange(answer.scan.cloud, options_.slam),
+                   .step = answer.step,
+                   .time_s = std::chrono::duration<double>(answer.matching).count()});
+}
+
+void CloudResults::Finish(qwsm::team::CloudService& service) {
+  for (auto& [robot, refinement] : service.Refine()) {
+    const auto known = robots_.find(robot);
+    if (known == robots_.end()) continue;
+    Registration& registration = known->second;
+    registration.series_size = registration.scans.size();
+    registration.T_map_scan = refinement.T_map_scan;
+    registration.refinement = std::move(refinement);
+    const qwsm::pipeline::ResultsFolder folder(folder_.path() / robot, true);
+    WriteResults(registration, options_, folder);
+  }
+}
+
+}  // namespace slam6d::pipeline

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "service/pipeline/results_folder.hpp"
+#include "service/pipeline/slam6d/registration.hpp"
+#include "service/team/cloud_service.hpp"
+
+namespace slam6d::pipeline {
+
+/// Leaves what `slam6d register` leaves, for every robot of a team. A robot without a namespace has
+/// the folder itself, others a folder of their name in it. Keeps all points until then.
+class CloudResults final : public qwsm::team::CloudSink {
+ public:
+  CloudResults(const qwsm::pipeline::ResultsFolder& folder, const RegistrationOptions& options)
+      : folder_(folder), options_(options) {}
+
+  void TakeAnswer(const qwsm::team::CloudAnswer& answer) override;
+  void TakeMap(const qwsm::team::CloudMap&) override {}
+  void TakeStatus(const qwsm::team::TeamStatus&) override {}
+  void TakeEvent(const qwsm::team::TeamEvent&) override {}
+
+  /// Fits the scans to each other, if that is wanted, and writes. @pre the service has stopped.
+  /// @throws qwsm::io::WriteError.
+  void Finish(qwsm::team::CloudService& service);
+
+ private:
+  const qwsm::pipeline::ResultsFolder folder_;
+  const RegistrationOptions options_;
+  std::mutex mutex_;
+  std::map<std::string, Registration, std::less<>> robots_;
+};
+
+}  // namespace slam6d::pipeline

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "service/team/cloud_options.hpp"
+#include "service/team/cloud_session.hpp"
+#include "service/team/cloud_sink.hpp"
+#include "service/team/periodic_task.hpp"
+#include "service/team/session_list.hpp"
+
+namespace qwsm::team {
+
+struct CloudServiceOptions {
+  CloudTeamOptions team;
+  slam6d::SlamOptions slam;
+};
+
+/// 6D SLAM for robots on the network: takes their clouds and odometry, answers each cloud with a
+/// pose, and keeps a model for each robot.
+///
+/// All functions may be called from any thread, but not from the sink. A robot is known by its
+/// namespace, such as `robot1`, or "" for the only one.
+class CloudService {
+ public:
+  /// @param closer and sink outlive this.
+  CloudService(const CloudServiceOptions& options,
+               const slam6d::LoopCloser& closer,
+               CloudSink& sink);
+  /// Stops.
+  ~CloudService();
+  CloudService(const CloudService&) = delete;
+  CloudService& operator=(const CloudService&) = delete;
+
+  /// Starts to work. What arrives before waits.
+  void Start();
+  /// Finishes the registrations at work and works no more. What waits in queues is left out.
+  void Stop();
+  /// Waits until every scan that was taken is answered or dropped.
+  void WaitUntilIdle() { sessions_.WaitUntilIdle(); }
+
+  SessionList<CloudSession>& robots() { return sessions_; }
+  TeamStatus Status() const;
+
+  /// Fits all scans of every robot to each other. @pre it is stopped.
+  std::vector<std::pair<std::string, slam6d::RefinementResult>> Refine();
+
+ private:
+  std::shared_ptr<CloudSession> MakeSession(std::string robot);
+  void TellMaps(const std::stop_token& stop);
+
+  const CloudServiceOptions options_;
+  const CloudContext context_;
+  const std::chrono::steady_clock::time_point begun_;
+  SessionList<CloudSession> sessions_;
+  std::unique_ptr<PeriodicTask> merging_;
+  std::unique_ptr<PeriodicTask> reporting_;
+};
+
+}  // namespace qwsm::team
