@@ -24,6 +24,8 @@ namespace qwsm::team {
 namespace {
 
 constexpr std::size_t kRobots = 4;
+// A robot alone may have been a few millimetres luckier.
+constexpr double kLuck_m = 0.003;
 
 /// How well robots are told where they start; the first one defines the frame and knows.
 struct ToldStart {
@@ -111,8 +113,7 @@ TEST_P(TeamDrive, OneMapForAllIsAsAccurateAsOneEach) {
   for (std::size_t i = 0; i < kRobots; ++i) {
     RecordProperty(NameOf(i),
                    std::to_string(shared_m[i]) + " m, alone " + std::to_string(each_m[i]));
-    // A robot alone may have been a few millimetres luckier.
-    EXPECT_LT(shared_m[i], 2.0 * each_m[i]) << NameOf(i);
+    EXPECT_LT(shared_m[i], 2.0 * each_m[i] + kLuck_m) << NameOf(i);
   }
   EXPECT_LT(Summarize({shared_m.begin(), shared_m.end()}).median,
             Summarize({each_m.begin(), each_m.end()}).median);
