@@ -28,17 +28,18 @@ std::string Read(const fs::path& file) {
 }
 
 /// What a .msg file calls a type of the IDL.
-std::string ToRosType(const std::string& type, const std::string& size) {
-  static const std::map<std::string, std::string> kNames = {
-      {"double", "float64"},
-      {"float", "float32"},
-      {"boolean", "bool"},
-      {"std_msgs::msg::dds_::Header_", "std_msgs/Header"},
-      {"sequence<float>", "float32[]"}};
-  const auto known = kNames.find(type);
-  std::string name = known != kNames.end() ? known->second : type;
-  if (name.ends_with('_')) name.pop_back();  // A message of the same package.
-  return name + size;
+std::string ToRosType(const std::string& type) {
+  static const std::map<std::string, std::string> kNumbers = {
+      {"double", "float64"}, {"float", "float32"}, {"boolean", "bool"}};
+  if (const auto number = kNumbers.find(type); number != kNumbers.end()) return number->second;
+  std::smatch parts;
+  if (std::regex_match(type, parts, std::regex(R"(sequence<(\w+)>)"))) {
+    return ToRosType(parts[1]) + "[]";
+  }
+  if (std::regex_match(type, parts, std::regex(R"((\w+)::msg::dds_::(\w+)_)"))) {
+    return parts[1].str() + "/" + parts[2].str();
+  }
+  return type.ends_with('_') ? type.substr(0, type.size() - 1) : type;  // Of the same package.
 }
 
 /// `type name` of each field of a struct.
@@ -50,7 +51,7 @@ std::vector<std::string> FieldsOfIdl(const std::string& idl, const std::string& 
   const std::regex field(R"(([A-Za-z0-9_:<>]+) (\w+)(\[\d+\])?;)");
   std::vector<std::string> fields;
   for (std::sregex_iterator at(text.begin(), text.end(), field), end; at != end; ++at) {
-    fields.push_back(ToRosType((*at)[1], (*at)[3]) + " " + (*at)[2].str());
+    fields.push_back(ToRosType((*at)[1]) + (*at)[3].str() + " " + (*at)[2].str());
   }
   return fields;
 }
