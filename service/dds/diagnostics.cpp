@@ -25,6 +25,7 @@ Health HealthOf(const team::RobotStatus& robot) {
   health.level =
       robot.state == team::RobotState::kTracked ? HealthLevel::kOk : HealthLevel::kWarning;
   if (robot.state == team::RobotState::kLost) health.level = HealthLevel::kStale;
+  if (robot.state == team::RobotState::kElsewhere) health.level = HealthLevel::kOk;
   const team::SessionCounts& counts = robot.counts;
   Add(health, "scans", counts.scans);
   Add(health, "answered", counts.answered);

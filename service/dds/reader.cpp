@@ -56,6 +56,12 @@ std::size_t UntypedReader::writer_count() const {
   return status.current_count;
 }
 
+std::size_t UntypedReader::lost_writer_count() const {
+  dds_subscription_matched_status_t status{};
+  dds_get_subscription_matched_status(handle(), &status);
+  return status.total_count - status.current_count;
+}
+
 std::size_t UntypedReader::TakeSamples(const std::function<void(const void*)>& take) const {
   std::size_t taken = 0;
   while (true) {

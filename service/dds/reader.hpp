@@ -24,6 +24,8 @@ class UntypedReader {
 
   /// How many writers there are now that this reader hears.
   std::size_t writer_count() const;
+  /// How many there have been that are gone.
+  std::size_t lost_writer_count() const;
   Entity::Handle handle() const { return reader_.handle(); }
 
  protected:

@@ -8,10 +8,11 @@ namespace qwsm::dds {
 
 RobotOutbox::RobotOutbox(const Participant& participant,
                          const RobotNames& names,
-                         const Writer<wire::TFMessage>& transforms)
+                         const Writer<wire::TFMessage>& transforms,
+                         const Claim& claim)
     : map_frame_(kMapFrame),
       poses_(participant, names, transforms),
-      reports_(participant, names.Topic(kReportTopic), Profile::kAnswer) {}
+      reports_(participant, names.Topic(kReportTopic), Profile::kAnswer, ToUserData(claim)) {}
 
 void RobotOutbox::Publish(const team::RobotAnswer& answer) const {
   poses_.Publish(answer.step.stamp, answer.step.map_robot, answer.T_odom_robot);

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "service/dds/other_services.hpp"
 #include "service/dds/pose_publisher.hpp"
 #include "service/team/team_sink.hpp"
 
@@ -15,7 +16,8 @@ class RobotOutbox {
   /// @param transforms writer of /tf, which all robots share; outlives this.
   RobotOutbox(const Participant& participant,
               const RobotNames& names,
-              const Writer<wire::TFMessage>& transforms);
+              const Writer<wire::TFMessage>& transforms,
+              const Claim& claim);
 
   /// Pose, odometry and transform.
   void Publish(const team::RobotAnswer& answer) const;

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <map>
+#include <memory>
 #include <mutex>
 
 #include "service/dds/cloud_conversion.hpp"
@@ -36,18 +37,25 @@ class TeamOutbox::Topics {
     MapOf("");
   }
 
-  const RobotOutbox& Robot(std::string_view robot) {
+  void Add(const std::string& robot, const Claim& claim) {
     const std::lock_guard lock(mutex_);
-    const auto known = robots_.find(robot);
-    if (known != robots_.end()) return known->second;
-    const auto added =
-        robots_.try_emplace(std::string(robot), participant_, RobotNames(robot), transforms_);
+    if (robots_.contains(robot)) return;
+    robots_[robot] =
+        std::make_shared<RobotOutbox>(participant_, RobotNames(robot), transforms_, claim);
     graph_.Announce();
-    return added.first->second;
+  }
+  void Remove(const std::string& robot) {
+    const std::lock_guard lock(mutex_);
+    robots_.erase(robot);
+    graph_.Announce();
   }
 
-  void Take(const team::RobotAnswer& answer) { Robot(answer.robot).Publish(answer); }
-  void Report(const team::RobotAnswer& answer) { Robot(answer.robot).Report(answer); }
+  void Take(const team::RobotAnswer& answer) {
+    if (const auto robot = Find(answer.robot)) robot->Publish(answer);
+  }
+  void Report(const team::RobotAnswer& answer) {
+    if (const auto robot = Find(answer.robot)) robot->Report(answer);
+  }
   void Take(const team::TeamScan& scan) const { shared_scans_.Write(ToWire(scan, map_frame_)); }
   void Take(const team::NewPoints& points) const {
     new_points_.Write(CloudSample(points.points_map_m, points.stamp, map_frame_).sample());
@@ -62,6 +70,12 @@ class TeamOutbox::Topics {
 
  private:
   using MapWriter = Writer<wire::OccupancyGrid>;
+
+  std::shared_ptr<const RobotOutbox> Find(const std::string& robot) {
+    const std::lock_guard lock(mutex_);
+    const auto known = robots_.find(robot);
+    return known == robots_.end() ? nullptr : known->second;
+  }
 
   /// The team's map for no robot, else the robot's own.
   const MapWriter& MapOf(std::string_view robot) {
@@ -85,7 +99,7 @@ class TeamOutbox::Topics {
   RosGraph graph_;
   std::mutex mutex_;  // Of the two lists; what stands in them never changes.
   std::map<std::string, MapWriter, std::less<>> maps_;
-  std::map<std::string, RobotOutbox, std::less<>> robots_;
+  std::map<std::string, std::shared_ptr<const RobotOutbox>> robots_;
 };
 
 TeamOutbox::TeamOutbox(const Participant& participant,
@@ -95,7 +109,10 @@ TeamOutbox::TeamOutbox(const Participant& participant,
 
 TeamOutbox::~TeamOutbox() = default;
 
-void TeamOutbox::AddRobot(const std::string& robot) { topics_->Robot(robot); }
+void TeamOutbox::AddRobot(const std::string& robot, const Claim& claim) {
+  topics_->Add(robot, claim);
+}
+void TeamOutbox::RemoveRobot(const std::string& robot) { topics_->Remove(robot); }
 void TeamOutbox::TakeAnswer(const team::RobotAnswer& answer) { topics_->Take(answer); }
 void TeamOutbox::TakeReport(const team::RobotAnswer& answer) { topics_->Report(answer); }
 void TeamOutbox::TakeRelevantScan(const team::TeamScan& scan) { topics_->Take(scan); }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "service/dds/other_services.hpp"
 #include "service/dds/participant.hpp"
 #include "service/dds/refusals.hpp"
 #include "service/team/team_sink.hpp"
@@ -21,7 +22,9 @@ class TeamOutbox final : public team::TeamSink {
   ~TeamOutbox() override;
 
   /// Makes the topics of a robot, so that listeners find them before its first scan is answered.
-  void AddRobot(const std::string& robot);
+  void AddRobot(const std::string& robot, const Claim& claim);
+  /// Takes them away: another service answers the robot. Answers still on their way are dropped.
+  void RemoveRobot(const std::string& robot);
 
   void TakeAnswer(const team::RobotAnswer& answer) override;
   void TakeReport(const team::RobotAnswer& answer) override;

@@ -11,8 +11,10 @@ namespace qwsm::dds {
 UntypedWriter::UntypedWriter(const Participant& participant,
                              const dds_topic_descriptor_t& descriptor,
                              const std::string& topic,
-                             Profile profile) {
+                             Profile profile,
+                             const std::string& user_data) {
   const Qos qos = QosOf(profile);
+  if (!user_data.empty()) dds_qset_userdata(qos.get(), user_data.data(), user_data.size());
   topic_ = MakeTopic(participant, descriptor, topic);
   writer_ = Entity(dds_create_writer(participant.handle(), topic_.handle(), qos.get(), nullptr),
                    topic + ": cannot be written");

@@ -14,11 +14,13 @@ namespace qwsm::dds {
 /// What writers of all types have in common.
 class UntypedWriter {
  public:
-  /// @param topic name as ROS has it, such as `/robot1/scan`. @throws DdsError.
+  /// @param topic name as ROS has it, such as `/robot1/scan`.
+  /// @param user_data what whoever discovers the writer is told of it. @throws DdsError.
   UntypedWriter(const Participant& participant,
                 const dds_topic_descriptor_t& descriptor,
                 const std::string& topic,
-                Profile profile);
+                Profile profile,
+                const std::string& user_data = {});
 
   /// How many readers there are now that get what is written.
   std::size_t reader_count() const;
@@ -37,8 +39,11 @@ class UntypedWriter {
 template <class T>
 class Writer : public UntypedWriter {
  public:
-  Writer(const Participant& participant, const std::string& topic, Profile profile)
-      : UntypedWriter(participant, *wire::kDescriptor<T>, topic, profile) {}
+  Writer(const Participant& participant,
+         const std::string& topic,
+         Profile profile,
+         const std::string& user_data = {})
+      : UntypedWriter(participant, *wire::kDescriptor<T>, topic, profile, user_data) {}
 
   /// The sample is copied; what it points to may be gone afterwards.
   bool Write(const T& sample) const { return WriteSample(&sample); }

@@ -45,6 +45,11 @@ void RobotSession::Lose() {
   if (intake_.Lose()) Tell(true, "is lost: nobody publishes its scans any more");
 }
 
+void RobotSession::HandOver() {
+  intake_.HandOver();
+  Tell(false, "is answered by another service");
+}
+
 bool RobotSession::TakeScan(LaserScan scan) {
   Join();
   return intake_.TakeScan(std::move(scan));
@@ -82,6 +87,7 @@ void RobotSession::Answer(Work& work, std::span<const ScanPoint> points) {
   MappingStep step;
   {
     const TeamMap::State::View map = context_.map.Read();
+    is_placed_ = is_placed_ && !work.was_elsewhere;
     is_placed_ = Place(*map, work, points);
     if (!is_placed_) return intake_.NoteUnplaced();
     // Odometry that moves faster than any robot has begun anew; after an interruption it may have.

@@ -51,6 +51,8 @@ class RobotSession final : public Lane {
   void Join();
   /// Its publisher is gone: it will come back where it left.
   void Lose();
+  /// Another service answers it from now on. If it joins again, it is where the map says by then.
+  void HandOver();
 
   /// @return false if it was refused. A scan that is taken may still be dropped for newer ones.
   bool TakeScan(LaserScan scan);

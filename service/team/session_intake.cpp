@@ -41,7 +41,7 @@ SessionIntake<Kind>::SessionIntake(std::string name, const SessionOptions& optio
 template <class Kind>
 bool SessionIntake<Kind>::Join() {
   const std::lock_guard lock(mutex_);
-  if (state_ != RobotState::kExpected && state_ != RobotState::kLost) return false;
+  if (IsHere()) return false;
   is_interrupted_ = true;
   const bool goes_on = state_ == RobotState::kLost && counts_.answered > 0;
   state_ = goes_on ? RobotState::kTracked : RobotState::kUnplaced;
@@ -51,9 +51,22 @@ bool SessionIntake<Kind>::Join() {
 template <class Kind>
 bool SessionIntake<Kind>::Lose() {
   const std::lock_guard lock(mutex_);
-  if (state_ == RobotState::kLost || state_ == RobotState::kExpected) return false;
+  if (!IsHere()) return false;
   state_ = RobotState::kLost;
   return true;
+}
+
+template <class Kind>
+void SessionIntake<Kind>::HandOver() {
+  const std::lock_guard lock(mutex_);
+  state_ = RobotState::kElsewhere;
+  was_elsewhere_ = true;
+  while (!queue_.empty()) queue_.Pop();
+}
+
+template <class Kind>
+bool SessionIntake<Kind>::IsHere() const {
+  return state_ == RobotState::kUnplaced || state_ == RobotState::kTracked;
 }
 
 template <class Kind>
@@ -122,6 +135,7 @@ std::optional<typename SessionIntake<Kind>::Work> SessionIntake<Kind>::Take() {
   Work work{.scan = std::move(next.scan), .arrived = next.arrived, .T_odom_robot = {}};
   work.T_odom_robot = odometry_.At(work.scan.stamp);
   work.is_interrupted = std::exchange(is_interrupted_, false);
+  work.was_elsewhere = std::exchange(was_elsewhere_, false);
   WatchOdometry(work);
   return work;
 }

@@ -33,6 +33,7 @@ class SessionIntake {
     Lane::Time arrived{};
     std::optional<Pose> T_odom_robot;
     bool is_interrupted = false;    ///< The robot, or its clock, was away since the last scan.
+    bool was_elsewhere = false;     ///< Another service knows better where it is.
     bool odometry_jumped = false;   ///< It moved faster than any robot: it began anew.
     bool odometry_goes_on = false;  ///< The scan before had odometry, too.
   };
@@ -55,6 +56,8 @@ class SessionIntake {
   bool Join();
   /// It is gone. @return whether that is news.
   bool Lose();
+  /// Another service answers it from now on, until it joins again.
+  void HandOver();
 
   /// @return false if it was refused. A scan that is taken may still be dropped for newer ones.
   bool TakeScan(Scan scan);
@@ -79,6 +82,7 @@ class SessionIntake {
     Lane::Time arrived{};
   };
 
+  bool IsHere() const;
   bool AwaitsOdometry(const Scan& scan) const;
   void WatchOdometry(Work& work);
 
@@ -92,6 +96,7 @@ class SessionIntake {
   bool expects_odometry_ = false;
   ScanQueue<Arrival> queue_;
   bool is_interrupted_ = false;
+  bool was_elsewhere_ = false;
   std::optional<Pose> T_odom_last_;  // Of the scan taken last.
   Timestamp last_stamp_{};
   SessionCounts counts_;

@@ -61,6 +61,9 @@ class SessionList {
   void Lose(std::string_view robot) {
     if (const auto session = Find(robot)) session->Lose();
   }
+  void HandOver(std::string_view robot) {
+    if (const auto session = Find(robot)) session->HandOver();
+  }
   template <class Scan>
   bool TakeScan(std::string_view robot, Scan scan) {
     const auto session = Of(robot);

@@ -22,13 +22,18 @@ bool TeamMap::Register(const TeamScan& scan) {
   const std::lock_guard lock(register_);
   if (!known_.insert(scan.key).second) return false;
   has_begun_ = true;
-  TeamScan& last = last_by_robot_[scan.key.robot];
+  const auto [known, is_first] = last_by_robot_.try_emplace(scan.key.robot);
+  TeamScan& last = known->second;
+  std::uint64_t& sequence = last_sequence_[{scan.key.service, scan.key.robot}];
+  sequence = std::max(sequence, scan.key.sequence);
+  // Scans of several services come in any order.
+  const bool is_newer = last.key.service == scan.key.service ? last.key.sequence < scan.key.sequence
+                                                             : last.scan.stamp < scan.scan.stamp;
+  if (!is_first && !is_newer) return true;
   last = {.key = scan.key,
           .scan = {.stamp = scan.scan.stamp, .geometry = scan.scan.geometry, .ranges_m = {}},
           .map_robot = scan.map_robot,
           .T_odom_robot = scan.T_odom_robot};
-  std::uint64_t& sequence = last_sequence_[{scan.key.service, scan.key.robot}];
-  sequence = std::max(sequence, scan.key.sequence);
   return true;
 }
 

@@ -85,7 +85,6 @@ void TeamService::Restore() {
     }
   });
   identity_ = journal_->identity();
-  std::erase_if(offered_, [this](const TeamScan& scan) { return scan.key.service != identity_; });
   if (damaged == 0) return;
   const std::string text =
       fmt::format("{}: {} entries are damaged and left out", journal_->Status().file, damaged);
@@ -128,10 +127,10 @@ void TeamService::WaitUntilIdle() {
 void TeamService::TakeIn(std::vector<TeamScan> scans) {
   std::ranges::sort(
       scans, {}, [](const TeamScan& scan) { return std::tie(scan.scan.stamp, scan.key); });
-  for (const TeamScan& scan : scans) TakeInOne(scan);
+  for (TeamScan& scan : scans) TakeInOne(std::move(scan));
 }
 
-void TeamService::TakeInOne(const TeamScan& scan) {
+void TeamService::TakeInOne(TeamScan scan) {
   if (!ObjectionTo(scan).empty()) {
     ++refused_;
     return;
@@ -143,6 +142,18 @@ void TeamService::TakeInOne(const TeamScan& scan) {
         .Report(scan.key.robot, scan.map_robot.T_a_b.translation_m(), steady_clock::now());
   }
   ++(is_new ? taken_in_ : duplicates_);
+  if (!is_new) return;
+  const std::lock_guard lock(extension_);
+  of_others_.push_back(std::move(scan));
+}
+
+void TeamService::OfferTakenIn() {
+  std::vector<TeamScan> scans;
+  {
+    const std::lock_guard lock(extension_);
+    scans.swap(of_others_);
+  }
+  for (const TeamScan& scan : scans) sink_.TakeRelevantScan(scan);
 }
 
 // Nobody hears of a relevant scan before it is safe: who has heard of it may rely on it.

@@ -72,6 +72,8 @@ class TeamService {
   void Join(std::string_view robot) { sessions_.Join(robot); }
   /// It is gone.
   void Lose(std::string_view robot) { sessions_.Lose(robot); }
+  /// Another service answers it from now on.
+  void HandOver(std::string_view robot) { sessions_.HandOver(robot); }
   /// @return false if the scan was refused: malformed, late or a duplicate. See its counts.
   bool TakeScan(std::string_view robot, LaserScan scan) {
     return sessions_.TakeScan(robot, std::move(scan));
@@ -91,6 +93,9 @@ class TeamService {
   /// inserted by stamp, so that services that start late get the same map from the same scans.
   /// What is known already, or came from this service, is passed over.
   void TakeIn(std::vector<TeamScan> scans);
+  /// Another service is gone: this one offers what it took in, for those that come later. So what
+  /// one service has is never lost to the team.
+  void OfferTakenIn();
 
   TeamStatus Status() const;
   /// The map a robot is matched against; the team's where all share one.
@@ -99,7 +104,7 @@ class TeamService {
  private:
   std::shared_ptr<RobotSession> MakeSession(std::string robot);
   void Extend(const TeamScan& scan, std::span<const ScanPoint> points);
-  void TakeInOne(const TeamScan& scan);
+  void TakeInOne(TeamScan scan);
   void Restore();
   bool Insert(const TeamScan& scan,
               std::span<const ScanPoint> points,
@@ -114,8 +119,9 @@ class TeamService {
   const std::chrono::steady_clock::time_point begun_;
   std::string identity_;
   TeamMaps maps_;
-  std::mutex extension_;           // Keeps the journal in the order of the map.
-  std::vector<TeamScan> offered_;  // Of this service, from the journal, until the start.
+  std::mutex extension_;             // Keeps the journal in the order of the map.
+  std::vector<TeamScan> offered_;    // From the journal, until the start.
+  std::vector<TeamScan> of_others_;  // Taken in, and offered by those whose they are.
   std::atomic<std::uint64_t> taken_in_ = 0;
   std::atomic<std::uint64_t> duplicates_ = 0;
   std::atomic<std::uint64_t> refused_ = 0;

@@ -64,7 +64,8 @@ class TeamSink {
   /// one that can be written: that a scan extended the map is told of no scan that may be lost.
   virtual void TakeReport(const RobotAnswer& answer) = 0;
   /// A relevant scan of a robot of this service, for the other services: safely in the journal if
-  /// there is one that can be written. At the start, those of the journal.
+  /// there is one that can be written. At the start, all of the journal; of other services, what
+  /// was taken in of them when one is gone.
   virtual void TakeRelevantScan(const TeamScan& scan) = 0;
   /// What it added to the map; as safe.
   virtual void TakeNewPoints(const NewPoints& points) = 0;

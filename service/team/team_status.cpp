@@ -14,6 +14,8 @@ std::string_view Name(RobotState state) {
       return "tracked";
     case RobotState::kLost:
       return "lost";
+    case RobotState::kElsewhere:
+      return "answered by another service";
   }
   return "unknown";
 }

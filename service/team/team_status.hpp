@@ -19,7 +19,8 @@ enum class RobotState {
   kExpected,  ///< Configured, but not heard of yet.
   kUnplaced,  ///< Its scans arrive, but nobody knows where in the map it is.
   kTracked,
-  kLost,  ///< Its publisher is gone.
+  kLost,       ///< Its publisher is gone.
+  kElsewhere,  ///< Another service answers it.
 };
 
 std::string_view Name(RobotState state);
@@ -52,8 +53,8 @@ struct RobotStatus {
   std::string name;
   RobotState state = RobotState::kExpected;
   UncertainPose2 map_robot{};  ///< At its last answered scan.
-  Timestamp stamp{};         ///< Of that scan.
-  std::size_t waiting = 0;   ///< Scans in the queue.
+  Timestamp stamp{};           ///< Of that scan.
+  std::size_t waiting = 0;     ///< Scans in the queue.
   SessionCounts counts;
   LatencySummary matching;  ///< Of the match alone.
   LatencySummary latency;   ///< From the arrival of a scan to its pose.

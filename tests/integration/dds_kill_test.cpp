@@ -94,5 +94,43 @@ TEST_F(DdsKill, ServiceKilledAHundredTimesLosesNoScanItToldAndMatchesTheNextOne)
   }));
 }
 
+/// Drives until a service of that name shares a relevant scan. @returns false after 40 seconds.
+bool DriveUntilSharedBy(const std::string& service, RobotInRoom& robot) {
+  for (int i = 0; i < 4000; ++i) {
+    robot.Drive(10ms);
+    for (const team::TeamScan& scan : robot.TakeSharedScans()) {
+      if (scan.key.service.starts_with(service + "-")) return true;
+    }
+  }
+  return false;
+}
+
+TEST_F(DdsKill, SurvivorOfTwoServicesTakesOverTheRobotAndKeepsTheMapForTheOtherOne) {
+  RobotInRoom robot(network_);
+  const std::vector<std::string> serve_first =
+      Serve({"robot1", "--output", folder_.path() / "1", "--force", "--set", "team.service=first"});
+  Daemon second(Serve({"--output", folder_.path() / "2", "--set", "team.service=second"}));
+  {
+    Daemon first(serve_first);
+    ASSERT_TRUE(DriveUntilSharedBy("first", robot));
+    robot.DriveUntilAnswered(300);
+    first.End(SIGKILL);
+  }
+  // Nothing tells of the death but its silence, for ten seconds.
+  ASSERT_TRUE(DriveUntilSharedBy("second", robot)) << second.ErrorsSoFar();
+  robot.DriveUntilAnswered(100);
+
+  Daemon first(serve_first);
+  ASSERT_TRUE(DriveUntilSharedBy("first", robot)) << first.ErrorsSoFar();
+  std::this_thread::sleep_for(1s);  // Nothing tells that no more will come.
+  const Outcome of_first = first.End();
+  const Outcome of_second = second.End();
+  EXPECT_NE(of_second.errors.find("robot1: is answered by another service"), std::string::npos);
+  EXPECT_EQ(of_first.errors.find("fits nowhere"), std::string::npos);
+  const std::string map = ReadFile(folder_.path() / "1/map.pgm");
+  EXPECT_GT(map.size(), 1000U);
+  EXPECT_TRUE(map == ReadFile(folder_.path() / "2/map.pgm"));
+}
+
 }  // namespace
 }  // namespace qwsm::test
