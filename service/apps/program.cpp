@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <stdexcept>
@@ -96,6 +97,8 @@ void PrepareProgram(CLI::App& program) {
 ExitCode RunProgram(CLI::App& program,
                     const std::vector<Command>& commands,
                     const Arguments& arguments) {
+  // A file that may not grow is a full disk, which whoever writes tells, and not the end.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     program.parse(arguments.count, arguments.values);
     return RunChosen(program, commands);

@@ -54,6 +54,7 @@ class Daemon {
     if (program_) program_->Signal(SIGKILL);
   }
 
+  pid_t process() const { return program_->process(); }
   void Signal(int number) const { program_->Signal(number); }
   std::string ErrorsSoFar() const { return program_->ErrorsSoFar(); }
   /// Waits until the program says something on stderr. @returns false after ten seconds without.

@@ -55,6 +55,7 @@ class Program {
     if (process_ > 0) Wait();
   }
 
+  pid_t process() const { return process_; }
   void Signal(int number) const { kill(process_, number); }
 
   std::string ErrorsSoFar() const { return ReadFile(streams_.path() / "errors"); }
