@@ -150,7 +150,7 @@ TEST(PlaceFinder, FindsWhereAScanWasTakenInTheWholeMap) {
 }
 
 TEST(RecentScans, KeepsTheLastOnesOnePointPerCell) {
-  RecentScans recent({.count = 2, .spacing_m = 0.4});
+  RecentScans recent({.count = 2, .points = 0, .spacing_m = 0.4});
   const auto point = [](double x_m, double y_m) {
     return std::vector<ScanPoint>{{.p_robot_m = {x_m, y_m}, .beam_robot = {1.0, 0.0}}};
   };
@@ -162,6 +162,15 @@ TEST(RecentScans, KeepsTheLastOnesOnePointPerCell) {
   EXPECT_NEAR(points_m[0].x(), 1.05, 1e-12) << "the latest stays";
   recent.Clear();
   EXPECT_TRUE(recent.PointsAround({}).empty());
+}
+
+TEST(RecentScans, KeepsMoreScansWhereLittleIsInView) {
+  RecentScans recent({.count = 2, .points = 5, .spacing_m = 0.4});
+  for (int scan = 0; scan < 20; ++scan) {
+    recent.Add({1.0 * scan, 0.0, 0.0},
+               std::vector<ScanPoint>{{.p_robot_m = {2.0, 0.0}, .beam_robot = {1.0, 0.0}}});
+  }
+  EXPECT_EQ(recent.PointsAround({}).size(), 5U);
 }
 
 }  // namespace

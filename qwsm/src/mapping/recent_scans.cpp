@@ -10,9 +10,22 @@
 namespace qwsm {
 
 void RecentScans::Add(const Pose2& T_map_robot, std::span<const ScanPoint> points) {
+  if (points.empty()) return;
   scans_.push_back(
       {.T_map_robot = T_map_robot, .points_robot_m = ThinOut(points, options_.spacing_m)});
-  if (scans_.size() > static_cast<std::size_t>(options_.count)) scans_.pop_front();
+  points_ += scans_.back().points_robot_m.size();
+  const auto enough_scans = static_cast<std::size_t>(options_.count);
+  const auto enough_points = static_cast<std::size_t>(options_.points);
+  while (scans_.size() > enough_scans &&
+         points_ - scans_.front().points_robot_m.size() >= enough_points) {
+    points_ -= scans_.front().points_robot_m.size();
+    scans_.pop_front();
+  }
+}
+
+void RecentScans::Clear() {
+  scans_.clear();
+  points_ = 0;
 }
 
 std::vector<Eigen::Vector2d> RecentScans::PointsAround(const Pose2& T_map_robot) const {

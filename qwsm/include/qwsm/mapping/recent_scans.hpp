@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <deque>
 #include <span>
 #include <vector>
@@ -14,6 +15,7 @@ namespace qwsm {
 
 struct RecentScansOptions {
   int count = 8;
+  int points = 150;
   double spacing_m = 0.4;
 };
 
@@ -22,19 +24,24 @@ void Describe(Visitor& visit, RecentScansOptions& o) {
   visit("count",
         o.count,
         {.help = "relevant scans that make up the surroundings", .min = 1, .max = 100});
+  visit("points",
+        o.points,
+        {.help = "more scans than these, where they show less than so many points",
+         .min = 0,
+         .max = 100000});
   visit("spacing_m",
         o.spacing_m,
         {.help = "one point per cell of this size", .min = 0.01, .max = 10});
 }
 
 /// The last few relevant scans together: one scan in a corridor looks like many places, the last
-/// ten metres do not.
+/// ten metres do not. Where little is in view, more of them are kept.
 class RecentScans {
  public:
   explicit RecentScans(const RecentScansOptions& options = {}) : options_(options) {}
 
   void Add(const Pose2& T_map_robot, std::span<const ScanPoint> points);
-  void Clear() { scans_.clear(); }
+  void Clear();
 
   /// Their points in the robot's frame, at most one per cell.
   std::vector<Eigen::Vector2d> PointsAround(const Pose2& T_map_robot) const;
@@ -47,6 +54,7 @@ class RecentScans {
 
   RecentScansOptions options_;
   std::deque<Scan> scans_;  // The latest last.
+  std::size_t points_ = 0;  // Of all of them.
 };
 
 }  // namespace qwsm
