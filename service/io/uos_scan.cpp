@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
@@ -96,6 +97,40 @@ Pose3 ReadUosFrames(const std::filesystem::path& file) {
     matrix(i % 4, i / 4) = *value;
   }
   return PoseFromUos(NearestRotation(matrix.topLeftCorner<3, 3>()), matrix.topRightCorner<3, 1>());
+}
+
+void WriteUosPoints(const std::filesystem::path& file, const PointCloud& cloud) {
+  constexpr double kDigits = 1e3;  // Of a centimetre.
+  const Eigen::Matrix3d uos_from_ours = OursFromUos().transpose() / kMetresPerUosUnit;
+  std::string text;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    for (const double coordinate_cm : Eigen::Vector3d(uos_from_ours * cloud[i])) {
+      qwsm::io::AppendNumber(text, std::round(coordinate_cm * kDigits) / kDigits);
+      text += ' ';
+    }
+    text.back() = '\n';
+  }
+  qwsm::io::WriteTextFile(file, text);
+}
+
+void WriteUosPose(const std::filesystem::path& file, const Pose3& pose) {
+  const Eigen::Matrix3d mirror = OursFromUos();
+  const Eigen::Vector3d t_cm = mirror.transpose() * pose.translation_m / kMetresPerUosUnit;
+  const Eigen::Matrix3d R = mirror.transpose() * pose.rotation * mirror;
+  // R = Rx Ry Rz, the middle angle in [-90, 90] degrees.
+  const Eigen::Vector3d angles_rad(std::atan2(-R(1, 2), R(2, 2)),
+                                   std::asin(std::clamp(R(0, 2), -1.0, 1.0)),
+                                   std::atan2(-R(0, 1), R(0, 0)));
+  std::string text;
+  for (const Eigen::Vector3d& line :
+       {t_cm, Eigen::Vector3d(angles_rad * 180.0 / std::numbers::pi)}) {
+    for (const double value : line) {
+      qwsm::io::AppendNumber(text, value);
+      text += ' ';
+    }
+    text.back() = '\n';
+  }
+  qwsm::io::WriteTextFile(file, text);
 }
 
 void WriteUosFrames(const std::filesystem::path& file, const Pose3& before, const Pose3& after) {

@@ -30,8 +30,14 @@ Pose3 ReadUosPose(const std::filesystem::path& file);
 /// @throws std::runtime_error naming file and line when it cannot be read or parsed.
 Pose3 ReadUosFrames(const std::filesystem::path& file);
 
+/// Writes points as ReadUosPoints() reads them, to a hundredth of a millimetre.
+/// @throws qwsm::io::WriteError where it cannot be written; so do the others.
+void WriteUosPoints(const std::filesystem::path& file, const PointCloud& cloud);
+
+/// Writes a pose as ReadUosPose() reads it.
+void WriteUosPose(const std::filesystem::path& file, const Pose3& pose);
+
 /// Writes a pose as 3DTK's viewer reads it: two lines, as it shows where a scan was and is.
-/// @throws qwsm::io::WriteError where it cannot be written.
 void WriteUosFrames(const std::filesystem::path& file, const Pose3& before, const Pose3& after);
 
 /// The numbers NNN of the `scanNNN.3d` in a folder, ascending.

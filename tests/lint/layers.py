@@ -22,7 +22,7 @@ BORDER = {"service/config", "service/io", "service/dds", "service/graph"}
 MAY_USE = {
     "qwsm": set(),
     "slam6d": set(),
-    "sim": {"qwsm"},
+    "sim": {"qwsm", "slam6d"},
     "idl": set(),
     "service/config": LIBRARIES | {"service/dds", "service/team"},  # Of these, options.
     "service/io": {"qwsm", "slam6d"},

@@ -11,6 +11,7 @@ using qwsm::apps::ExitCode;
 
 // One per command of the program slam6d, each in a file of its own.
 Command AddRegisterCommand(CLI::App& program);
+Command AddSimCommand(CLI::App& program);
 Command AddServeCommand(CLI::App& program);
 Command AddReplayCommand(CLI::App& program);
 Command AddEvalCommand(CLI::App& program);

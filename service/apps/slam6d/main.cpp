@@ -15,6 +15,7 @@ ExitCode Run(const qwsm::apps::Arguments& arguments) {
       "  slam6d register --help                     all about one command");
   const std::vector<Command> commands{AddRegisterCommand(program),
                                       AddEvalCommand(program),
+                                      AddSimCommand(program),
                                       AddServeCommand(program),
                                       AddReplayCommand(program),
                                       AddBenchSearchCommand(program),

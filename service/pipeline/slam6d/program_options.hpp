@@ -4,6 +4,7 @@
 
 #include "service/dds/network_options.hpp"
 #include "service/pipeline/slam6d/registration_options.hpp"
+#include "service/pipeline/slam6d/simulated_scans.hpp"
 #include "service/team/cloud_options.hpp"
 
 namespace slam6d::pipeline {
@@ -12,6 +13,7 @@ namespace slam6d::pipeline {
 struct ProgramOptions : RegistrationOptions {
   qwsm::dds::NetworkOptions network{.interface = {}, .tag = {}, .node = "slam6d"};
   qwsm::team::CloudTeamOptions team{};
+  SimulationOptions sim{};
 };
 
 template <class Visitor>
@@ -19,6 +21,7 @@ void Describe(Visitor& visit, ProgramOptions& o) {
   Describe(visit, static_cast<RegistrationOptions&>(o));
   visit("network", o.network, {.help = "DDS, by which robots and services talk"});
   visit("team", o.team, {.help = "the service for robots on the network"});
+  visit("sim", o.sim, {.help = "what `slam6d sim` makes of a scenario of the plane"});
 }
 
 }  // namespace slam6d::pipeline

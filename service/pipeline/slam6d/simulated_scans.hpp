@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "sim/pitching_laser.hpp"
+#include "sim/simulation.hpp"
+#include "slam6d/geometry/pose3.hpp"
+
+namespace slam6d::pipeline {
+
+/// How a scenario of the plane is seen by a 3D scanner.
+struct SimulationOptions {
+  sim::SolidOptions world{};
+  sim::PitchingLaserOptions laser{};
+  double stop_every_m = 2.0;
+};
+
+template <class Visitor>
+void Describe(Visitor& visit, SimulationOptions& o) {
+  visit("world", o.world, {.help = "the scenario in space"});
+  visit("laser", o.laser, {.help = "the 2D laser that nods"});
+  visit(
+      "stop_every_m", o.stop_every_m, {.help = "a scan for so much way", .min = 0.05, .max = 1e3});
+}
+
+/// A 3D scan of a simulation.
+struct SimulatedScan {
+  PointCloud cloud;    ///< In the scanner's frame.
+  Pose3 T_odom_scan;   ///< In the plane, by the wheels.
+  Pose3 T_world_scan;  ///< The truth.
+};
+
+/// Robot 0 of a scenario drives, stops every now and then, and scans. The same options give the
+/// same scans.
+class SimulatedScans {
+ public:
+  /// @throws sim::ScenarioError.
+  SimulatedScans(const sim::ScenarioOptions& scenario, const SimulationOptions& options);
+
+  /// The next scan; nothing once the drive is over.
+  std::optional<SimulatedScan> Next();
+
+ private:
+  SimulationOptions options_;
+  sim::Simulation simulation_;
+  sim::SolidWorld world_;
+  sim::RandomEngine random_;
+  std::optional<qwsm::Pose2> T_world_last_;  ///< Where the last reading was.
+  double way_m_ = 0.0;                       ///< Since the last scan.
+};
+
+}  // namespace slam6d::pipeline
