@@ -40,7 +40,7 @@ bool SurfaceMap::Insert(const MapPoint& point, ScanId scan) {
   const auto insertion = quadtree_.Insert(point.p_map_m, scan);
   if (!insertion) return false;
   if (insertion->merged) return true;
-  neighborhoods_.resize(quadtree_.id_end());
+  if (neighborhoods_.end() < quadtree_.id_end()) neighborhoods_.Add({});
   neighborhoods_[insertion->id] = {
       .own_normal_x = static_cast<std::int16_t>(std::lround(kNormalScale * point.normal_map.x())),
       .own_normal_y = static_cast<std::int16_t>(std::lround(kNormalScale * point.normal_map.y())),
@@ -81,8 +81,7 @@ void SurfaceMap::RemoveScan(ScanId scan) {
 }
 
 std::size_t SurfaceMap::bytes() const {
-  return quadtree_.Statistics().bytes + likelihood_.bytes() +
-         neighborhoods_.capacity() * sizeof(Neighborhood);
+  return quadtree_.Statistics().bytes + likelihood_.bytes() + neighborhoods_.bytes();
 }
 
 Eigen::Vector2d SurfaceMap::OwnNormal(PointId id) const {

@@ -13,7 +13,7 @@
 namespace qwsm {
 namespace {
 
-constexpr double kPairsOfExpectation = 50.0;  // What the error model is worth beside the pairs.
+constexpr double kPairsOfExpectation = 20.0;  // What the error model is worth beside the pairs.
 
 // Takes back what pairs seem to say about a direction of which they say next to nothing: normals of
 // noisy walls are never quite parallel, and their errors would pass for a hold along a corridor

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "qwsm/search/likelihood_pyramid.hpp"
+#include "qwsm/search/paged_pool.hpp"
 #include "qwsm/search/point_quadtree.hpp"
 
 namespace qwsm {
@@ -128,7 +128,7 @@ class SurfaceMap {
   SurfaceMapOptions options_;
   PointQuadtree quadtree_;
   LikelihoodPyramid likelihood_;
-  std::vector<Neighborhood> neighborhoods_;  // By PointId.
+  PagedPool<Neighborhood, 10> neighborhoods_;  // By PointId.
 };
 
 }  // namespace qwsm
