@@ -12,7 +12,7 @@ constexpr double kWellHeld = 0.25;    // Share of the best held direction's info
 constexpr double kForgetting = 0.05;  // Share of the newest lesson in what was learned;
 constexpr double kFirstLessons =
     4.0;  // the first ones count for more, as in a mean with this many.
-constexpr double kLargestMisfit = 4.0;   // One jump of the odometry is not to count for a hundred.
+constexpr double kLargestMisfit = 9.0;   // One jump of the odometry is not to count for a hundred.
 constexpr double kSmallestScale = 0.02;  // Odometry is never believed to the last.
 constexpr double kLargestScale = 25.0;
 
