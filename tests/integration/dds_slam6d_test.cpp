@@ -99,6 +99,8 @@ TEST_F(DdsSlam6d, RefusesBadCloudsAndAnswersTheGoodOnesBetweenThem) {
       participant, "/robot1/points", dds::Profile::kSensorOut);
   while (intruder.reader_count() == 0) std::this_thread::sleep_for(5ms);
 
+  const std::string kBadStep = "/robot1/points: a sample was refused: its row_step";
+  const std::string kNoFields = "it has no fields x, y and z";
   const std::string frame = "robot1/laser";
   std::size_t answers = 0;
   for (int scan = 0; scan < 4; ++scan) {
@@ -109,6 +111,8 @@ TEST_F(DdsSlam6d, RefusesBadCloudsAndAnswersTheGoodOnesBetweenThem) {
     if (scan % 2 == 0) bad.point_step = 0x7fffffff;
     if (scan % 2 == 1) bad.fields._length = 2;
     ASSERT_TRUE(intruder.Write(bad));
+    // The newest sample wins: what is to be refused must have been seen before the good one comes.
+    ASSERT_TRUE(service.WaitUntilItSays(scan % 2 == 0 ? kBadStep : kNoFields));
     const auto i = static_cast<std::size_t>(scan);
     ASSERT_TRUE(
         robot.Publish({.scan = {.stamp = stamp, .cloud = drive_.scans[i], .T_robot_sensor = {}},
@@ -127,10 +131,7 @@ TEST_F(DdsSlam6d, RefusesBadCloudsAndAnswersTheGoodOnesBetweenThem) {
     }
   }
   EXPECT_EQ(answers, 4U);
-  const std::string errors = service.End().errors;
-  EXPECT_NE(errors.find("/robot1/points: a sample was refused: its row_step"), std::string::npos)
-      << errors;
-  EXPECT_NE(errors.find("it has no fields x, y and z"), std::string::npos) << errors;
+  service.End();
 }
 
 TEST_F(DdsSlam6d, SaysThatNobodyListens) {
