@@ -5,11 +5,6 @@
 #include <utility>
 
 namespace qwsm::dds {
-namespace {
-
-constexpr std::size_t kMaxRobots = 256;  // More are not a team but an attack.
-
-}  // namespace
 
 CloudInbox::CloudInbox(const Participant& participant,
                        const std::vector<std::string>& robots,
@@ -62,7 +57,7 @@ void CloudInbox::NoteMembers() {
   const RobotDiscovery::Changes changes = discovery_.Take();
   for (const std::string& robot : changes.joined) {
     const bool is_wanted =
-        robots_.contains(robot) || (finds_robots_ && robots_.size() < kMaxRobots);
+        robots_.contains(robot) || (finds_robots_ && robots_.size() < RobotDiscovery::kMaxRobots);
     if (!is_wanted) continue;
     Join(robot);
     service_.robots().Join(robot);

@@ -15,6 +15,8 @@ namespace qwsm::dds {
 /// Finds out which robots there are, by who publishes on a topic such as `/robot1/scan`.
 class RobotDiscovery {
  public:
+  static constexpr std::size_t kMaxRobots = 256;  ///< More are not a team but an attack.
+
   struct Changes {
     std::vector<std::string> joined;  ///< Names of robots, as in RobotNames.
     std::vector<std::string> left;    ///< Nobody publishes for them any more.

@@ -9,8 +9,6 @@
 namespace qwsm::dds {
 namespace {
 
-constexpr std::size_t kMaxRobots = 256;  // More are not a team but an attack.
-
 std::uint64_t Now() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return static_cast<std::uint64_t>(std::chrono::nanoseconds(now).count());
@@ -88,7 +86,7 @@ void TeamInbox::ShareRobots() {
   }
   for (const std::string& robot : claimed) Leave(robot);
   for (const std::string& robot : publishers_) {
-    if (robots_.size() >= kMaxRobots) return;
+    if (robots_.size() >= RobotDiscovery::kMaxRobots) return;
     if (!robots_.contains(robot) && !others_.Answer(robot)) Join(robot, Now());
   }
 }

@@ -54,18 +54,17 @@ void MotionModel::Learn(const UncertainPose2& predicted,
                         const MatchResult& found,
                         const std::optional<Pose2>& T_odom_robot) {
   if (!T_odom_robot || !T_odom_last_) return;
-  const UncertainPose2 motion = Predict(T_odom_robot).learned;
-  const Eigen::Matrix3d& noise = motion.covariance;
-  Eigen::Array33d shares = ModelledSigmas(motion.T_a_b) * learned_scale_.sqrt();
-  shares.colwise() /= shares.rowwise().sum().eval();
+  const Pose2 motion = T_odom_last_->Inverse() * *T_odom_robot;
+  const Eigen::Array33d sigmas = ModelledSigmas(motion) * learned_scale_.sqrt();
+  const Eigen::Matrix3d noise = Diagonal(sigmas);
+  const Eigen::Array33d shares = sigmas.colwise() / sigmas.rowwise().sum();
 
   // Found without regard to the prediction, the pose misses it by the errors of both.
   const Eigen::Matrix3d expected = predicted.covariance + found.covariance;
   const double turn_rad = NormalizeAngle(found.T_ref_cur.theta_rad - predicted.T_a_b.theta_rad);
   Teach(2, shares, turn_rad * turn_rad / expected(2, 2), noise(2, 2) / expected(2, 2));
 
-  const Eigen::Matrix2d R_last_ref =
-      (predicted.T_a_b * motion.T_a_b.Inverse()).Rotation().transpose();
+  const Eigen::Matrix2d R_last_ref = (predicted.T_a_b * motion.Inverse()).Rotation().transpose();
   const Eigen::Vector2d way_m = found.T_ref_cur.translation_m() - predicted.T_a_b.translation_m();
   const PositionHold hold = HoldOf(found.information);
   const Eigen::Vector2d strongest(-hold.weakest.y(), hold.weakest.x());
@@ -83,9 +82,10 @@ void MotionModel::Learn(const UncertainPose2& predicted,
 
 // Each part of an axis' noise learns by its share of it.
 void MotionModel::Teach(int axis, const Eigen::Array33d& shares, double misfit, double weight) {
-  const auto lesson = weight * shares.row(axis);
+  using Row = Eigen::Array<double, 1, 3>;
+  const Row lesson = weight * shares.row(axis);
   lessons_.row(axis) += lesson;
-  const auto rate = (lessons_.row(axis) + kFirstLessons).inverse().max(kForgetting);
+  const Row rate = (lessons_.row(axis) + kFirstLessons).inverse().max(kForgetting);
   learned_scale_.row(axis) *= 1.0 + rate * lesson * (std::min(misfit, kLargestMisfit) - 1.0);
   learned_scale_.row(axis) = learned_scale_.row(axis).max(kSmallestScale).min(kLargestScale).eval();
 }
