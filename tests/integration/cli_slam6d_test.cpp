@@ -206,15 +206,17 @@ TEST_F(Slam6dProgram, ComparesSearches) {
   EXPECT_TRUE(fs::exists(figures / "iterations.png"));
 }
 
-TEST_F(Slam6dProgram, RegistersASimulatedDrive) {
-  const std::string drive = folder_.path() / "corridor";
-  const Outcome simulated =
-      RunSlam6d({"sim", "corridor", "--output", drive, "--scans", "8", "--every", "1"});
-  ASSERT_EQ(simulated.exit_code, 0) << simulated.errors;
-  ASSERT_EQ(RunSlam6d({"register", drive, "--output", results_}).exit_code, 0);
-  const Outcome evaluated =
-      RunSlam6d({"eval", results_, "--truth", drive + "/gt", "--max-ate", "0.02"});
-  EXPECT_EQ(evaluated.exit_code, 0) << evaluated.output;
+TEST_F(Slam6dProgram, RegistersSimulatedDrives) {
+  for (const std::string scenario : {"corridor", "office"}) {
+    const std::string drive = folder_.path() / scenario;
+    const Outcome simulated =
+        RunSlam6d({"sim", scenario, "--output", drive, "--scans", "8", "--every", "1"});
+    ASSERT_EQ(simulated.exit_code, 0) << simulated.errors;
+    ASSERT_EQ(RunSlam6d({"register", drive, "--output", results_, "--force"}).exit_code, 0);
+    const Outcome evaluated =
+        RunSlam6d({"eval", results_, "--truth", drive + "/gt", "--max-ate", "0.01"});
+    EXPECT_EQ(evaluated.exit_code, 0) << evaluated.output;
+  }
 }
 
 TEST_F(Slam6dProgram, TakesItsOwnConfiguration) {

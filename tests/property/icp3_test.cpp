@@ -165,6 +165,52 @@ TEST(Icp3, SaysWhyItFailed) {
       IcpStatus::kIterationLimit);
 }
 
+/// Floor and walls of a corridor along x, and of its ends only what is asked for, as a scanner at
+/// (x_m, 0, 1) sees them: what it sees moves with it.
+PointCloud ScanCorridor(double x_m, double end_x_m, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  PointCloud cloud;
+  for (int i = 0; i < 6000; ++i) {
+    const double along_m = 8.0 * share(random) - 4.0;
+    const double across_m = 2.0 * share(random);
+    const Eigen::Vector3d surfaces_m[] = {{along_m, across_m - 1.0, -1.0},
+                                          {along_m, -1.0, across_m - 1.0},
+                                          {along_m, 1.0, across_m - 1.0}};
+    Eigen::Vector3d point_m = surfaces_m[i % 3];
+    if (i % 12 == 0) point_m = {end_x_m - x_m, across_m - 1.0, 2.0 * share(random) - 1.0};
+    cloud.push_back(point_m + DrawNormal(random, 0.01));
+  }
+  return cloud;
+}
+
+TEST(Icp3, LeavesTheWayAlongACorridorToTheGuess) {
+  // Each scanner sees an end that the other does not.
+  const ScanModel ref(ScanCorridor(0.0, -6.0, 21));
+  const ScanModel cur(ScanCorridor(0.5, 7.0, 22));
+  const Pose3 T_ref_cur_guess = SmallPose(0.01, 0.0, -0.01, {0.52, 0.03, 0.02});
+  for (const IcpMetric metric : {IcpMetric::kPointToPlane, IcpMetric::kPlaneToPlane}) {
+    const IcpResult result = Align(ref, cur, T_ref_cur_guess, {.metric = metric});
+    EXPECT_EQ(result.status, IcpStatus::kConverged);
+    EXPECT_NEAR(result.T_ref_cur.translation_m.x(), 0.52, 0.01);
+    EXPECT_NEAR(result.T_ref_cur.translation_m.y(), 0.0, 0.005);
+    EXPECT_NEAR(result.T_ref_cur.translation_m.z(), 0.0, 0.005);
+    EXPECT_GT(std::sqrt(result.covariance(0, 0)), 0.2);
+    EXPECT_LT(std::sqrt(result.covariance(1, 1)), 0.005);
+  }
+}
+
+TEST(Icp3, TellsTheTwoSidesOfAThinWallApart) {
+  // The wall is 10 cm thick; one scanner stands before it, the other behind.
+  const ScanModel ref(ScanCorridor(-2.0, -0.05, 23));
+  const ScanModel cur(ScanCorridor(2.0, 0.05, 24));
+  const Pose3 T_ref_cur = SmallPose(0.0, 0.0, 0.0, {4.0, 0.0, 0.0});
+  for (const IcpMetric metric : {IcpMetric::kPointToPlane, IcpMetric::kPlaneToPlane}) {
+    const IcpResult result = Align(ref, cur, T_ref_cur, {.metric = metric});
+    EXPECT_LT(DistanceM(result.T_ref_cur, T_ref_cur), 0.02);
+  }
+}
+
 TEST(Icp3, CovarianceOfPlanesPredictsTheErrors) {
   // Normalised estimation error squared over many rooms: 6 for a perfect covariance.
   double nees = 0.0;

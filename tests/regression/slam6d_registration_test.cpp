@@ -9,7 +9,7 @@
 #include <string>
 
 #include "service/io/uos_scan.hpp"
-#include "slam6d/icp/icp.hpp"
+#include "slam6d/mapping/slam.hpp"
 
 namespace slam6d {
 namespace {
@@ -57,6 +57,27 @@ TEST(Registration, PointsAlignTwentyThousandPoints) {
 TEST(Registration, PointsAlignTheScansOfACar) {
   ExpectErrorsBelow(
       "car", {.metric = IcpMetric::kPointToPoint}, {.centimetres = 1.45, .degrees = 1.45});
+}
+
+TEST(Registration, TakesPointsWherePlanesLeadAstray) {
+  const std::filesystem::path folder = std::filesystem::path(QWSM_DATA_DIR) / "scans3d/car";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no scans in " << folder;
+  const PathLoopCloser closer;
+  Slam slam({}, closer);
+  for (const char* name : {"scan000", "scan001"}) {
+    const std::filesystem::path scan = folder / name;
+    static_cast<void>(slam.Add(io::ReadUosPoints(scan.string() + ".3d").cloud,
+                               io::ReadUosPose(scan.string() + ".pose")));
+  }
+  const auto error_m = [&] {
+    const Pose3 truth = io::ReadUosPose(folder / "gt/scan000.pose").Inverse() *
+                        io::ReadUosPose(folder / "gt/scan001.pose");
+    const Pose3 estimate = slam.T_map_scan()[0].Inverse() * slam.T_map_scan()[1];
+    return (truth.Inverse() * estimate).translation_m.norm();
+  };
+  EXPECT_LE(error_m(), 0.0145);
+  static_cast<void>(slam.Refine());
+  EXPECT_LE(error_m(), 0.025);
 }
 
 }  // namespace

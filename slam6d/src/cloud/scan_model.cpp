@@ -14,13 +14,33 @@ Eigen::Vector3d PointInSlot(const KdTreeLayout& layout, std::size_t slot) {
   return {block.x_m[slot % kLanes], block.y_m[slot % kLanes], block.z_m[slot % kLanes]};
 }
 
-std::optional<Surfel> FitSurfel(const KdTreeLayout& layout,
-                                const KdNode& leaf,
-                                const SurfelOptions& options) {
+/// A leaf's points as a surface.
+struct Patch {
+  Surfel surfel;
+  Eigen::Vector3d variances_m2;  ///< Of its points, the smallest first: across it.
+};
+
+/// First-order perturbation of the eigenvector across (Kanatani 1996): the noise is
+/// that of the thickness.
+Eigen::Matrix3d NormalCovariance(const Eigen::Matrix3d& axes,
+                                 const Eigen::Vector3d& variances_m2,
+                                 double count) {
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (int axis = 1; axis < 3; ++axis) {
+    const double variance = variances_m2(0) / (count * std::max(variances_m2(axis), 1e-300));
+    covariance += variance * axes.col(axis) * axes.col(axis).transpose();
+  }
+  return covariance;
+}
+
+std::optional<Patch> FitPatch(const KdTreeLayout& layout,
+                              const KdNode& leaf,
+                              const SurfelOptions& options) {
   if (leaf.point_count < static_cast<std::uint32_t>(options.min_points)) return std::nullopt;
   const std::size_t first = static_cast<std::size_t>(leaf.first) * kLanes;
   const double count = leaf.point_count;
-  Surfel surfel;
+  Patch patch;
+  Surfel& surfel = patch.surfel;
   for (std::uint32_t i = 0; i < leaf.point_count; ++i) {
     surfel.mean_m += PointInSlot(layout, first + i) / count;
   }
@@ -31,11 +51,31 @@ std::optional<Surfel> FitSurfel(const KdTreeLayout& layout,
   }
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
   eigen.computeDirect(scatter_m2);
-  const Eigen::Vector3d variances_m2 = eigen.eigenvalues().cwiseMax(0.0);
-  if (!(variances_m2(0) < options.max_flatness * variances_m2(1))) return std::nullopt;
+  patch.variances_m2 = eigen.eigenvalues().cwiseMax(0.0);
   surfel.normal = eigen.eigenvectors().col(0);
-  surfel.variance_m2 = variances_m2(0) / count;
-  return surfel;
+  if (surfel.normal.dot(surfel.mean_m) > 0.0) surfel.normal = -surfel.normal;
+  surfel.variance_m2 = patch.variances_m2(0) / count;
+  surfel.normal_covariance = NormalCovariance(eigen.eigenvectors(), patch.variances_m2, count);
+  return patch;
+}
+
+/// A patch is flat where it is thin beside its extent.
+bool IsFlat(const Patch& patch, double thickness2_m2, const SurfelOptions& options) {
+  return thickness2_m2 < options.max_flatness * patch.variances_m2(1);
+}
+
+/// How thick flat patches usually are, squared: the noise of the scanner.
+double UsualThickness2(const std::vector<std::optional<Patch>>& patches,
+                       const SurfelOptions& options) {
+  std::vector<double> thickness2_m2;
+  for (const std::optional<Patch>& patch : patches) {
+    if (!patch || !IsFlat(*patch, patch->variances_m2(0), options)) continue;
+    thickness2_m2.push_back(patch->variances_m2(0));
+  }
+  if (thickness2_m2.empty()) return 0.0;
+  const auto middle = thickness2_m2.begin() + static_cast<std::ptrdiff_t>(thickness2_m2.size() / 2);
+  std::nth_element(thickness2_m2.begin(), middle, thickness2_m2.end());
+  return *middle;
 }
 
 PointCloud InTreeOrder(const PointCloud& cloud, const KdTree& tree) {
@@ -45,24 +85,39 @@ PointCloud InTreeOrder(const PointCloud& cloud, const KdTree& tree) {
   return points;
 }
 
+/// The blocks of every leaf, in the order of the points: those of a leaf follow each other.
+std::vector<std::size_t> FirstBlocks(const KdTreeLayout& layout) {
+  std::vector<std::size_t> first_blocks;
+  for (std::size_t block = 0; block < layout.blocks.size();) {
+    first_blocks.push_back(block);
+    block += (layout.nodes[layout.leaf_of_block[block]].point_count + kLanes - 1) / kLanes;
+  }
+  return first_blocks;
+}
+
 }  // namespace
 
 SurfelMap FindSurfels(const KdTree& tree, const SurfelOptions& options) {
   const KdTreeLayout& layout = tree.layout();
+  const std::vector<std::size_t> first_blocks = FirstBlocks(layout);
+  std::vector<std::optional<Patch>> patches;
+  patches.reserve(first_blocks.size());
+  for (const std::size_t block : first_blocks) {
+    patches.push_back(FitPatch(layout, layout.nodes[layout.leaf_of_block[block]], options));
+  }
+  const double usual2_m2 = UsualThickness2(patches, options);
   SurfelMap map;
   map.surfel_of_block.assign(layout.blocks.size(), SurfelMap::kNone);
-  // The blocks of a leaf follow each other, and the leaves stand in the order of the points.
-  for (std::size_t block = 0; block < layout.blocks.size();) {
-    const KdNode& leaf = layout.nodes[layout.leaf_of_block[block]];
-    const std::size_t end = block + (leaf.point_count + kLanes - 1) / kLanes;
-    if (const std::optional<Surfel> surfel = FitSurfel(layout, leaf, options)) {
-      const auto number = static_cast<std::int32_t>(map.surfels.size());
-      std::fill(map.surfel_of_block.begin() + static_cast<std::ptrdiff_t>(block),
-                map.surfel_of_block.begin() + static_cast<std::ptrdiff_t>(end),
-                number);
-      map.surfels.push_back(*surfel);
-    }
-    block = end;
+  for (std::size_t leaf = 0; leaf < patches.size(); ++leaf) {
+    const std::optional<Patch>& patch = patches[leaf];
+    // Close to the scanner patches are smaller than the noise, and flat by chance.
+    if (!patch || !IsFlat(*patch, std::max(patch->variances_m2(0), usual2_m2), options)) continue;
+    const std::size_t end =
+        leaf + 1 < first_blocks.size() ? first_blocks[leaf + 1] : layout.blocks.size();
+    std::fill(map.surfel_of_block.begin() + static_cast<std::ptrdiff_t>(first_blocks[leaf]),
+              map.surfel_of_block.begin() + static_cast<std::ptrdiff_t>(end),
+              static_cast<std::int32_t>(map.surfels.size()));
+    map.surfels.push_back(patch->surfel);
   }
   return map;
 }

@@ -13,11 +13,12 @@ namespace {
 
 std::unique_ptr<IcpMinimizer> MakeMinimizer(std::span<const IcpReference> references,
                                             const ScanModel& cur,
+                                            const Pose3& T_map_guess,
                                             const IcpOptions& options) {
   if (options.metric == IcpMetric::kPointToPoint) {
-    return std::make_unique<JointMinimizer<PointPairs>>(references, cur, options);
+    return std::make_unique<JointMinimizer<PointPairs>>(references, cur, T_map_guess, options);
   }
-  return std::make_unique<JointMinimizer<SurfelPairs>>(references, cur, options);
+  return std::make_unique<JointMinimizer<SurfelPairs>>(references, cur, T_map_guess, options);
 }
 
 bool IsSmall(const Pose3& before, const Pose3& after, const IcpOptions& options) {
@@ -66,7 +67,8 @@ IcpResult Align(std::span<const IcpReference> references,
                 const IcpOptions& options,
                 IcpTrace* trace) {
   assert(IsFinite(T_map_cur_guess) && "the guess is a pose");
-  const std::unique_ptr<IcpMinimizer> minimizer = MakeMinimizer(references, cur, options);
+  const std::unique_ptr<IcpMinimizer> minimizer =
+      MakeMinimizer(references, cur, T_map_cur_guess, options);
   IcpResult result{.T_ref_cur = T_map_cur_guess};
   if (trace != nullptr) trace->assign(1, T_map_cur_guess);
   for (result.iterations = 1; result.iterations <= options.max_iterations; ++result.iterations) {

@@ -22,6 +22,12 @@ struct IcpStep {
   bool settled = true;  ///< False while the weights still change by themselves.
 };
 
+/// Where the current scan is thought to be.
+struct PosePair {
+  Pose3 now;
+  Pose3 guess;  ///< From which the registration began.
+};
+
 /// Pairs, and the step they ask for, under one metric. Each object serves one registration.
 class IcpMinimizer {
  public:
@@ -40,14 +46,16 @@ class IcpMinimizer {
 ///
 /// `Pairs` knows one reference: `Collect(T_ref_cur, iteration)` returns sums over its pairs in the
 /// frame ref; `sums.In(T_map_ref)` carries them over, `+=` adds them, and `Step(sums, ...)` is the
-/// motion they ask for. With one reference at the origin of map this is plain ICP.
+/// motion they ask for, `Covariance(sums, information, ...)` what is left open after it. With one
+/// reference at the origin of map this is plain ICP.
 template <class Pairs>
 class JointMinimizer final : public IcpMinimizer {
  public:
   JointMinimizer(std::span<const IcpReference> references,
                  const ScanModel& cur,
+                 const Pose3& T_map_guess,
                  const IcpOptions& options)
-      : options_(options) {
+      : options_(options), T_map_guess_(T_map_guess) {
     for (const IcpReference& reference : references) {
       pairs_.push_back({.T_map_ref = reference.T_map_ref,
                         .with_ref = std::make_unique<Pairs>(*reference.model, cur, options)});
@@ -60,7 +68,7 @@ class JointMinimizer final : public IcpMinimizer {
       const Pose3 T_ref_cur = member.T_map_ref.Inverse() * T_map_cur;
       sums_ += member.with_ref->Collect(T_ref_cur, iteration).In(member.T_map_ref);
     }
-    return Pairs::Step(sums_, T_map_cur, options_);
+    return Pairs::Step(sums_, {.now = T_map_cur, .guess = T_map_guess_}, options_);
   }
 
   Matrix6d Covariance() const override {
@@ -71,7 +79,7 @@ class JointMinimizer final : public IcpMinimizer {
       R_map_ref.bottomRightCorner<3, 3>() = member.T_map_ref.rotation;
       information += R_map_ref * member.with_ref->Information() * R_map_ref.transpose();
     }
-    return Pairs::Misfit(sums_) * information.inverse();
+    return Pairs::Covariance(sums_, information, options_);
   }
 
   SearchStatistics statistics() const override {
@@ -87,6 +95,7 @@ class JointMinimizer final : public IcpMinimizer {
   };
 
   const IcpOptions options_;
+  const Pose3 T_map_guess_;
   std::vector<Member> pairs_;
   typename Pairs::Sums sums_;
 };

@@ -114,7 +114,7 @@ PointSums PointPairs::Collect(const Pose3& T_ref_cur, int iteration) {
   return result;
 }
 
-IcpStep PointPairs::Step(const Sums& sums, const Pose3&, const IcpOptions& options) {
+IcpStep PointPairs::Step(const Sums& sums, const PosePair&, const IcpOptions& options) {
   return {
       .pairs = static_cast<std::size_t>(sums.moments.count),
       .rms_residual_m = std::sqrt(sums.distance2_m2 / std::max(sums.moments.count, 1.0)),
@@ -134,8 +134,9 @@ Matrix6d PointPairs::Information() const {
   return information;
 }
 
-double PointPairs::Misfit(const Sums& sums) {
-  return sums.distance2_m2 / std::max(sums.moments.count, 1.0) / 3.0;
+Matrix6d PointPairs::Covariance(const Sums& sums, const Matrix6d& information, const IcpOptions&) {
+  const double variance_m2 = sums.distance2_m2 / std::max(sums.moments.count, 1.0) / 3.0;
+  return variance_m2 * information.inverse();
 }
 
 }  // namespace slam6d

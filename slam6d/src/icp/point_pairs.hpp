@@ -28,9 +28,10 @@ class PointPairs {
   Matrix6d Information() const;
   const SearchStatistics& statistics() const { return statistics_; }
 
-  static IcpStep Step(const Sums& sums, const Pose3& T_map_cur, const IcpOptions& options);
-  /// Factor from the inverse information to the covariance.
-  static double Misfit(const Sums& sums);
+  static IcpStep Step(const Sums& sums, const PosePair& T_map, const IcpOptions& options);
+  static Matrix6d Covariance(const Sums& sums,
+                             const Matrix6d& information,
+                             const IcpOptions& options);
 
  private:
   const PointCloud& cur_;

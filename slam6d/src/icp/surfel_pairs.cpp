@@ -3,10 +3,11 @@
 #include "slam6d/src/icp/surfel_pairs.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "slam6d/src/icp/held_motions.hpp"
 #include "slam6d/src/parallel.hpp"
 
 namespace slam6d {
@@ -17,6 +18,10 @@ constexpr std::size_t kChunkSize = 512;
 /// Surfels whose normals differ more than this (37 degrees) are different surfaces.
 constexpr double kMinNormalCosine = 0.8;
 
+/// Sine of the angle (3 degrees) below which a surfel may be seen from either side: its normal is
+/// no better known.
+constexpr double kGrazingSine = 0.05;
+
 /// The scale of the residuals starts at half the maximum distance and shrinks to its final value by
 /// this factor per iteration: true pairs look like outliers while the guess is poor.
 constexpr double kScaleShrink = 0.6;
@@ -25,8 +30,18 @@ constexpr double kScaleShrink = 0.6;
 /// surfels count alike; in the end each counts by its own scatter.
 constexpr double kScaleShare = 0.04;
 
-/// Below this share of the largest eigenvalue the surfaces leave a motion open.
-constexpr double kOpenShare = 1e-9;
+/// Normals better known than this do not exist: keeps their noise regular.
+constexpr double kLeastNormalVariance = 1e-8;
+
+using Matrix6x3 = Eigen::Matrix<double, 6, 3>;
+
+/// Of the guess, for what the pairs leave open.
+Matrix6d GuessInformation(const IcpOptions& options) {
+  Vector6d sigmas;
+  sigmas << Eigen::Vector3d::Constant(options.guess_sigma_m),
+      Eigen::Vector3d::Constant(options.guess_sigma_rad);
+  return sigmas.cwiseAbs2().cwiseInverse().asDiagonal();
+}
 
 PointCloud MeansOf(const SurfelMap& map) {
   PointCloud means;
@@ -35,15 +50,15 @@ PointCloud MeansOf(const SurfelMap& map) {
   return means;
 }
 
-bool LeavesMotionOpen(const Matrix6d& A) {
-  // Rotations are compared with translations at an arm of the size of the scene.
-  const double arm_m = std::sqrt(A.bottomRightCorner<3, 3>().trace() /
-                                 std::max(A.topLeftCorner<3, 3>().trace(), 1e-300));
-  Vector6d scale = Vector6d::Ones();
-  scale.tail<3>().setConstant(1.0 / std::max(arm_m, 1e-300));
-  const Matrix6d scaled = scale.asDiagonal() * A * scale.asDiagonal();
-  const Vector6d eigenvalues = Eigen::SelfAdjointEigenSolver<Matrix6d>(scaled).eigenvalues();
-  return !(eigenvalues(0) > kOpenShare * eigenvalues(5));
+/// Whether the current scanner sees the back of what the reference's own scanner saw: of a wall
+/// thinner than the maximum distance the two sides would otherwise be paired.
+bool IsBackOf(const Surfel& ref, const Eigen::Vector3d& scanner_ref_m) {
+  const auto sine_of_sight = [&](const Eigen::Vector3d& eye_m) {
+    const Eigen::Vector3d sight_m = eye_m - ref.mean_m;
+    return ref.normal.dot(sight_m) / sight_m.norm();
+  };
+  return sine_of_sight(scanner_ref_m) < -kGrazingSine &&
+         sine_of_sight(Eigen::Vector3d::Zero()) > kGrazingSine;
 }
 
 }  // namespace
@@ -51,6 +66,8 @@ bool LeavesMotionOpen(const Matrix6d& A) {
 NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
   A += other.A;
   b += other.b;
+  A_noise += other.A_noise;
+  b_noise += other.b_noise;
   weighted_residual2 += other.weighted_residual2;
   residual2_m2 += other.residual2_m2;
   pairs += other.pairs;
@@ -65,6 +82,8 @@ NormalEquations NormalEquations::In(const Pose3& T_map_ref) const {
   NormalEquations moved = *this;
   moved.A = R * A * R.transpose();
   moved.b = R * b;
+  moved.A_noise = R * A_noise * R.transpose();
+  moved.b_noise = R * b_noise;
   return moved;
 }
 
@@ -83,7 +102,9 @@ void SurfelPairs::AddPair(const Rules& rules, std::size_t i, NormalEquations& eq
   const std::int32_t number = ref_.surfel_of_block[search_.neighbor_slot(i) / kLanes];
   if (number == SurfelMap::kNone) return;
   const Surfel& ref = ref_.surfels[static_cast<std::size_t>(number)];
+  if (IsBackOf(ref, rules.T_ref_cur.translation_m)) return;
   Eigen::Vector3d normal = ref.normal;
+  Eigen::Matrix3d C = ref.normal_covariance;
   double variance_m2 = ref.variance_m2 + options_.surface_noise_m * options_.surface_noise_m;
   if (cur_surfels_ != nullptr) {
     const Surfel& cur = cur_surfels_->surfels[i];
@@ -92,17 +113,25 @@ void SurfelPairs::AddPair(const Rules& rules, std::size_t i, NormalEquations& eq
     if (std::abs(cosine) < kMinNormalCosine) return;
     normal = (ref.normal + std::copysign(1.0, cosine) * normal_ref).normalized();
     variance_m2 += cur.variance_m2;
+    const Eigen::Matrix3d& R = rules.T_ref_cur.rotation;
+    C = 0.25 * (C + R * cur.normal_covariance * R.transpose());  // Of the mean of both.
   }
   const Eigen::Vector3d point_m = cur_ref_[i];
-  const double residual_m = normal.dot(ref.mean_m - point_m);
-  variance_m2 += kScaleShare * rules.scale2_m2;
+  const Eigen::Vector3d offset_m = ref.mean_m - point_m;
+  const double residual_m = normal.dot(offset_m);
+  variance_m2 += offset_m.dot(C * offset_m) + kScaleShare * rules.scale2_m2;
   // Geman & McClure (1987): weight (1 + r^2 / s^2)^-2.
   const double outlier = 1.0 + residual_m * residual_m / rules.scale2_m2;
   const double weight = 1.0 / (variance_m2 * outlier * outlier);
-  Vector6d J;
-  J << normal, (point_m - rules.T_ref_cur.translation_m).cross(normal);
+  Matrix6x3 M;  // J = M n
+  M << Eigen::Matrix3d::Identity(), Skew(point_m - rules.T_ref_cur.translation_m);
+  const Vector6d J = M * normal;
+  C += kLeastNormalVariance * Eigen::Matrix3d::Identity();
+  const Matrix6x3 MC = M * C;
   equations.A.noalias() += weight * J * J.transpose();
   equations.b += weight * residual_m * J;
+  equations.A_noise.noalias() += weight * MC * M.transpose();
+  equations.b_noise.noalias() += weight * MC * offset_m;
   equations.weighted_residual2 += weight * residual_m * residual_m;
   equations.residual2_m2 += residual_m * residual_m;
   ++equations.pairs;
@@ -135,24 +164,35 @@ NormalEquations SurfelPairs::Collect(const Pose3& T_ref_cur, int iteration) {
   return total;
 }
 
-IcpStep SurfelPairs::Step(const Sums& sums, const Pose3& T_map_cur, const IcpOptions&) {
+IcpStep SurfelPairs::Step(const Sums& sums, const PosePair& T_map, const IcpOptions& options) {
   const double count = static_cast<double>(std::max<std::size_t>(sums.pairs, 1));
   IcpStep step{.pairs = sums.pairs,
                .rms_residual_m = std::sqrt(sums.residual2_m2 / count),
                .settled = sums.settled};
   if (sums.pairs < 6 || LeavesMotionOpen(sums.A)) return step;
-  const Vector6d x = sums.A.ldlt().solve(sums.b);
+  const HeldMotions held(sums.A, sums.A_noise);
+  Vector6d to_guess;
+  to_guess << T_map.guess.translation_m - T_map.now.translation_m,
+      RotationVector(T_map.guess.rotation * T_map.now.rotation.transpose());
+  const Matrix6d prior = GuessInformation(options);
+  const Vector6d x = (held.Information() + prior)
+                         .ldlt()
+                         .solve(held.Project(sums.b - sums.b_noise) + prior * to_guess);
   // The rotation is about the origin of cur: T <- (x, R(x) about t).
   const Eigen::Matrix3d rotation = RotationFromVector(x.tail<3>());
-  step.motion_map = Pose3{
-      .rotation = rotation,
-      .translation_m = x.head<3>() + T_map_cur.translation_m - rotation * T_map_cur.translation_m};
+  const Eigen::Vector3d& center_m = T_map.now.translation_m;
+  step.motion_map =
+      Pose3{.rotation = rotation, .translation_m = x.head<3>() + center_m - rotation * center_m};
   return step;
 }
 
-double SurfelPairs::Misfit(const Sums& sums) {
+Matrix6d SurfelPairs::Covariance(const Sums& sums,
+                                 const Matrix6d& information,
+                                 const IcpOptions& options) {
   const double freedom = std::max(static_cast<double>(sums.pairs) - 6.0, 1.0);
-  return std::max(sums.weighted_residual2 / freedom, 1.0);
+  const double misfit = std::max(sums.weighted_residual2 / freedom, 1.0);
+  const HeldMotions held(information, sums.A_noise);
+  return (held.Information() / misfit + GuessInformation(options)).inverse();
 }
 
 }  // namespace slam6d

@@ -10,6 +10,9 @@ namespace slam6d {
 struct NormalEquations {
   Matrix6d A = Matrix6d::Zero();
   Vector6d b = Vector6d::Zero();
+  /// What the errors of the normals alone add to A and b, on average.
+  Matrix6d A_noise = Matrix6d::Zero();
+  Vector6d b_noise = Vector6d::Zero();
   double weighted_residual2 = 0.0;  ///< Squared residuals over their variances.
   double residual2_m2 = 0.0;
   std::size_t pairs = 0;
@@ -32,9 +35,10 @@ class SurfelPairs {
   const Matrix6d& Information() const { return information_; }
   const SearchStatistics& statistics() const { return statistics_; }
 
-  static IcpStep Step(const Sums& sums, const Pose3& T_map_cur, const IcpOptions& options);
-  /// Factor from the inverse information to the covariance.
-  static double Misfit(const Sums& sums);
+  static IcpStep Step(const Sums& sums, const PosePair& T_map, const IcpOptions& options);
+  static Matrix6d Covariance(const Sums& sums,
+                             const Matrix6d& information,
+                             const IcpOptions& options);
 
  private:
   /// Weights and normals of an iteration.

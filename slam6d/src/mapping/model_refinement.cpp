@@ -49,24 +49,36 @@ bool Moved(const Pose3& before, const Pose3& after, const RefinementOptions& opt
              options.rotation_tolerance_rad;
 }
 
+/// How far the points of a scan are from the scanner, at most.
+double ReachM(const ScanModel& model) {
+  const Box& limits = model.tree.layout().limits[0];
+  const Eigen::Vector3d low_m = Eigen::Vector3d(limits.low_m).cwiseAbs();
+  return low_m.cwiseMax(Eigen::Vector3d(limits.high_m).cwiseAbs()).norm();
+}
+
 /// The nearest of the scans that overlap with one of them.
-std::vector<std::size_t> Neighbors(std::span<const IcpReference> scans,
+std::vector<std::size_t> Neighbors(std::span<const ModelScan> scans,
                                    std::size_t current,
                                    const RefinementOptions& options) {
-  const IcpReference& cur = scans[current];
+  const IcpReference& cur = scans[current].scan;
+  const double reach_m = ReachM(*cur.model) + options.max_distance_m;
   const auto distance_m = [&](std::size_t scan) {
-    return (scans[scan].T_map_ref.translation_m - cur.T_map_ref.translation_m).norm();
+    return (scans[scan].scan.T_map_ref.translation_m - cur.T_map_ref.translation_m).norm();
   };
   std::vector<std::size_t> by_distance;
   for (std::size_t scan = 0; scan < scans.size(); ++scan) {
-    if (scan != current && scans[scan].model != nullptr) by_distance.push_back(scan);
+    if (scan == current || scans[scan].scan.model == nullptr) continue;
+    // So that the time of a fit does not grow with the model.
+    if (distance_m(scan) > reach_m + ReachM(*scans[scan].scan.model)) continue;
+    by_distance.push_back(scan);
   }
   std::ranges::stable_sort(by_distance, {}, distance_m);
   std::vector<std::size_t> neighbors;
   for (const std::size_t scan : by_distance) {
     if (neighbors.size() == static_cast<std::size_t>(options.max_neighbors)) break;
-    const Pose3 T_ref_cur = scans[scan].T_map_ref.Inverse() * cur.T_map_ref;
-    if (OverlapsByPairs(*scans[scan].model, *cur.model, T_ref_cur, options)) {
+    const IcpReference& ref = scans[scan].scan;
+    const Pose3 T_ref_cur = ref.T_map_ref.Inverse() * cur.T_map_ref;
+    if (OverlapsByPairs(*ref.model, *cur.model, T_ref_cur, options)) {
       neighbors.push_back(scan);
     }
   }
@@ -74,22 +86,23 @@ std::vector<std::size_t> Neighbors(std::span<const IcpReference> scans,
 }
 
 /// Where the scan fits best among its neighbours; where it is, if that cannot be found.
-Pose3 Fit(std::span<const IcpReference> scans,
+Pose3 Fit(std::span<const ModelScan> scans,
           std::size_t current,
           std::span<const std::size_t> neighbors,
-          const IcpOptions& icp) {
+          IcpOptions icp) {
   std::vector<IcpReference> M;
-  for (const std::size_t scan : neighbors) M.push_back(scans[scan]);
-  const Pose3& T_map_cur = scans[current].T_map_ref;
-  const IcpResult result = Align(M, *scans[current].model, T_map_cur, icp);
+  for (const std::size_t scan : neighbors) M.push_back(scans[scan].scan);
+  icp.metric = scans[current].metric;
+  const auto& [D, T_map_cur] = scans[current].scan;
+  const IcpResult result = Align(M, *D, T_map_cur, icp);
   const bool found =
       result.status == IcpStatus::kConverged || result.status == IcpStatus::kIterationLimit;
   return found ? result.T_ref_cur : T_map_cur;
 }
 
-std::vector<Pose3> PosesOf(std::span<const IcpReference> scans) {
+std::vector<Pose3> PosesOf(std::span<const ModelScan> scans) {
   std::vector<Pose3> poses;
-  for (const IcpReference& scan : scans) poses.push_back(scan.T_map_ref);
+  for (const ModelScan& scan : scans) poses.push_back(scan.scan.T_map_ref);
   return poses;
 }
 
@@ -111,24 +124,25 @@ bool OverlapsByPairs(const ScanModel& ref,
   return false;
 }
 
-RefinementResult RefineModel(std::span<const IcpReference> scans,
+RefinementResult RefineModel(std::span<const ModelScan> scans,
                              const IcpOptions& icp,
                              const RefinementOptions& options,
                              const RefinementObserver& observer) {
   IcpOptions fit = icp;
   fit.max_distance_m = options.max_distance_m;
-  std::vector<IcpReference> model(scans.begin(), scans.end());
+  std::vector<ModelScan> model(scans.begin(), scans.end());
   FitQueue queue(scans.size(), options.max_visits);
   for (std::size_t scan = 0; scan < scans.size(); ++scan) {
-    if (scans[scan].model != nullptr) queue.Add(scan);
+    if (scans[scan].scan.model != nullptr) queue.Add(scan);
   }
   RefinementResult result{.T_map_scan = {}};
   while (queue.size() > 0) {
     const std::size_t current = queue.Pop();                                        // 1.
     const std::vector<std::size_t> neighbors = Neighbors(model, current, options);  // 2.
-    const Pose3 before = model[current].T_map_ref;
-    if (!neighbors.empty()) model[current].T_map_ref = Fit(model, current, neighbors, fit);
-    if (Moved(before, model[current].T_map_ref, options)) {  // 3.
+    Pose3& T_map_cur = model[current].scan.T_map_ref;
+    const Pose3 before = T_map_cur;
+    if (!neighbors.empty()) T_map_cur = Fit(model, current, neighbors, fit);
+    if (Moved(before, T_map_cur, options)) {  // 3.
       for (const std::size_t neighbor : neighbors) queue.Add(neighbor);
     }
     ++result.fits;

@@ -14,13 +14,13 @@ namespace {
 /// Fewer different points leave a motion open under every metric.
 constexpr std::size_t kLeastPoints = 3;
 
-/// What dead reckoning may be off by from one scan to the next.
-constexpr double kOdometrySigmaM = 0.3;
-constexpr double kOdometrySigmaRad = 5.0 * std::numbers::pi / 180.0;
-
 /// The covariance of a registration assumes independent errors; nothing is better than this.
 constexpr double kLeastSigmaM = 1e-3;
 constexpr double kLeastSigmaRad = 1e-4;
+
+/// The search tries motions within its ranges; a registration from there may lead so many times as
+/// far.
+constexpr double kReachFactor = 2.0;
 
 /// On the way round a loop more error gathers than from one scan to the next.
 constexpr double kLoopSearchFactor = 2.0;
@@ -55,8 +55,20 @@ OverlapOptions Widened(OverlapOptions options, double factor) {
   return options;
 }
 
+/// What dead reckoning may be off by from one scan to the next.
+Matrix6d CovarianceOfGuess(const IcpOptions& options) {
+  return CovarianceOf(options.guess_sigma_m, options.guess_sigma_rad);
+}
+
 Matrix6d CovarianceOf(const IcpResult& result) {
   return result.covariance + CovarianceOf(kLeastSigmaM, kLeastSigmaRad);
+}
+
+/// Whether a registration stayed near the guess. What slides farther found other surfaces.
+bool IsWithinReach(const Pose3& T_map_guess, const Pose3& T_map_cur, const OverlapOptions& search) {
+  const Pose3 T_guess_cur = T_map_guess.Inverse() * T_map_cur;
+  return T_guess_cur.translation_m.norm() <= kReachFactor * search.translation_range_m &&
+         RotationAngle(T_guess_cur.rotation) <= kReachFactor * search.rotation_range_rad;
 }
 
 /// The same covariance along the axes of another frame.
@@ -94,13 +106,13 @@ SlamStep Slam::Add(const PointCloud& scan, const Pose3& T_odom_scan) {
     step.T_map_scan = ExtrapolateOdometry(graph_.T_map_scan.back(), T_odom_last_, T_odom_scan);
   }
   T_odom_last_ = T_odom_scan;
-  Entry entry{.T_odom_scan = T_odom_scan,
-              .range_m = RangeOf(points),
+  Entry entry{.range_m = RangeOf(points),
               .model = ScanModel(points, options_.tree),
-              .overlap = OverlapModel(points, options_.guess)};
+              .overlap = OverlapModel(points, options_.guess),
+              .metric = options_.icp.metric};
   const bool usable = entry.model.tree.size() >= kLeastPoints;
   if (!graph_.T_map_scan.empty()) {
-    step.covariance = covariances_.back() + CovarianceOf(kOdometrySigmaM, kOdometrySigmaRad);
+    step.covariance = covariances_.back() + CovarianceOfGuess(options_.icp);
   }
   if (usable) Match(entry, step);
   graph_.T_map_scan.push_back(step.T_map_scan);
@@ -120,7 +132,10 @@ SlamStep Slam::Add(const PointCloud& scan, const Pose3& T_odom_scan) {
 Slam::Registration Slam::Register(std::span<const std::size_t> references,
                                   const Entry& cur,
                                   const Pose3& T_map_cur_guess,
-                                  const OverlapOptions& search) const {
+                                  const OverlapOptions& search,
+                                  IcpMetric metric) const {
+  IcpOptions icp = options_.icp;
+  icp.metric = metric;
   std::vector<IcpReference> models;
   std::vector<OverlapReference> cubes;
   for (const std::size_t scan : references) {
@@ -128,16 +143,20 @@ Slam::Registration Slam::Register(std::span<const std::size_t> references,
     cubes.push_back({.model = &entries_[scan]->overlap, .T_map_ref = graph_.T_map_scan[scan]});
   }
   const auto align = [&](const Pose3& T_map_cur) {
-    Registration result{.icp = Align(models, cur.model, T_map_cur, options_.icp)};
+    Registration result{.icp = Align(models, cur.model, T_map_cur, icp)};
     result.overlap = Overlap(cubes, cur.overlap, result.icp.T_ref_cur, search);
-    result.trusted = HasPose(result.icp) && result.overlap >= options_.min_overlap;
+    result.trusted = HasPose(result.icp) && result.overlap >= options_.min_overlap &&
+                     IsWithinReach(T_map_cur_guess, result.icp.T_ref_cur, search);
     return result;
   };
   const Registration first = align(T_map_cur_guess);
   if (first.trusted && first.overlap >= search.needed_below) return first;
   const OverlapGuess guess = GuessByOverlap(cubes, cur.overlap, T_map_cur_guess, search);
   const Registration second = align(guess.T_map_cur);
-  return !first.trusted || second.overlap > first.overlap ? second : first;
+  if (first.trusted != second.trusted) return first.trusted ? first : second;
+  // Sliding back along a corridor makes more cubes overlap, but fewer surfaces agree.
+  const bool is_better = second.overlap > first.overlap && second.icp.pairs > first.icp.pairs;
+  return is_better ? second : first;
 }
 
 std::vector<std::size_t> Slam::LastUsable(int count) const {
@@ -148,19 +167,30 @@ std::vector<std::size_t> Slam::LastUsable(int count) const {
   return scans;
 }
 
-void Slam::Match(const Entry& entry, SlamStep& step) {
+void Slam::Match(Entry& entry, SlamStep& step) {
   const std::vector<std::size_t> references = LastUsable(options_.references);
   if (references.empty()) {
     step.status = SlamStatus::kFirst;
     return;
   }
-  const Registration match = Register(references, entry, step.T_map_scan, options_.guess);
+  const auto match_by = [&](IcpMetric metric) {
+    return Register(references, entry, step.T_map_scan, options_.guess, metric);
+  };
+  Registration match = match_by(entry.metric);
+  if (!match.trusted && entry.metric != IcpMetric::kPointToPoint) {
+    // Among trees hardly anything is flat, and the little that is leads astray.
+    const Registration by_points = match_by(IcpMetric::kPointToPoint);
+    if (by_points.trusted) {
+      match = by_points;
+      entry.metric = IcpMetric::kPointToPoint;
+    }
+  }
   step.match = match.icp;
   step.overlap = match.overlap;
   step.status = match.trusted ? SlamStatus::kMatched : SlamStatus::kDeadReckoned;
   if (match.trusted) step.T_map_scan = match.icp.T_ref_cur;
   const Matrix6d covariance =
-      match.trusted ? CovarianceOf(match.icp) : CovarianceOf(kOdometrySigmaM, kOdometrySigmaRad);
+      match.trusted ? CovarianceOf(match.icp) : CovarianceOfGuess(options_.icp);
   Constrain(references.front(), entries_.size(), {step.T_map_scan, covariance});
   step.covariance = ByLastConstraint().covariance;
 }
@@ -193,7 +223,7 @@ void Slam::CloseLoops(SlamStep& step) {
   for (const std::size_t earlier : LoopHypotheses(graph_.T_map_scan, cur.range_m, options_.loop)) {
     if (!entries_[earlier]) continue;
     const Registration match =
-        Register(std::span(&earlier, 1), cur, graph_.T_map_scan[scan], search);
+        Register(std::span(&earlier, 1), cur, graph_.T_map_scan[scan], search, cur.metric);
     if (!match.trusted || match.overlap < options_.loop.min_overlap) continue;
     Constrain(earlier, scan, {match.icp.T_ref_cur, CovarianceOf(match.icp)});
     const Matrix6d covariance = ByLastConstraint().covariance;
@@ -204,10 +234,15 @@ void Slam::CloseLoops(SlamStep& step) {
 }
 
 RefinementResult Slam::Refine(const RefinementObserver& observer) {
-  std::vector<IcpReference> scans;
+  if (!options_.refinement.enabled) return {.T_map_scan = graph_.T_map_scan};
+  std::vector<ModelScan> scans;
   for (std::size_t scan = 0; scan < entries_.size(); ++scan) {
-    const ScanModel* model = entries_[scan] ? &entries_[scan]->model : nullptr;
-    scans.push_back({.model = model, .T_map_ref = graph_.T_map_scan[scan]});
+    ModelScan model{.scan = {.model = nullptr, .T_map_ref = graph_.T_map_scan[scan]}};
+    if (entries_[scan]) {
+      model.scan.model = &entries_[scan]->model;
+      model.metric = entries_[scan]->metric;
+    }
+    scans.push_back(model);
   }
   RefinementResult result = RefineModel(scans, options_.icp, options_.refinement, observer);
   graph_.T_map_scan = result.T_map_scan;

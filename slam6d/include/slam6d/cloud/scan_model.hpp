@@ -14,19 +14,22 @@ namespace slam6d {
 /// A flat piece of surface: the points of one leaf of the kd-tree.
 struct Surfel {
   Eigen::Vector3d mean_m = Eigen::Vector3d::Zero();
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< Either of the two.
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< Towards the scanner.
+  /// Of the normal: its small turns, seen as moves of its tip.
+  Eigen::Matrix3d normal_covariance = Eigen::Matrix3d::Zero();
   /// Variance of the mean along the normal, from the scatter of the points.
   double variance_m2 = 0.0;
 };
 
 struct SurfelOptions {
   int min_points = 5;  ///< Of a surfel.
-  /// A surfel is flat: its variance across is at most this share of the next larger one.
+  /// A surfel is flat: its variance across, and that of most others, is at most this share of the
+  /// next larger one.
   double max_flatness = 0.1;
 };
 
-/// The flat leaves of a tree. O(n): the tree has sorted the points already, so that no search for
-/// the neighbours of every point is needed.
+/// The flat leaves of a tree over points in the scanner's frame. O(n): the tree has sorted the
+/// points already, so that no search for the neighbours of every point is needed.
 struct SurfelMap {
   static constexpr std::int32_t kNone = -1;
 
@@ -37,7 +40,8 @@ struct SurfelMap {
 
 SurfelMap FindSurfels(const KdTree& tree, const SurfelOptions& options = {});
 
-/// A cloud made ready for registration, as reference and as current scan alike.
+/// A cloud made ready for registration, as reference and as current scan alike. It is in the
+/// scanner's frame: from its origin the points were seen.
 struct ScanModel {
   explicit ScanModel(const PointCloud& cloud, const KdTreeOptions& options = {});
 

@@ -49,6 +49,10 @@ struct IcpOptions {
   double residual_scale_m = 0.02;
   /// To planes: what surfels are off by beside their scatter.
   double surface_noise_m = 0.001;
+  /// To planes: what the guess may be off by; it holds what the pairs leave open, as along a
+  /// corridor.
+  double guess_sigma_m = 0.3;
+  double guess_sigma_rad = 0.1;
   int threads = 1;  ///< Changes no bit of the result.
 };
 
@@ -81,6 +85,14 @@ void Describe(Visitor& visit, IcpOptions& o) {
   visit("surface_noise_m",
         o.surface_noise_m,
         {.help = "to planes: error of a surfel beside its scatter", .min = 1e-6, .max = 10});
+  visit("guess_sigma_m",
+        o.guess_sigma_m,
+        {.help = "to planes: error of the guess, which holds what the pairs leave open",
+         .min = 1e-3,
+         .max = 1e3});
+  visit("guess_sigma_rad",
+        o.guess_sigma_rad,
+        {.help = "to planes: the same of its rotation", .min = 1e-4, .max = 10});
   visit("threads", o.threads, {.help = "changes no bit of the result", .min = 1, .max = 256});
 }
 

@@ -92,7 +92,7 @@ class Slam {
   /// @param scan in the scanner's frame. @param T_odom_scan its pose by odometry, or any estimate.
   SlamStep Add(const PointCloud& scan, const Pose3& T_odom_scan);
 
-  /// Fits all scans to each other.
+  /// Fits all scans to each other, if that is wanted.
   RefinementResult Refine(const RefinementObserver& observer = {});
 
   const std::vector<Pose3>& T_map_scan() const { return graph_.T_map_scan; }
@@ -101,10 +101,10 @@ class Slam {
 
  private:
   struct Entry {
-    Pose3 T_odom_scan;
     double range_m;  ///< How far it sees.
     ScanModel model;
     OverlapModel overlap;
+    IcpMetric metric;  ///< By which it was registered.
   };
   struct Registration {
     IcpResult icp;  ///< Its `ref` is the map.
@@ -115,10 +115,11 @@ class Slam {
   Registration Register(std::span<const std::size_t> references,
                         const Entry& cur,
                         const Pose3& T_map_cur_guess,
-                        const OverlapOptions& search) const;
+                        const OverlapOptions& search,
+                        IcpMetric metric) const;
   std::vector<std::size_t> LastUsable(int count) const;
   void Constrain(std::size_t from, std::size_t to, const UncertainPose3& T_map_to);
-  void Match(const Entry& entry, SlamStep& step);
+  void Match(Entry& entry, SlamStep& step);
   void CloseLoops(SlamStep& step);
   UncertainPose3 Uncertain(std::size_t scan) const;
   UncertainPose3 ByLastConstraint() const;
