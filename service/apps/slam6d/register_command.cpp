@@ -82,7 +82,7 @@ pipeline::Registration Register(pipeline::ScanSeries& series,
             spdlog::warn("{}", problem);
           },
       .should_stop = [&] { return interruption.requested(); }};
-  return pipeline::RegisterSeries(series, options.slam, observer);
+  return pipeline::RegisterSeries(series, options, observer);
 }
 
 void TellDoubts(const pipeline::Registration& registration) {

@@ -16,7 +16,6 @@
 #include "service/apps/version.hpp"
 #include "service/dds/cloud_inbox.hpp"
 #include "service/dds/cloud_outbox.hpp"
-#include "service/graph/ceres_loop_closer.hpp"
 #include "service/io/atomic_file.hpp"
 #include "service/pipeline/interruption.hpp"
 #include "service/pipeline/slam6d/cloud_results.hpp"
@@ -46,7 +45,8 @@ class Server {
         outbox_(participant_, options.network, refusals_),
         results_(folder ? std::make_unique<pipeline::CloudResults>(*folder, options) : nullptr),
         sinks_(Sinks()),
-        service_({.team = options.team, .slam = options.slam}, closer_, sinks_),
+        closer_(graph::MakeLoopCloser(options.loop_error)),
+        service_({.team = options.team, .slam = options.slam}, *closer_, sinks_),
         inbox_(participant_, robots, service_, outbox_, refusals_) {}
 
   void Run(const qwsm::pipeline::Interruption& interruption) {
@@ -79,7 +79,7 @@ class Server {
   qwsm::dds::CloudOutbox outbox_;
   std::unique_ptr<pipeline::CloudResults> results_;
   pipeline::CloudSinks sinks_;
-  graph::CeresLoopCloser closer_;
+  std::unique_ptr<LoopCloser> closer_;
   qwsm::team::CloudService service_;
   qwsm::dds::CloudInbox inbox_;
 };

@@ -6,8 +6,7 @@
 
 #include <chrono>
 #include <limits>
-
-#include "service/graph/ceres_loop_closer.hpp"
+#include <memory>
 
 namespace slam6d::pipeline {
 namespace {
@@ -56,13 +55,13 @@ PointCloud WithinRange(const PointCloud& cloud, const SlamOptions& options) {
 }
 
 Registration RegisterSeries(ScanSeries& series,
-                            const SlamOptions& options,
+                            const RegistrationOptions& options,
                             const RegistrationObserver& observer) {
-  const graph::CeresLoopCloser closer;
-  Slam slam(options, closer);
+  const std::unique_ptr<LoopCloser> closer = graph::MakeLoopCloser(options.loop_error);
+  Slam slam(options.slam, *closer);
   Registration result;
   result.series_size = series.size();
-  const double share_of_scans = options.refinement.enabled ? kShareOfScans : 1.0;
+  const double share_of_scans = options.slam.refinement.enabled ? kShareOfScans : 1.0;
   while (!result.interrupted) {
     std::optional<LoadedScan> loaded = series.Next();
     if (!loaded) break;
@@ -76,7 +75,7 @@ Registration RegisterSeries(ScanSeries& series,
                   fmt::format("{}/{} scans", result.scans.size(), series.size()));
     result.interrupted = observer.should_stop();
   }
-  if (options.refinement.enabled && !result.interrupted) Refine(slam, result, observer);
+  if (!result.interrupted) Refine(slam, result, observer);
   result.T_map_scan = slam.T_map_scan();
   return result;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "service/graph/loop_distribution.hpp"
 #include "service/io/scan_points.hpp"
 #include "slam6d/mapping/slam.hpp"
 
@@ -14,6 +15,7 @@ struct RegistrationOptions {
   /// other units.
   double max_range_ratio = 20.0;
   SlamOptions slam{};
+  graph::LoopDistribution loop_error = graph::LoopDistribution::kLeastSquares;
   ReductionOptions model{};  ///< Of the merged cloud.
 };
 
@@ -26,6 +28,7 @@ void Describe(Visitor& visit, RegistrationOptions& o) {
          .min = 2,
          .max = 1e9});
   visit("slam", o.slam, {.help = "registration of the scans"});
+  visit("loop_error", o.loop_error, {.help = "how the error of a loop is spread over its scans"});
   visit("model", o.model, {.help = "thinning of the merged cloud"});
 }
 
