@@ -18,6 +18,7 @@
 #include "service/io/atomic_file.hpp"
 #include "service/io/trajectory_file.hpp"
 #include "service/pipeline/interruption.hpp"
+#include "service/team/team_status.hpp"
 
 namespace qwsm::apps {
 namespace {
@@ -41,7 +42,7 @@ std::string TextOf(const dds::MatchReport& report) {
   return fmt::format(
       "{:<10} {:.6f}  {:9.3f} m {:9.3f} m {:8.2f} deg  {:<13} {:3.0f} % of {:4} pairs  {:.2f} "
       "ms{}\n",
-      report.robot.empty() ? "robot" : report.robot,
+      team::DisplayName(report.robot),
       std::chrono::duration<double>(report.stamp).count(),
       pose.x_m,
       pose.y_m,

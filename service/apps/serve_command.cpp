@@ -97,7 +97,7 @@ void Summarize(const team::TeamStatus& status) {
     fmt::print(
         "{:<14} {} of {} scans answered, {} dropped, {} relevant; latency {:.2f} ms, p99 {:.2f} "
         "ms\n",
-        robot.name.empty() ? "robot" : robot.name,
+        team::DisplayName(robot.name),
         robot.counts.answered,
         robot.counts.scans,
         robot.counts.dropped,

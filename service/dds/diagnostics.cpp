@@ -20,7 +20,7 @@ void AddMilliseconds(Health& health, const char* key, std::chrono::nanoseconds d
 }
 
 Health HealthOf(const team::RobotStatus& robot) {
-  Health health{.name = "qwsm: " + (robot.name.empty() ? "robot" : robot.name)};
+  Health health{.name = "qwsm: " + team::DisplayName(robot.name)};
   health.message = Name(robot.state);
   health.level =
       robot.state == team::RobotState::kTracked ? HealthLevel::kOk : HealthLevel::kWarning;
@@ -35,6 +35,7 @@ Health HealthOf(const team::RobotStatus& robot) {
   Add(health, "dropped", counts.dropped);
   Add(health, "duplicates", counts.duplicates);
   Add(health, "late", counts.late);
+  Add(health, "wrong_time", counts.wrong_time);
   Add(health, "malformed", counts.malformed);
   Add(health, "unplaced", counts.unplaced);
   Add(health, "clock_resets", counts.clock_resets);

@@ -47,10 +47,11 @@ template <class Kind>
 void BasicRobotInbox<Kind>::Deliver(const BasicStaticTransforms<Kind>& transforms,
                                     BasicRobotListener<Kind>& listener) {
   listener.TakeOdometryUse(names_.name(), odometry_.writer_count() > 0);
+  // Robots tell their odometry before the scan: whose scan is here has its odometry here, too.
+  scans_.TakeAll([this](const typename OnWire<Kind>::Scan& sample) { TakeScan(sample); });
   odometry_.TakeAll([&](const wire::Odometry& sample) { TakeOdometry(sample, listener); });
   initial_poses_.TakeAll(
       [&](const wire::PoseWithCovarianceStamped& sample) { TakeInitialPose(sample, listener); });
-  scans_.TakeAll([this](const typename OnWire<Kind>::Scan& sample) { TakeScan(sample); });
   DeliverPlacedScans(transforms, listener);
 }
 

@@ -12,8 +12,8 @@
 namespace qwsm::pipeline {
 
 void TeamLog::TakeEvent(const team::TeamEvent& event) {
-  const std::string_view separator = event.robot.empty() ? "" : ": ";
-  const std::string text = fmt::format("{}{}{}", event.robot, separator, event.text);
+  const std::string subject = event.robot ? team::DisplayName(*event.robot) + ": " : "";
+  const std::string text = subject + std::string(event.text);
   const std::optional<std::size_t> held_back = repeats_.Pass(text, RepeatFilter::Clock::now());
   if (!held_back) return;
   spdlog::log(event.is_warning ? spdlog::level::warn : spdlog::level::info,

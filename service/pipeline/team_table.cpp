@@ -9,6 +9,7 @@
 
 #include "qwsm/geometry/angle.hpp"
 #include "service/config/text_table.hpp"
+#include "service/team/team_status.hpp"
 
 namespace qwsm::pipeline {
 namespace {
@@ -57,7 +58,7 @@ std::vector<std::string> TeamTable::RowOf(const Robot& robot, Clock::time_point 
   std::ranges::sort(latencies);
   const double heard_for_s =
       std::max(1.0, Seconds(robot.recent.back().at - robot.recent.front().at));
-  return {last.robot.empty() ? "robot" : last.robot,
+  return {team::DisplayName(last.robot),
           fmt::format("{:.2f}", pose.x_m),
           fmt::format("{:.2f}", pose.y_m),
           fmt::format("{:.1f}", RadiansToDegrees(pose.theta_rad)),

@@ -33,6 +33,7 @@ bool OdometryBuffer<Pose>::Add(Timestamp stamp, const Pose& T_odom_robot) {
   if (!IsFinite(T_odom_robot)) return false;
   switch (guard_.Judge(stamp)) {
     case StampVerdict::kDuplicate:
+    case StampVerdict::kWrongTime:
       return false;
     case StampVerdict::kClockReset:
       readings_.clear();
@@ -60,6 +61,11 @@ bool OdometryBuffer<Pose>::Insert(const Reading& reading) {
 template <class Pose>
 bool OdometryBuffer<Pose>::Covers(Timestamp stamp) const {
   return !readings_.empty() && readings_.back().stamp >= stamp;
+}
+
+template <class Pose>
+bool OdometryBuffer<Pose>::BeginsAfter(Timestamp stamp) const {
+  return !readings_.empty() && readings_.front().stamp > stamp;
 }
 
 template <class Pose>

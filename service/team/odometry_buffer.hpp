@@ -30,6 +30,8 @@ class OdometryBuffer {
   bool empty() const { return readings_.empty(); }
   /// Whether there is a reading of that time or later: waiting tells nothing new.
   bool Covers(Timestamp stamp) const;
+  /// Whether the first reading is later: nothing will ever be known of that time.
+  bool BeginsAfter(Timestamp stamp) const;
   /// The reading at that time, exactly if there is one; else interpolated between its neighbours,
   /// or, shortly after the last one, carried on as the robot moved.
   std::optional<Pose> At(Timestamp stamp) const;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/team/robot_session.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "qwsm/mapping/place_finder.hpp"
@@ -16,6 +18,15 @@ constexpr std::chrono::nanoseconds kSearchPeriod = std::chrono::seconds(2);
 // How far a robot may have been pushed while nobody looked, and how exact a found place is.
 constexpr double kPushed_m = 0.3;
 constexpr double kPushed_rad = 0.1;
+
+// A service that was killed while it could not write its journal does not know which numbers it
+// gave. So those of each run begin with its time, in microseconds: no robot makes that many.
+std::uint64_t NewSequence() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return static_cast<std::uint64_t>(
+      std::chrono::microseconds(now / std::chrono::microseconds(1)).count());
+}
+
 UncertainPose2 Loosened(UncertainPose2 pose) {
   pose.covariance.diagonal() += Eigen::Vector3d(kPushed_m, kPushed_m, kPushed_rad).cwiseAbs2();
   return pose;
@@ -30,7 +41,8 @@ RobotSession::RobotSession(std::string name,
     : context_(std::move(context)),
       intake_(std::move(name), options),
       tracker_(mapper),
-      sequence_(context_.map.LastSequence(context_.service, this->name())) {}
+      sequence_(
+          std::max(context_.map.LastSequence(context_.service, this->name()), NewSequence())) {}
 
 void RobotSession::SetStart(const UncertainPose2& map_robot) {
   const std::lock_guard lock(mutex_);

@@ -14,7 +14,7 @@ namespace qwsm::team {
 struct ScanKey {
   std::string service;         ///< That matched it; see TeamService::identity().
   std::string robot;           ///< That took it, by its namespace.
-  std::uint64_t sequence = 0;  ///< Counts the service's relevant scans of that robot, from 1.
+  std::uint64_t sequence = 0;  ///< Grows with the service's relevant scans of that robot.
 
   friend auto operator<=>(const ScanKey&, const ScanKey&) = default;
 };

@@ -82,9 +82,12 @@ bool SessionIntake<Kind>::TakeScan(Scan scan) {
     case StampVerdict::kDuplicate:
       ++counts_.duplicates;
       return false;
+    case StampVerdict::kWrongTime:
+      ++counts_.wrong_time;
+      return false;
     case StampVerdict::kLate:
       ++counts_.late;
-      return false;
+      break;
     case StampVerdict::kClockReset:
       ++counts_.clock_resets;
       is_interrupted_ = true;
@@ -130,6 +133,7 @@ bool SessionIntake<Kind>::AwaitsOdometry(const Scan& scan) const {
 template <class Kind>
 std::optional<typename SessionIntake<Kind>::Work> SessionIntake<Kind>::Take() {
   const std::lock_guard lock(mutex_);
+  DropScansBeforeOdometry();
   if (queue_.empty()) return std::nullopt;
   Arrival next = queue_.Pop();
   Work work{.scan = std::move(next.scan), .arrived = next.arrived, .T_odom_robot = {}};
@@ -140,14 +144,23 @@ std::optional<typename SessionIntake<Kind>::Work> SessionIntake<Kind>::Take() {
   return work;
 }
 
+// Whoever has only just found the robot may have missed the odometry of its first scan, which then
+// tells less of where the robot is than the next one.
+template <class Kind>
+void SessionIntake<Kind>::DropScansBeforeOdometry() {
+  while (expects_odometry_ && !queue_.empty() && odometry_.BeginsAfter(queue_.front().scan.stamp)) {
+    queue_.Pop();
+    ++counts_.unplaced;
+  }
+}
+
 template <class Kind>
 void SessionIntake<Kind>::WatchOdometry(Work& work) {
   const Timestamp stamp = work.scan.stamp;
   work.odometry_goes_on = work.T_odom_robot && T_odom_last_;
   if (work.odometry_goes_on) {
     const Pose moved = T_odom_last_->Inverse() * *work.T_odom_robot;
-    const double elapsed_s =
-        std::max(0.0, std::chrono::duration<double>(stamp - last_stamp_).count());
+    const double elapsed_s = std::abs(std::chrono::duration<double>(stamp - last_stamp_).count());
     work.odometry_jumped = LengthM(moved) > kJump_m + options_.max_speed_mps * elapsed_s ||
                            TurnRad(moved) > kJump_rad + options_.max_turn_rate_radps * elapsed_s;
     if (work.odometry_jumped) ++counts_.odometry_jumps;

@@ -67,7 +67,7 @@ class SessionIntake {
 
   /// From when on there is work; nothing where there is none.
   std::optional<Lane::Time> ReadyAt() const;
-  /// The oldest scan that waits. To be called by one thread at a time.
+  /// The oldest scan that waits and can be used. To be called by one thread at a time.
   std::optional<Work> Take();
 
   /// Nobody knows where the robot is: its scan was left unanswered.
@@ -84,6 +84,7 @@ class SessionIntake {
 
   bool IsHere() const;
   bool AwaitsOdometry(const Scan& scan) const;
+  void DropScansBeforeOdometry();
   void WatchOdometry(Work& work);
 
   const std::string name_;

@@ -2,26 +2,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/team/stamp_guard.hpp"
 
-#include <utility>
-
 namespace qwsm::team {
 
 StampVerdict StampGuard::Judge(std::chrono::nanoseconds stamp) {
-  if (!newest_ || stamp > *newest_) {
-    newest_ = stamp;
-    late_in_order_ = 0;
-    return StampVerdict::kInOrder;
+  if (recent_.contains(stamp)) return StampVerdict::kDuplicate;
+  if (!recent_.empty()) {
+    const std::chrono::nanoseconds newest = *recent_.rbegin();
+    if (stamp <= newest - kMaxDelay || stamp > newest + kMaxPause) return Doubt(stamp);
+    if (stamp < newest) {
+      Remember(stamp);
+      return StampVerdict::kLate;
+    }
   }
-  if (stamp == *newest_) return StampVerdict::kDuplicate;
-  if (*newest_ - kMaxDelay < stamp) return StampVerdict::kLate;
+  wrong_in_order_ = 0;
+  Remember(stamp);
+  return StampVerdict::kInOrder;
+}
 
-  const bool follows = late_in_order_ > 0 && stamp > newest_late_;
-  late_in_order_ = follows ? late_in_order_ + 1 : 1;
-  newest_late_ = stamp;
-  if (late_in_order_ < kConfirmations) return StampVerdict::kLate;
-  newest_ = stamp;
-  late_in_order_ = 0;
+StampVerdict StampGuard::Doubt(std::chrono::nanoseconds stamp) {
+  const bool follows =
+      wrong_in_order_ > 0 && stamp > last_wrong_ && stamp <= last_wrong_ + kMaxPause;
+  wrong_in_order_ = follows ? wrong_in_order_ + 1 : 1;
+  last_wrong_ = stamp;
+  if (wrong_in_order_ < kConfirmations) return StampVerdict::kWrongTime;
+  recent_.clear();
+  wrong_in_order_ = 0;
+  Remember(stamp);
   return StampVerdict::kClockReset;
+}
+
+void StampGuard::Remember(std::chrono::nanoseconds stamp) {
+  recent_.insert(stamp);
+  if (recent_.size() > kRemembered) recent_.erase(recent_.begin());
 }
 
 }  // namespace qwsm::team

@@ -3,32 +3,40 @@
 #pragma once
 
 #include <chrono>
-#include <optional>
+#include <cstddef>
+#include <set>
 
 namespace qwsm::team {
 
 /// What a stamp says about the message that carries it.
 enum class StampVerdict {
   kInOrder,     ///< Newer than all before.
-  kDuplicate,   ///< As the newest.
-  kLate,        ///< Older than the newest: sent twice, overtaken, or from a clock gone wrong.
-  kClockReset,  ///< In order again, by a clock that was set back.
+  kLate,        ///< Older than the newest, by no more than a network delays: it was overtaken.
+  kDuplicate,   ///< Of a message that has come already.
+  kWrongTime,   ///< From the future, or older than any delay explains.
+  kClockReset,  ///< In order again, by a clock that was set.
 };
 
-/// Watches the stamps of one sender. What is late is to be refused; but when several messages in a
-/// row, in order among themselves, are late by more than any network delays them, then it is the
-/// clock that was wrong, before or now, and from then on the new time counts.
+/// Watches the stamps of one sender. What is of a wrong time is to be refused; but when several
+/// messages in a row, in order among themselves, are, then it is the clock that was wrong, before
+/// or now, and from then on the new time counts.
 class StampGuard {
  public:
   static constexpr std::chrono::nanoseconds kMaxDelay = std::chrono::seconds(1);
+  /// Nobody pauses for longer, and logs neither: what is newer by more is from the future.
+  static constexpr std::chrono::nanoseconds kMaxPause = std::chrono::hours(1);
   static constexpr int kConfirmations = 3;
+  static constexpr std::size_t kRemembered = 64;  ///< Stamps, to know duplicates by.
 
   StampVerdict Judge(std::chrono::nanoseconds stamp);
 
  private:
-  std::optional<std::chrono::nanoseconds> newest_;
-  std::chrono::nanoseconds newest_late_{};
-  int late_in_order_ = 0;
+  StampVerdict Doubt(std::chrono::nanoseconds stamp);
+  void Remember(std::chrono::nanoseconds stamp);
+
+  std::set<std::chrono::nanoseconds> recent_;  // The newest ones.
+  std::chrono::nanoseconds last_wrong_{};
+  int wrong_in_order_ = 0;
 };
 
 }  // namespace qwsm::team

@@ -44,7 +44,7 @@ struct MapPicture {
 
 /// Something worth a line in the log: a robot joined, a clock was set back, the disk is full.
 struct TeamEvent {
-  std::string_view robot;  ///< Empty where it is about none.
+  std::optional<std::string_view> robot;  ///< Nothing where it is about none.
   bool is_warning = false;
   std::string_view text;
 };

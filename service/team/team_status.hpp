@@ -15,6 +15,11 @@
 
 namespace qwsm::team {
 
+/// What a robot is called where people read it: one without a namespace is the only one.
+inline std::string DisplayName(std::string_view robot) {
+  return robot.empty() ? "robot" : std::string(robot);
+}
+
 enum class RobotState {
   kExpected,  ///< Configured, but not heard of yet.
   kUnplaced,  ///< Its scans arrive, but nobody knows where in the map it is.
@@ -33,11 +38,12 @@ struct SessionCounts {
   std::uint64_t relevant = 0;          ///< Of these, added to the map.
   std::uint64_t without_odometry = 0;  ///< Of these.
   std::uint64_t dropped = 0;           ///< The queue was full: the oldest went.
-  std::uint64_t duplicates = 0;        ///< Refused: of the same stamp as the one before.
-  std::uint64_t late = 0;              ///< Refused: older than the one before.
+  std::uint64_t late = 0;              ///< Overtaken on their way; answered all the same.
+  std::uint64_t duplicates = 0;        ///< Refused: of a stamp that has come already.
+  std::uint64_t wrong_time = 0;        ///< Refused: from the future or long past.
   std::uint64_t malformed = 0;         ///< Refused: see ObjectionTo().
-  std::uint64_t unplaced = 0;          ///< Refused: the robot's place was not known.
-  std::uint64_t clock_resets = 0;      ///< The robot's clock was set back.
+  std::uint64_t unplaced = 0;          ///< Left out: nobody knew yet where the robot was.
+  std::uint64_t clock_resets = 0;      ///< The robot's clock was set.
   std::uint64_t odometry_readings = 0;
   std::uint64_t odometry_refused = 0;
   std::uint64_t odometry_jumps = 0;  ///< Faster than any robot: odometry began anew.

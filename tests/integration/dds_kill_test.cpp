@@ -82,7 +82,7 @@ TEST_F(DdsKill, ServiceKilledAHundredTimesLosesNoScanItToldAndMatchesTheNextOne)
     ASSERT_TRUE(std::ranges::includes(stored, told.shared));
   }
   EXPECT_GT(told.answers, 500U);
-  EXPECT_LT(told.dead_reckoned, told.answers / 100);
+  EXPECT_EQ(told.dead_reckoned, 0U);
   EXPECT_GT(told.reported.size(), 50U);
 
   Daemon service(Serve({"--journal", Journal()}));

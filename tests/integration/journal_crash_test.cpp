@@ -47,7 +47,7 @@ void Give(TeamService& service, int first, int count) {
   }
 }
 
-constexpr std::uint64_t kNotMatched = 1'000'000'000;
+constexpr std::uint64_t kNotMatched = 0;  // No scan has that number.
 
 /// Tells the sequence numbers of relevant scans as they are shared, and poses without a match.
 class TellingSink final : public test::RecordingSink {

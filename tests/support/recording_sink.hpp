@@ -41,7 +41,8 @@ class RecordingSink : public team::TeamSink {
   }
   void TakeEvent(const team::TeamEvent& event) override {
     const std::lock_guard lock(mutex_);
-    events_.push_back(std::string(event.robot) + ": " + std::string(event.text));
+    events_.push_back(std::string(event.robot.value_or("service")) + ": " +
+                      std::string(event.text));
   }
 
   std::vector<MappingStep> steps(const std::string& robot) const {

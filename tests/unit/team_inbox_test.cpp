@@ -21,12 +21,14 @@ using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-TEST(StampGuard, TellsDuplicatesAndLateMessagesApart) {
+TEST(StampGuard, TellsDuplicatesAndOvertakenMessagesApart) {
   StampGuard guard;
   EXPECT_EQ(guard.Judge(milliseconds(100)), StampVerdict::kInOrder);
   EXPECT_EQ(guard.Judge(milliseconds(200)), StampVerdict::kInOrder);
   EXPECT_EQ(guard.Judge(milliseconds(200)), StampVerdict::kDuplicate);
   EXPECT_EQ(guard.Judge(milliseconds(150)), StampVerdict::kLate);
+  EXPECT_EQ(guard.Judge(milliseconds(150)), StampVerdict::kDuplicate);
+  EXPECT_EQ(guard.Judge(milliseconds(100)), StampVerdict::kDuplicate);
   EXPECT_EQ(guard.Judge(milliseconds(300)), StampVerdict::kInOrder);
 }
 
@@ -39,25 +41,36 @@ TEST(StampGuard, NeverTakesShortDelaysForAClockThatWasSetBack) {
 TEST(StampGuard, FollowsAClockThatWasSetBack) {
   StampGuard guard;
   guard.Judge(hours(10));
-  EXPECT_EQ(guard.Judge(hours(9)), StampVerdict::kLate);
-  EXPECT_EQ(guard.Judge(hours(9) + milliseconds(100)), StampVerdict::kLate);
+  EXPECT_EQ(guard.Judge(hours(9)), StampVerdict::kWrongTime);
+  EXPECT_EQ(guard.Judge(hours(9) + milliseconds(100)), StampVerdict::kWrongTime);
   EXPECT_EQ(guard.Judge(hours(9) + milliseconds(200)), StampVerdict::kClockReset);
   EXPECT_EQ(guard.Judge(hours(9) + milliseconds(300)), StampVerdict::kInOrder);
 }
 
-TEST(StampGuard, RecoversFromOneStampFarInTheFuture) {
+TEST(StampGuard, RefusesOneStampFromTheFutureAndGoesOn) {
   StampGuard guard;
   guard.Judge(seconds(1));
-  EXPECT_EQ(guard.Judge(hours(100'000)), StampVerdict::kInOrder);
-  EXPECT_EQ(guard.Judge(milliseconds(1100)), StampVerdict::kLate);
-  EXPECT_EQ(guard.Judge(milliseconds(1200)), StampVerdict::kLate);
-  EXPECT_EQ(guard.Judge(milliseconds(1300)), StampVerdict::kClockReset);
+  EXPECT_EQ(guard.Judge(hours(100'000)), StampVerdict::kWrongTime);
+  EXPECT_EQ(guard.Judge(milliseconds(1100)), StampVerdict::kInOrder);
+  EXPECT_EQ(guard.Judge(hours(100'000) + seconds(1)), StampVerdict::kWrongTime);
+  EXPECT_EQ(guard.Judge(milliseconds(1200)), StampVerdict::kInOrder);
+}
+
+TEST(StampGuard, FollowsAClockThatWasSetForward) {
+  StampGuard guard;
+  guard.Judge(seconds(1));
+  EXPECT_EQ(guard.Judge(hours(100'000)), StampVerdict::kWrongTime);
+  EXPECT_EQ(guard.Judge(hours(100'000) + milliseconds(100)), StampVerdict::kWrongTime);
+  EXPECT_EQ(guard.Judge(hours(100'000) + milliseconds(200)), StampVerdict::kClockReset);
+  EXPECT_EQ(guard.Judge(hours(100'000) + milliseconds(300)), StampVerdict::kInOrder);
 }
 
 TEST(StampGuard, IsNotFooledByOldMessagesWithoutOrder) {
   StampGuard guard;
   guard.Judge(hours(10));
-  for (int i = 0; i < 20; ++i) EXPECT_EQ(guard.Judge(hours(9) - seconds(i)), StampVerdict::kLate);
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_EQ(guard.Judge(hours(9) - seconds(i)), StampVerdict::kWrongTime);
+  }
 }
 
 TEST(OdometryBuffer, GivesReadingsBackExactlyAndInterpolatesBetweenThem) {

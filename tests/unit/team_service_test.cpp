@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "service/io/map_file.hpp"
 #include "tests/support/recording_sink.hpp"
 #include "tests/support/room_drive.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace qwsm::team {
 namespace {
@@ -81,20 +84,42 @@ TEST(TeamService, CountsEveryScanThatIsDroppedForNewerOnes) {
   EXPECT_EQ(sink.steps("robot1").front().stamp, test::ObservationInRoom(7).scan.stamp);
 }
 
-TEST(TeamService, RefusesAndCountsDuplicatesLateAndMalformedScans) {
+TEST(TeamService, AnswersOvertakenScansInTheOrderTheyCome) {
   test::RecordingSink sink;
   TeamService service(LosslessOptions(), sink);
-  const LaserScan scan = test::ObservationInRoom(8).scan;
+  service.Start();
+  const std::vector<int> order{0, 1, 3, 2, 6, 4, 5, 7, 8};
+  for (const int scan : order) Give(service, "robot1", scan, 1);
+  service.WaitUntilIdle();
+  service.Stop();
+
+  Mapper mapper;
+  const std::vector<MappingStep> steps = sink.steps("robot1");
+  ASSERT_EQ(steps.size(), order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    SCOPED_TRACE(i);
+    const MappingStep step = mapper.Process(test::ObservationInRoom(order[i]));
+    EXPECT_EQ(steps[i].stamp, step.stamp);
+    EXPECT_EQ(steps[i].map_robot.T_a_b, step.map_robot.T_a_b);
+  }
+  EXPECT_EQ(StatusOf(service, "robot1").counts.late, 3U);
+}
+
+TEST(TeamService, RefusesAndCountsDuplicatesWrongTimesAndMalformedScans) {
+  test::RecordingSink sink;
+  TeamService service(LosslessOptions(), sink);
+  const LaserScan scan = test::ObservationInRoom(18).scan;
   EXPECT_TRUE(service.TakeScan("robot1", scan));
   EXPECT_FALSE(service.TakeScan("robot1", scan));
   EXPECT_FALSE(service.TakeScan("robot1", test::ObservationInRoom(5).scan));
-  LaserScan malformed = test::ObservationInRoom(9).scan;
+  EXPECT_FALSE(service.TakeScan("robot1", test::ObservationInRoom(100'000).scan));
+  LaserScan malformed = test::ObservationInRoom(19).scan;
   malformed.geometry.bearing_step_rad = std::numeric_limits<float>::quiet_NaN();
   EXPECT_FALSE(service.TakeScan("robot1", malformed));
   const SessionCounts counts = StatusOf(service, "robot1").counts;
-  EXPECT_EQ(counts.scans, 4U);
+  EXPECT_EQ(counts.scans, 5U);
   EXPECT_EQ(counts.duplicates, 1U);
-  EXPECT_EQ(counts.late, 1U);
+  EXPECT_EQ(counts.wrong_time, 2U);
   EXPECT_EQ(counts.malformed, 1U);
 }
 
@@ -137,6 +162,45 @@ TEST(TeamService, FindsASecondRobotInTheMapOfTheFirst) {
   EXPECT_TRUE(sink.HasEvent("robot2: was found in the map"));
   const Pose2 error = test::PoseInRoom(39).Inverse() * status.map_robot.T_a_b;
   EXPECT_LT(error.translation_m().norm(), 0.05);
+}
+
+TEST(TeamService, LeavesOutScansFromBeforeTheOdometryThatIsPublished) {
+  test::RecordingSink sink;
+  TeamService service(LosslessOptions(), sink);
+  service.Start();
+  service.ExpectOdometry("robot1", true);
+  EXPECT_TRUE(service.TakeScan("robot1", test::ObservationInRoom(0).scan));
+  Give(service, "robot1", 1, 5);
+  service.WaitUntilIdle();
+  ASSERT_EQ(sink.steps("robot1").size(), 5U);
+  EXPECT_EQ(sink.steps("robot1").front().stamp, test::ObservationInRoom(1).scan.stamp);
+  EXPECT_EQ(StatusOf(service, "robot1").counts.unplaced, 1U);
+}
+
+TEST(TeamService, GivesNoNumberTwiceThoughTheJournalForgotSome) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path journal = folder.path() / "team.db";
+  const std::filesystem::path copy = folder.path() / "copy.db";
+  std::vector<ScanKey> keys;
+  const auto serve = [&](int first) {
+    test::RecordingSink sink;
+    TeamService service(LosslessOptions(), sink, journal);
+    service.Start();
+    Give(service, "robot1", first, 40);
+    service.WaitUntilIdle();
+    service.Stop();
+    for (const TeamScan& scan : sink.relevant()) keys.push_back(scan.key);
+  };
+  serve(0);
+  const std::size_t stored = keys.size();
+  std::filesystem::copy_file(journal, copy);
+  serve(40);
+  std::filesystem::rename(copy, journal);
+  serve(80);
+  // The first ones are offered anew by every run.
+  const std::set<ScanKey> different(keys.begin(), keys.end());
+  EXPECT_GT(stored, 0U);
+  EXPECT_EQ(different.size(), keys.size() - 2 * stored);
 }
 
 TEST(TeamService, StartsARobotWhereItIsTold) {
