@@ -3,6 +3,7 @@
 #include "service/io/map_image.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "service/io/axis.hpp"
@@ -32,12 +33,17 @@ struct Span {
   int last = 0;
 };
 
-Span CellsUnder(int first_px, double px_per_cell, double offset_cells, int count) {
-  const double first = first_px / px_per_cell + offset_cells;
-  const double last = (first_px + 1) / px_per_cell + offset_cells;
+// For every pixel of a side, the cells under it, of `count` there are.
+std::vector<Span> CellsUnder(int side_px, double px_per_cell, double offset_cells, int count) {
   constexpr double kTolerance = 1e-6;
-  return {std::clamp(static_cast<int>(std::floor(first + kTolerance)), 0, count),
-          std::clamp(static_cast<int>(std::ceil(last - kTolerance)), 0, count)};
+  std::vector<Span> cells;
+  for (int px = 0; px < side_px; ++px) {
+    const double first = px / px_per_cell + offset_cells;
+    const double last = (px + 1) / px_per_cell + offset_cells;
+    cells.push_back({std::clamp(static_cast<int>(std::floor(first + kTolerance)), 0, count),
+                     std::clamp(static_cast<int>(std::ceil(last - kTolerance)), 0, count)});
+  }
+  return cells;
 }
 
 CellState MostTelling(const OccupancyGrid& grid, const Span& columns, const Span& rows) {
@@ -50,18 +56,22 @@ CellState MostTelling(const OccupancyGrid& grid, const Span& columns, const Span
   return telling;
 }
 
-// For every pixel of a side, the index of the grid square that its middle is in.
-std::vector<long> SquareOfPixels(int count, double first_m, double step_m, double square_m) {
-  std::vector<long> squares;
-  for (int i = 0; i < count; ++i) {
-    squares.push_back(std::lround(std::floor((first_m + (i + 0.5) * step_m) / square_m)));
-  }
-  return squares;
-}
+// Where the pixels of one side lie in the grid of lines drawn below the map.
+struct Ruler {
+  std::vector<bool> is_odd;   // The square between lines that the pixel's middle is in.
+  std::vector<bool> is_line;  // The first pixel of a square, but for the first square.
+};
 
-bool Changes(const std::vector<long>& squares, int at) {
-  const auto index = static_cast<std::size_t>(at);
-  return index > 0 && squares[index] != squares[index - 1];
+Ruler RulerOf(int side_px, double first_m, double m_per_px, double square_m) {
+  Ruler ruler;
+  long last = 0;
+  for (int px = 0; px < side_px; ++px) {
+    const long square = std::lround(std::floor((first_m + (px + 0.5) * m_per_px) / square_m));
+    ruler.is_odd.push_back(square % 2 != 0);
+    ruler.is_line.push_back(px > 0 && square != last);
+    last = square;
+  }
+  return ruler;
 }
 
 }  // namespace
@@ -90,29 +100,30 @@ double MapView::grid_step_m() const {
 
 PixelImage RenderMap(const OccupancyGrid& grid, const MapView& view) {
   PixelImage image{.width_px = view.width_px(), .height_px = view.height_px(), .pixels = {}};
-  image.pixels.reserve(static_cast<std::size_t>(image.width_px) *
-                       static_cast<std::size_t>(image.height_px));
+  const auto width = static_cast<std::size_t>(image.width_px);
+  const auto height = static_cast<std::size_t>(image.height_px);
+  image.pixels.reserve(width * height);
   const double m_per_px = 1.0 / view.px_per_m();
   const double px_per_cell = view.px_per_m() * grid.cell_m;
   const Eigen::Vector2d low_map_m = view.ToMap({0.0, image.height_px});
   const Eigen::Vector2d offset_cells = (low_map_m - grid.origin_map_m) / grid.cell_m;
   const double step_m = view.grid_step_m();
-  const std::vector<long> columns = SquareOfPixels(image.width_px, low_map_m.x(), m_per_px, step_m);
-  const std::vector<long> rows = SquareOfPixels(image.height_px, low_map_m.y(), m_per_px, step_m);
+  const Ruler columns = RulerOf(image.width_px, low_map_m.x(), m_per_px, step_m);
+  const Ruler rows = RulerOf(image.height_px, low_map_m.y(), m_per_px, step_m);
+  const auto cell_columns = CellsUnder(image.width_px, px_per_cell, offset_cells.x(), grid.width);
+  const auto cell_rows = CellsUnder(image.height_px, px_per_cell, offset_cells.y(), grid.height);
+  const std::uint32_t wall = ToPixel(kWall);
+  const std::array free{ToPixel(kFree), ToPixel(kGridLine)};
+  const std::array unknown{ToPixel(kUnknownDark), ToPixel(kUnknownLight)};
 
-  for (int from_below = image.height_px - 1; from_below >= 0; --from_below) {
-    const Span cell_rows = CellsUnder(from_below, px_per_cell, offset_cells.y(), grid.height);
-    const bool row_line = Changes(rows, from_below);
-    for (int x = 0; x < image.width_px; ++x) {
-      const Span cell_columns = CellsUnder(x, px_per_cell, offset_cells.x(), grid.width);
-      const CellState state = MostTelling(grid, cell_columns, cell_rows);
-      const long square =
-          columns[static_cast<std::size_t>(x)] + rows[static_cast<std::size_t>(from_below)];
-      const Color unknown = square % 2 == 0 ? kUnknownDark : kUnknownLight;
-      const Color free = row_line || Changes(columns, x) ? kGridLine : kFree;
-      image.pixels.push_back(ToPixel(state == CellState::kOccupied ? kWall
-                                     : state == CellState::kFree   ? free
-                                                                   : unknown));
+  for (std::size_t y = height; y-- > 0;) {
+    for (std::size_t x = 0; x < width; ++x) {
+      const CellState state = MostTelling(grid, cell_columns[x], cell_rows[y]);
+      const bool is_line = rows.is_line[y] || columns.is_line[x];
+      const bool is_light = columns.is_odd[x] != rows.is_odd[y];
+      image.pixels.push_back(state == CellState::kOccupied ? wall
+                             : state == CellState::kFree   ? free[is_line ? 1 : 0]
+                                                           : unknown[is_light ? 1 : 0]);
     }
   }
   return image;

@@ -33,7 +33,7 @@ void ResultsWriter::Finish(const Mapper& mapper,
   trajectory_.Commit();
   table_.Commit();
   const MatcherKind matcher = mapper.options().matcher;
-  const std::vector<io::PathPose>& path = history_.overlay().path;
+  const std::vector<io::PathPose>& path = history_.path();
   const Trajectory truth_in_map = TruthInMap(path, truth);
   truth_report_ = CompareWithTruth(path, truth);
   if (!truth_in_map.empty()) io::WriteTumFile(folder_ / "truth.tum", truth_in_map);
@@ -52,7 +52,7 @@ void ResultsWriter::DrawMap(const Mapper& mapper,
   if (!grid) return;
   io::WriteRosMap(folder_ / "map.yaml", *grid);
   io::WriteMapPicture(folder_ / "map.png", *grid);
-  io::MapOverlay overlay = history_.overlay();
+  io::MapOverlay overlay = history_.Overlay();
   overlay.truth = std::move(truth_in_map);
   io::WriteTrajectoryPicture(folder_ / "trajectory.png", *grid, overlay);
 }

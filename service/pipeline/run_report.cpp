@@ -14,7 +14,7 @@ namespace qwsm::pipeline {
 namespace {
 
 double ScansPerSecond(const RunStatistics& run) {
-  const double time_s = run.TotalTime_s();
+  const double time_s = run.total_time_s();
   return time_s > 0.0 ? static_cast<double>(run.scans()) / time_s : 0.0;
 }
 
@@ -54,7 +54,7 @@ std::string MetricsJson(const RunStatistics& run,
   if (run.scans() > 0) {
     json["ms_median"] = run.TimeQuantile_ms(0.5);
     json["ms_p99"] = run.TimeQuantile_ms(0.99);
-    json["ms_max"] = run.TimeQuantile_ms(1.0);
+    json["ms_max"] = run.longest_time_ms();
   }
   json["map"]["points"] = points.points;
   json["map"]["scans"] = map.scans().size();
@@ -75,7 +75,7 @@ std::string SummaryText(const RunStatistics& run,
                       ScansPerSecond(run),
                       run.TimeQuantile_ms(0.5),
                       run.TimeQuantile_ms(0.99),
-                      run.TimeQuantile_ms(1.0));
+                      run.longest_time_ms());
   text += fmt::format("path           {:.1f} m\n", run.path_length_m());
   text +=
       fmt::format("matched        {}, of which {} showed much that is new\n",

@@ -10,9 +10,13 @@
 #include "service/pipeline/scan_table_sink.hpp"
 
 namespace qwsm::pipeline {
+
 void RunStatistics::Take(const TimedStep& timed) {
   const MappingStep& step = timed.step;
-  durations_ms_.push_back(std::chrono::duration<double, std::milli>(timed.duration).count());
+  const double time_ms = std::chrono::duration<double, std::milli>(timed.duration).count();
+  durations_ms_.Add(time_ms);
+  time_sum_ms_ += time_ms;
+  longest_time_ms_ = std::max(longest_time_ms_, time_ms);
   ++count_of_status_[static_cast<std::size_t>(step.status)];
   if (step.relevant) ++relevant_;
   if (HasMatch(step.status)) {
@@ -24,6 +28,10 @@ void RunStatistics::Take(const TimedStep& timed) {
     path_length_m_ += (T_map_robot.translation_m() - T_map_last_->translation_m()).norm();
   }
   T_map_last_ = T_map_robot;
+}
+
+std::size_t RunStatistics::scans() const {
+  return std::accumulate(count_of_status_.begin(), count_of_status_.end(), std::size_t{0});
 }
 
 std::size_t RunStatistics::Count(StepStatus status) const {
@@ -40,13 +48,9 @@ double RunStatistics::MeanTrace_m2() const {
   return matches == 0 ? 0.0 : trace_sum_m2_ / static_cast<double>(matches);
 }
 
-double RunStatistics::TotalTime_s() const {
-  return std::accumulate(durations_ms_.begin(), durations_ms_.end(), 0.0) * 1e-3;
-}
-
 double RunStatistics::TimeQuantile_ms(double quantile) const {
-  assert(!durations_ms_.empty() && "no scan, no time per scan");
-  std::vector<double> sorted = durations_ms_;
+  assert(scans() > 0 && "no scan, no time per scan");
+  std::vector<double> sorted = durations_ms_.elements();
   const auto last = static_cast<double>(sorted.size() - 1);
   const auto nth = sorted.begin() + static_cast<std::ptrdiff_t>(std::llround(quantile * last));
   std::ranges::nth_element(sorted, nth);

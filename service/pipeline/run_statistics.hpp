@@ -9,6 +9,7 @@
 
 #include "qwsm/mapping/scan_map.hpp"
 #include "service/pipeline/step_sink.hpp"
+#include "service/pipeline/thinned_series.hpp"
 
 namespace qwsm::pipeline {
 
@@ -17,19 +18,24 @@ class RunStatistics final : public StepSink {
  public:
   void Take(const TimedStep& timed) override;
 
-  std::size_t scans() const { return durations_ms_.size(); }
+  std::size_t scans() const;
   std::size_t relevant() const { return relevant_; }
   std::size_t Count(StepStatus status) const;
   double path_length_m() const { return path_length_m_; }
   /// Over the matched scans; 0 for none.
   double MeanResidual_mm() const;
   double MeanTrace_m2() const;
-  double TotalTime_s() const;
+  double total_time_s() const { return 1e-3 * time_sum_ms_; }
   /// Of the time per scan: 0.5 is the median. @pre scans() > 0.
   double TimeQuantile_ms(double quantile) const;
+  double longest_time_ms() const { return longest_time_ms_; }
 
  private:
-  std::vector<double> durations_ms_;
+  static constexpr std::size_t kMostDurations = 1'000'000;
+
+  ThinnedSeries<double> durations_ms_{kMostDurations};
+  double time_sum_ms_ = 0.0;
+  double longest_time_ms_ = 0.0;
   std::vector<std::size_t> count_of_status_ = std::vector<std::size_t>(4);
   std::size_t relevant_ = 0;
   double path_length_m_ = 0.0;

@@ -20,6 +20,9 @@ namespace qwsm::pipeline {
 
 namespace fs = std::filesystem;
 
+// Of a path that is drawn: a service may run for months.
+constexpr std::size_t kMostPoses = 20'000;
+
 /// What one robot leaves.
 class TeamResults::RobotResults {
  public:
@@ -45,7 +48,7 @@ class TeamResults::RobotResults {
     files_->second.Commit();
     io::WriteTextFile(folder_ / "metrics.json",
                       MetricsJson(statistics_, map, MatcherKind::kQWsm, std::nullopt));
-    if (grid) io::WriteTrajectoryPicture(folder_ / "trajectory.png", *grid, history_.overlay());
+    if (grid) io::WriteTrajectoryPicture(folder_ / "trajectory.png", *grid, history_.Overlay());
   }
 
   const fs::path& folder() const { return folder_; }
@@ -65,7 +68,7 @@ class TeamResults::RobotResults {
   bool has_failed_ = false;
   std::unique_ptr<std::pair<TrajectorySink, ScanTableSink>> files_;
   RunStatistics statistics_;
-  RunHistory history_;
+  RunHistory history_{kMostPoses};
 };
 
 TeamResults::TeamResults(const ResultsFolder& folder, const OccupancyGridOptions& rendering)
@@ -92,7 +95,8 @@ void TeamResults::Finish(team::TeamService& service) {
     const std::shared_ptr<const team::TeamMap> map = service.MapOf(robot);
     const auto [known, is_new] = drawn.try_emplace(map.get());
     if (is_new && !map->Read()->empty()) {
-      known->second = RenderOrWarn(*map->Read(), rendering_);
+      known->second = service.DrawMapOf(robot);
+      if (!known->second) known->second = RenderOrWarn(*map->Read(), rendering_);
       if (known->second) {
         io::WriteRosMap(folder / "map.yaml", *known->second);
         io::WriteMapPicture(folder / "map.png", *known->second);

@@ -9,15 +9,18 @@
 
 namespace qwsm::team {
 
-std::optional<OccupancyGrid> MapPainter::Paint(const TeamMap& map, const std::stop_token& stop) {
+bool MapPainter::Paint(const TeamMap& map, const std::stop_token& stop) {
   const std::vector<RelevantScan> scans = NewScansOf(map);
-  if (scans.empty()) return std::nullopt;
   for (const RelevantScan& scan : scans) {
-    if (stop.stop_requested()) return std::nullopt;
+    if (stop.stop_requested()) return false;
     painter_.Add(scan);
     newest_ = std::max(newest_, scan.scan.stamp);
     ++painted_;
   }
+  return !scans.empty();
+}
+
+std::optional<OccupancyGrid> MapPainter::Grid() {
   OccupancyGridResult result = painter_.Grid();
   trouble_.clear();
   if (result.status == RenderStatus::kRendered) return std::move(result.grid);

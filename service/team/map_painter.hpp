@@ -20,12 +20,14 @@ class MapPainter {
   explicit MapPainter(const OccupancyGridOptions& options)
       : cell_m_(options.cell_m), painter_(options) {}
 
-  /// The map, if there is anything new in it that can be drawn. Given up when asked to stop.
-  std::optional<OccupancyGrid> Paint(const TeamMap& map, const std::stop_token& stop);
+  /// Draws what is new in the map. Given up when asked to stop. @return whether anything was.
+  bool Paint(const TeamMap& map, const std::stop_token& stop);
+  /// The map as drawn so far, if it can be.
+  std::optional<OccupancyGrid> Grid();
 
   /// Stamp of the newest scan that was drawn.
   Timestamp newest() const { return newest_; }
-  /// Why the last map was not drawn; empty where it was.
+  /// Why there was no grid the last time; empty where there was.
   const std::string& trouble() const { return trouble_; }
 
  private:

@@ -17,6 +17,9 @@ namespace {
 
 using std::chrono::steady_clock;
 
+// A map that does not change is told again for readers that do not ask for what was before them.
+constexpr std::chrono::seconds kMapRepetition{10};
+
 std::string NewIdentity(const std::string& name) {
   return fmt::format("{}-{:08x}", name, std::random_device{}());
 }
@@ -88,7 +91,7 @@ void TeamService::Restore() {
   if (damaged == 0) return;
   const std::string text =
       fmt::format("{}: {} entries are damaged and left out", journal_->Status().file, damaged);
-  sink_.TakeEvent({.robot = {}, .is_warning = true, .text = text});
+  sink_.TakeEvent({.robot = std::nullopt, .is_warning = true, .text = text});
 }
 
 void TeamService::Start() {
@@ -116,7 +119,7 @@ void TeamService::Stop() {
   if (journal.waiting == 0) return;
   const std::string text =
       fmt::format("{} relevant scans could not be stored: {}", journal.waiting, journal.trouble);
-  sink_.TakeEvent({.robot = {}, .is_warning = true, .text = text});
+  sink_.TakeEvent({.robot = std::nullopt, .is_warning = true, .text = text});
 }
 
 void TeamService::WaitUntilIdle() {
@@ -214,14 +217,30 @@ MapStatus TeamService::StatusOfMaps() const {
 }
 
 void TeamService::PaintMaps(const std::stop_token& stop) {
+  const bool is_time_to_repeat = steady_clock::now() - maps_repeated_ >= kMapRepetition;
+  if (is_time_to_repeat) maps_repeated_ = steady_clock::now();
   for (const TeamMaps::NamedMap& named : maps_.All()) {
-    MapPainter& painter = painters_.try_emplace(named.robot, options_.rendering).first->second;
-    const std::optional<OccupancyGrid> grid = painter.Paint(*named.map, stop);
+    MapPainter& painter = PainterOf(*named.map);
+    if (!painter.Paint(*named.map, stop) && !is_time_to_repeat) continue;
+    const std::optional<OccupancyGrid> grid = painter.Grid();
     if (grid) sink_.TakeMap({.robot = named.robot, .stamp = painter.newest(), .grid = *grid});
     if (!painter.trouble().empty()) {
-      sink_.TakeEvent({.robot = named.robot, .is_warning = true, .text = painter.trouble()});
+      const auto robot =
+          named.robot.empty() ? std::nullopt : std::optional<std::string_view>(named.robot);
+      sink_.TakeEvent({.robot = robot, .is_warning = true, .text = painter.trouble()});
     }
   }
+}
+
+std::optional<OccupancyGrid> TeamService::DrawMapOf(std::string_view robot) {
+  const std::shared_ptr<const TeamMap> map = maps_.Of(robot);
+  MapPainter& painter = PainterOf(*map);
+  painter.Paint(*map, {});
+  return painter.Grid();
+}
+
+MapPainter& TeamService::PainterOf(const TeamMap& map) {
+  return painters_.try_emplace(&map, options_.rendering).first->second;
 }
 
 std::shared_ptr<RobotSession> TeamService::MakeSession(std::string robot) {

@@ -74,7 +74,8 @@ class TeamService {
   void Lose(std::string_view robot) { sessions_.Lose(robot); }
   /// Another service answers it from now on.
   void HandOver(std::string_view robot) { sessions_.HandOver(robot); }
-  /// @return false if the scan was refused: malformed, late or a duplicate. See its counts.
+  /// @return false if the scan was refused: malformed, of a wrong time or a duplicate. See its
+  /// counts.
   bool TakeScan(std::string_view robot, LaserScan scan) {
     return sessions_.TakeScan(robot, std::move(scan));
   }
@@ -100,6 +101,9 @@ class TeamService {
   TeamStatus Status() const;
   /// The map a robot is matched against; the team's where all share one.
   std::shared_ptr<const TeamMap> MapOf(std::string_view robot) { return maps_.Of(robot); }
+  /// That map, drawn at the cost of what was not drawn while the service ran; nothing where it is
+  /// empty or too large. @pre the service has stopped.
+  std::optional<OccupancyGrid> DrawMapOf(std::string_view robot);
 
  private:
   std::shared_ptr<RobotSession> MakeSession(std::string robot);
@@ -112,6 +116,7 @@ class TeamService {
   void Report(const RobotAnswer& answer);
   void TellNewPoints(const TeamScan& scan, const MapAddition& addition);
   void PaintMaps(const std::stop_token& stop);
+  MapPainter& PainterOf(const TeamMap& map);
   MapStatus StatusOfMaps() const;
 
   const TeamServiceOptions options_;
@@ -127,7 +132,9 @@ class TeamService {
   std::atomic<std::uint64_t> refused_ = 0;
 
   SessionList<RobotSession> sessions_;
-  std::map<std::string, MapPainter> painters_;  // Of the task that paints.
+  // Of the task that paints, while it runs.
+  std::map<const TeamMap*, MapPainter> painters_;
+  std::chrono::steady_clock::time_point maps_repeated_{};
 
   std::unique_ptr<Journal> journal_;  // Null: there is none.
   std::unique_ptr<PeriodicTask> painting_;
