@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "service/dds/participant.hpp"
+#include "service/dds/publications.hpp"
 
 namespace qwsm::dds {
 
@@ -34,7 +34,7 @@ class OtherServices {
   bool Answer(std::string_view robot) const;
   /// Whether one of them has a better claim on the robot.
   bool HaveBetterClaim(std::string_view robot, const Claim& claim) const;
-  Entity::Handle handle() const { return reader_.handle(); }
+  Entity::Handle handle() const { return publications_.handle(); }
 
  private:
   struct Answerer {
@@ -42,10 +42,10 @@ class OtherServices {
     Claim claim;
   };
 
-  void Note(const void* publication, bool is_alive);
+  void Note(const Publication& publication);
 
   Guid own_;
-  Entity reader_;
+  Publications publications_;
   std::map<Guid, Answerer> answerers_;  // By writer.
 };
 

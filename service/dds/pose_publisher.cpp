@@ -4,6 +4,7 @@
 
 #include "service/dds/planar.hpp"
 #include "service/dds/spatial.hpp"
+#include "service/dds/transform_sample.hpp"
 
 namespace qwsm::dds {
 
@@ -44,15 +45,8 @@ void PosePublisher<Kind>::PublishTransform(Timestamp stamp,
                                            const Pose& T_map_robot,
                                            const std::optional<Pose>& T_odom_robot) const {
   const Pose T_map_child = T_odom_robot ? T_map_robot * T_odom_robot->Inverse() : T_map_robot;
-  const wire::Pose pose = ToWire(T_map_child);
-  wire::TransformStamped transform{};
-  transform.header = HeaderOf(stamp, map_frame_);
-  transform.child_frame_id = Borrow(T_odom_robot ? odom_frame_ : robot_frame_);
-  transform.transform.translation = {pose.position.x, pose.position.y, pose.position.z};
-  transform.transform.rotation = pose.orientation;
-  wire::TFMessage message{};
-  message.transforms = {._maximum = 1, ._length = 1, ._buffer = &transform, ._release = false};
-  transforms_.Write(message);
+  const std::string& child = T_odom_robot ? odom_frame_ : robot_frame_;
+  transforms_.Write(TransformSample(stamp, map_frame_, child, ToWire(T_map_child)).sample());
 }
 
 template class PosePublisher<team::Planar>;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "service/dds/participant.hpp"
+#include "service/dds/publications.hpp"
 
 namespace qwsm::dds {
 
@@ -29,14 +29,14 @@ class RobotDiscovery {
   Changes Take();
   /// Whether the publishers of a robot repeat what was lost, as far as they are known.
   bool IsReliable(const std::string& robot) const { return !unreliable_.contains(robot); }
-  Entity::Handle handle() const { return reader_.handle(); }
+  Entity::Handle handle() const { return publications_.handle(); }
 
  private:
-  void Note(const void* publication, bool is_alive, Changes& changes);
+  void Note(const Publication& publication, Changes& changes);
 
   std::string part_;
   std::string type_;
-  Entity reader_;
+  Publications publications_;
   std::map<Guid, std::string> robot_of_;      // By publisher.
   std::map<std::string, int> publishers_of_;  // By robot.
   std::set<std::string> unreliable_;          // Robots.

@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "service/dds/transform_sample.hpp"
 #include "service/dds/wire_kind.hpp"
 #include "service/dds/writer.hpp"
 
@@ -29,6 +30,7 @@ class BasicRobotPublisher<Kind>::Topics {
         odom_frame_(names_.Frame(kOdometryFrame)),
         robot_frame_(names_.Frame(kRobotFrame)),
         static_transforms_(participant, kStaticTransformsTopic, Profile::kStaticTransformsOut),
+        transforms_(participant, kTransformsTopic, Profile::kTransforms),
         truth_(participant, names_.Topic(kTruthTopic), Profile::kSensorOut),
         told_poses_(participant, names_.Topic(kInitialPoseTopic), Profile::kSensorOut) {
     // Scans last: when somebody discovers them, everything else is known already.
@@ -50,24 +52,23 @@ class BasicRobotPublisher<Kind>::Topics {
     T_robot_sensor_ = T_robot_sensor;
     sensor_frame_ = names_.Frame(kLaserFrame);
     if (placements_++ > 0) sensor_frame_ += "_" + std::to_string(placements_);
-    const wire::Pose pose = ToWire(T_robot_sensor);
-    wire::TransformStamped transform{};
-    transform.header = HeaderOf({}, robot_frame_);
-    transform.child_frame_id = Borrow(sensor_frame_);
-    transform.transform.translation = {pose.position.x, pose.position.y, pose.position.z};
-    transform.transform.rotation = pose.orientation;
-    wire::TFMessage message{};
-    message.transforms = {._maximum = 1, ._length = 1, ._buffer = &transform, ._release = false};
-    static_transforms_.Write(message);
+    static_transforms_.Write(
+        TransformSample({}, robot_frame_, sensor_frame_, ToWire(T_robot_sensor)).sample());
   }
 
   bool Publish(const Observation& observation) {
     PlaceSensor(OnWire<Kind>::Mounting(observation.scan));
     if (odometry_ && observation.T_odom_robot) {
-      odometry_->Write(OdometryOf(observation.scan.stamp, odom_frame_, *observation.T_odom_robot));
+      PublishOdometry(observation.scan.stamp, *observation.T_odom_robot);
     }
     const typename OnWire<Kind>::Sample sample(observation.scan, sensor_frame_);
     return scans_->Write(sample.sample());
+  }
+
+  void PublishOdometry(Timestamp stamp, const Pose& T_odom_robot) {
+    odometry_->Write(OdometryOf(stamp, odom_frame_, T_odom_robot));
+    transforms_.Write(
+        TransformSample(stamp, odom_frame_, robot_frame_, ToWire(T_odom_robot)).sample());
   }
 
   void TellPose(Timestamp stamp, const typename Kind::UncertainPose& map_robot) {
@@ -106,6 +107,7 @@ class BasicRobotPublisher<Kind>::Topics {
   std::optional<Pose> T_robot_sensor_;
   int placements_ = 0;
   Writer<wire::TFMessage> static_transforms_;
+  Writer<wire::TFMessage> transforms_;
   Writer<wire::Odometry> truth_;
   Writer<wire::PoseWithCovarianceStamped> told_poses_;
   std::optional<Writer<wire::Odometry>> odometry_;

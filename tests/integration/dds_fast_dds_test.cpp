@@ -6,6 +6,7 @@
 #include <fastrtps/utils/IPLocator.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
@@ -124,41 +125,76 @@ std::optional<Message> Await(DataReader* reader, std::chrono::seconds timeout) {
   return std::nullopt;
 }
 
-TEST(DdsFastDds, RobotOfAnotherVendorIsAnsweredAndGetsTheMap) {
-  const int domain = 100 + static_cast<int>(getpid() % 100);
-  Daemon service({"serve",
+/// The robot's odometry says that it stands two metres from where that began.
+fast::Odometry OdometryOf(const fast::LaserScan& scan) {
+  fast::Odometry odometry;
+  odometry.header = scan.header;
+  odometry.header.frame_id = "fast/odom";
+  odometry.child_frame_id = "fast/base_link";
+  odometry.position = {2.0, -1.0, 0.0};
+  odometry.orientation = {0.0, 0.0, 0.0, 1.0};
+  return odometry;
+}
+
+class DdsFastDds : public ::testing::Test {
+ protected:
+  // Cells so small that the map of a room has 4 MB.
+  DdsFastDds()
+      : service_({"serve",
                   "--verbose",
                   "--set",
-                  "network.domain=" + std::to_string(domain),
+                  "network.domain=" + std::to_string(domain_),
                   "--set",
                   "network.interface=lo",
                   "--set",
-                  "team.map_period_s=1"});
-  ASSERT_TRUE(service.WaitUntilItSays("serving as"));
-  FastParticipant robot(domain);
+                  "rendering.cell_m=0.005",
+                  "--set",
+                  "team.map_period_s=1"}) {}
+
+  int domain_ = 100 + static_cast<int>(getpid() % 100);
+  Daemon service_;
+};
+
+TEST_F(DdsFastDds, RobotOfAnotherVendorIsAnsweredAndGetsTransformsAndTheMap) {
+  ASSERT_TRUE(service_.WaitUntilItSays("serving as"));
+  FastParticipant robot(domain_);
   DataReader* poses = robot.Read<fast::PoseWithCovarianceStamped>("rt/fast/pose");
+  DataReader* transforms = robot.Read<fast::TFMessage>("rt/tf");
+  DataWriter* odometry = robot.Write<fast::Odometry>("rt/fast/odom");
   DataWriter* scans = robot.Write<fast::LaserScan>("rt/fast/scan");
 
   std::optional<fast::PoseWithCovarianceStamped> pose;
   for (int i = 0; i < 100 && !pose; ++i) {
     fast::LaserScan scan = ScanOfRoom(i);
+    fast::Odometry reading = OdometryOf(scan);
+    ASSERT_TRUE(odometry->write(&reading));
     ASSERT_TRUE(scans->write(&scan));
     std::this_thread::sleep_for(100ms);
     pose = Await<fast::PoseWithCovarianceStamped>(poses, 0s);
   }
-  ASSERT_TRUE(pose) << service.ErrorsSoFar();
+  ASSERT_TRUE(pose) << service_.ErrorsSoFar();
   EXPECT_EQ(pose->header.frame_id, "map");
-  EXPECT_NEAR(pose->position[0], 0.0, 0.05);
+  EXPECT_NEAR(pose->position[0], 2.0, 0.05);
+  EXPECT_NEAR(pose->position[1], -1.0, 0.05);
   EXPECT_NEAR(std::abs(pose->orientation[3]), 1.0, 1e-3);
   EXPECT_GE(pose->covariance[0], 0.0);
 
+  const auto transform = Await<fast::TFMessage>(transforms, 10s);
+  ASSERT_TRUE(transform);
+  ASSERT_EQ(transform->transforms.size(), 1U);
+  EXPECT_EQ(transform->transforms.front().header.frame_id, "map");
+  EXPECT_EQ(transform->transforms.front().child_frame_id, "fast/odom");
+  EXPECT_NEAR(transform->transforms.front().translation[0], 0.0, 0.05);
+
   // Comes late, and still gets the last map.
-  FastParticipant operator_station(domain);
+  FastParticipant operator_station(domain_);
   const auto map =
       Await<fast::OccupancyGrid>(operator_station.Read<fast::OccupancyGrid>("rt/map", true), 20s);
   ASSERT_TRUE(map);
   EXPECT_EQ(map->data.size(), std::size_t{map->width} * map->height);
-  EXPECT_FLOAT_EQ(map->resolution, 0.05F);
+  EXPECT_GT(map->data.size(), 4'000'000U);
+  EXPECT_GT(std::ranges::count(map->data, 100), 200);
+  EXPECT_FLOAT_EQ(map->resolution, 0.005F);
 }
 
 }  // namespace

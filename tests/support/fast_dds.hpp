@@ -57,6 +57,50 @@ struct PoseWithCovarianceStamped {
   }
 };
 
+struct Odometry {
+  static constexpr const char* kType = "nav_msgs::msg::dds_::Odometry_";
+  Header header;
+  std::string child_frame_id;
+  std::array<double, 3> position{};
+  std::array<double, 4> orientation{};
+  std::array<double, 36> pose_covariance{};
+  std::array<double, 6> twist{};
+  std::array<double, 36> twist_covariance{};
+
+  template <class Archive>
+  void Visit(Archive&& archive) {
+    header.Visit(archive);
+    archive(child_frame_id), archive(position), archive(orientation), archive(pose_covariance);
+    archive(twist), archive(twist_covariance);
+  }
+};
+
+struct TransformStamped {
+  Header header;
+  std::string child_frame_id;
+  std::array<double, 3> translation{};
+  std::array<double, 4> rotation{};
+
+  template <class Archive>
+  void Visit(Archive&& archive) {
+    header.Visit(archive);
+    archive(child_frame_id), archive(translation), archive(rotation);
+  }
+};
+
+struct TFMessage {
+  static constexpr const char* kType = "tf2_msgs::msg::dds_::TFMessage_";
+  std::vector<TransformStamped> transforms;
+
+  template <class Archive>
+  void Visit(Archive&& archive) {
+    auto count = static_cast<std::uint32_t>(transforms.size());
+    archive(count);
+    transforms.resize(count);
+    for (TransformStamped& transform : transforms) transform.Visit(archive);
+  }
+};
+
 struct OccupancyGrid {
   static constexpr const char* kType = "nav_msgs::msg::dds_::OccupancyGrid_";
   Header header;
