@@ -85,6 +85,17 @@ std::uint32_t CellQuadtree::LeafAt(Cell cell) const {
   return node ? node.index() : kNoIndex;
 }
 
+CellQuadtree::Subtree CellQuadtree::SmallestHolding(Cell low, Cell high) const {
+  if (!root_ || !root_square_.Contains(low) || !root_square_.Contains(high)) return root();
+  NodeRef node = root_;
+  Square square{low, root_square_.level};
+  while (node && !node.is_leaf() && square.QuarterOf(low) == square.QuarterOf(high)) {
+    node = inner_[node.index()].children[square.QuarterOf(low)];
+    --square.level;
+  }
+  return {node, square.AtLevel(square.level)};
+}
+
 CellQuadtree::Subtree CellQuadtree::Ancestor(std::uint32_t leaf, int level) const {
   const Leaf& start = leaves_[leaf];
   if (level >= root_square_.level) return root();

@@ -3,6 +3,7 @@
 #include "qwsm/search/likelihood_pyramid.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace qwsm {
 namespace {
@@ -24,61 +25,66 @@ int OffsetInTile(int level, int x, int y) {
 
 void LikelihoodPyramid::Insert(const Eigen::Vector2d& p_m, double drift_m2) {
   // A Gaussian is the product of its profiles along both axes, and so is its maximum in a box.
-  FillProfile(p_m.x(), columns_);
-  FillProfile(p_m.y(), rows_);
+  Fill(p_m.x(), columns_);
+  Fill(p_m.y(), rows_);
   const std::uint8_t drift_code = DriftCode(drift_m2);
-  for (int level = 0; level < kLevels; ++level) {
-    Raise(level, drift_code);
-    columns_.Coarsen();
-    rows_.Coarsen();
-  }
-}
-
-void LikelihoodPyramid::FillProfile(double center_m, Profile& profile) const {
-  const int reach =
-      static_cast<int>(std::ceil(kReachSigmas * options_.sigma_m / options_.cell_size_m));
-  profile.first = CellIndex(center_m) - reach;
-  profile.values.clear();
-  for (int cell = profile.first; cell <= profile.first + 2 * reach; ++cell) {
-    const double sigmas = (options_.cell_size_m * (cell + 0.5) - center_m) / options_.sigma_m;
-    profile.values.push_back(std::exp(-0.5 * sigmas * sigmas));
-  }
-}
-
-// From the cells of a level to those of the next: c holds the maximum over 2c, 2c + 1 and 2c + 2.
-void LikelihoodPyramid::Profile::Coarsen() {
-  const Profile fine = *this;
-  first = (fine.first - 1) >> 1;
-  const int count = (fine.last() >> 1) - first + 1;
-  values.clear();
-  for (int c = first; c < first + count; ++c) {
-    values.push_back(std::max({fine.At(2 * c), fine.At(2 * c + 1), fine.At(2 * c + 2)}));
-  }
-}
-
-// Raises the cells of a level that are covered by the profiles.
-void LikelihoodPyramid::Raise(int level, std::uint8_t drift_code) {
-  const int bits = Tile::kBits - level;
-  for (int row = rows_.first >> bits; row <= rows_.last() >> bits; ++row) {
-    for (int column = columns_.first >> bits; column <= columns_.last() >> bits; ++column) {
-      RaiseTile(level, column, row, drift_code);
+  constexpr int kBits =
+      Tile::kBits - (kLevels - 1);  // Of the coarsest cells, which reach farthest.
+  const Profile& columns = columns_.back();
+  const Profile& rows = rows_.back();
+  for (int row = rows.first >> kBits; row <= rows.last() >> kBits; ++row) {
+    for (int column = columns.first >> kBits; column <= columns.last() >> kBits; ++column) {
+      Tile& tile = TileAt(column, row);
+      for (int level = 0; level < kLevels; ++level) {
+        const int side = Tile::SideAt(level);
+        Raise(tile, level, {column * side, row * side}, drift_code);
+      }
     }
   }
 }
 
-// What of the point's surroundings lies in one tile.
-void LikelihoodPyramid::RaiseTile(int level, int column, int row, std::uint8_t drift_code) {
+// The profiles of a point along one axis, at all levels.
+void LikelihoodPyramid::Fill(double center_m, Profiles& profiles) const {
+  const int reach =
+      static_cast<int>(std::ceil(kReachSigmas * options_.sigma_m / options_.cell_size_m));
+  Profile& finest = profiles.front();
+  finest.first = CellIndex(center_m) - reach;
+  finest.values.clear();
+  for (int cell = finest.first; cell <= finest.first + 2 * reach; ++cell) {
+    const double sigmas = (options_.cell_size_m * (cell + 0.5) - center_m) / options_.sigma_m;
+    finest.values.push_back(std::exp(-0.5 * sigmas * sigmas));
+  }
+  for (std::size_t level = 1; level < profiles.size(); ++level) {
+    profiles[level].Coarsen(profiles[level - 1]);
+  }
+}
+
+// From the cells of a level to those of the next: c holds the maximum over 2c, 2c + 1 and 2c + 2.
+void LikelihoodPyramid::Profile::Coarsen(const Profile& fine) {
+  first = (fine.first - 1) >> 1;
+  values.clear();
+  for (int c = first; c <= fine.last() >> 1; ++c) {
+    values.push_back(std::max({fine.At(2 * c), fine.At(2 * c + 1), fine.At(2 * c + 2)}));
+  }
+}
+
+// Raises the cells of a tile that the profiles cover.
+// @param first the tile's first cell of that level.
+void LikelihoodPyramid::Raise(Tile& tile,
+                              int level,
+                              GridCell first,
+                              std::uint8_t drift_code) const {
   const int side = Tile::SideAt(level);
-  const int first_x = column * side;
-  const int first_y = row * side;
-  Tile& tile = TileAt(column, row);
-  for (int y = std::max(first_y, rows_.first); y <= std::min(first_y + side - 1, rows_.last());
-       ++y) {
-    for (int x = std::max(first_x, columns_.first);
-         x <= std::min(first_x + side - 1, columns_.last());
-         ++x) {
-      const auto likelihood = static_cast<std::uint8_t>(255.0 * columns_.At(x) * rows_.At(y));
-      const int cell = (y - first_y) * side + (x - first_x);
+  const Profile& columns = columns_[static_cast<std::size_t>(level)];
+  const Profile& rows = rows_[static_cast<std::size_t>(level)];
+  const int last_x = std::min(first.x + side - 1, columns.last());
+  const int last_y = std::min(first.y + side - 1, rows.last());
+  for (int y = std::max(first.y, rows.first); y <= last_y; ++y) {
+    const double of_row = 255.0 * rows.At(y);
+    for (int x = std::max(first.x, columns.first); x <= last_x; ++x) {
+      const auto likelihood = static_cast<std::uint8_t>(
+          of_row * columns.values[static_cast<std::size_t>(x - columns.first)]);
+      const int cell = (y - first.y) * side + (x - first.x);
       std::uint8_t& stored = tile.likelihoods(level)[cell];
       stored = std::max(stored, likelihood);
       if (level < Tile::kFirstDriftLevel || likelihood < kOnPoint) continue;

@@ -12,6 +12,7 @@
 namespace qwsm {
 
 using quadtree::Cell;
+using quadtree::CellAt;
 using quadtree::CellQuadtree;
 using quadtree::kNoIndex;
 using quadtree::kUnitsPerCell;
@@ -28,14 +29,6 @@ double Distance2(const UnitPoint& a, const UnitPoint& b) {
   const double dx = a.x - b.x;
   const double dy = a.y - b.y;
   return dx * dx + dy * dy;
-}
-
-/// The smallest cell of a position; the one at the edge for positions outside the largest square.
-Cell CellAt(const UnitPoint& p) {
-  const auto clamp = [](double units) {
-    return static_cast<std::uint32_t>(std::clamp(units / kUnitsPerCell, 0.0, 4294967295.0));
-  };
-  return {clamp(p.x), clamp(p.y)};
 }
 
 // Two doubles side by side; every processor of the last twenty years computes with such pairs.

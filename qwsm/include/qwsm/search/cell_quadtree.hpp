@@ -42,6 +42,8 @@ class CellQuadtree {
 
   /// The leaf whose square holds the cell; kNoIndex where there is none.
   std::uint32_t LeafAt(Cell cell) const;
+  /// The smallest node whose square holds both cells; the root where none does.
+  Subtree SmallestHolding(Cell low, Cell high) const;
   /// The smallest node around the leaf that stands for `level` or more, or else the root.
   Subtree Ancestor(std::uint32_t leaf, int level) const;
 

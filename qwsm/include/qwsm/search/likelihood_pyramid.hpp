@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -84,23 +85,23 @@ class LikelihoodPyramid {
     double At(int cell) const {
       return cell < first || cell > last() ? 0.0 : values[static_cast<std::size_t>(cell - first)];
     }
-    void Coarsen();
+    void Coarsen(const Profile& fine);
   };
+  using Profiles = std::array<Profile, Tile::kLevels>;  // By level.
 
   static std::uint64_t Key(int column, int row) {
     return std::uint64_t{static_cast<std::uint32_t>(column)} << 32 |
            static_cast<std::uint32_t>(row);
   }
-  void FillProfile(double center_m, Profile& profile) const;
+  void Fill(double center_m, Profiles& profiles) const;
   Tile& TileAt(int column, int row);
-  void Raise(int level, std::uint8_t drift_code);
-  void RaiseTile(int level, int column, int row, std::uint8_t drift_code);
+  void Raise(Tile& tile, int level, GridCell first, std::uint8_t drift_code) const;
 
   LikelihoodPyramidOptions options_;
   std::unordered_map<std::uint64_t, std::uint32_t> directory_;  // Tiles by Key().
   PagedPool<Tile, 4> tiles_;
-  Profile columns_;  // Of the point being inserted; kept for their memory.
-  Profile rows_;
+  Profiles columns_;  // Of the point being inserted; kept for their memory.
+  Profiles rows_;
 };
 
 }  // namespace qwsm

@@ -4,18 +4,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "qwsm/search/likelihood_pyramid.hpp"
 
 namespace qwsm {
-
-/// A cell of level 0.
-struct GridCell {
-  int x = 0;
-  int y = 0;
-};
 
 /// The part of a likelihood pyramid that one search looks at, as plain arrays: a search reads each
 /// cell many times, and reads it here at a tenth of the cost.
@@ -44,25 +39,28 @@ class LikelihoodWindow {
  private:
   // All cells of one level, row after row.
   struct Plane {
-    Plane(int columns, int rows, std::uint8_t value)
+    // Not filled yet.
+    Plane(int columns, int rows)
         : width(columns),
           height(rows),
-          cells(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), value) {}
+          cells(std::make_unique_for_overwrite<std::uint8_t[]>(static_cast<std::size_t>(columns) *
+                                                               static_cast<std::size_t>(rows))) {}
 
     std::uint8_t At(int x, int y) const { return cells[static_cast<std::size_t>(y * width + x)]; }
     std::uint8_t& At(int x, int y) { return cells[static_cast<std::size_t>(y * width + x)]; }
     void Copy(const std::uint8_t* tile, int side, int column, int row);
+    void Fill(std::uint8_t value, int side, int column, int row);
     std::uint8_t Smallest(GridCell low, GridCell high) const;
 
     int width;
     int height;
-    std::vector<std::uint8_t> cells;
+    std::unique_ptr<std::uint8_t[]> cells;
   };
 
   template <class Visit>
   void ForEachTile(const LikelihoodPyramid& pyramid, Visit visit) const;
   void ForgetDrifted(const LikelihoodPyramid& pyramid, std::uint8_t max_drift_code);
-  Plane EmptyPlane(int level, std::uint8_t value) const;
+  Plane PlaneOf(int level) const;
 
   GridCell first_tile_;        // Column and row,
   GridCell tiles_;             // and how many columns and rows.

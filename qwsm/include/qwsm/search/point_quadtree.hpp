@@ -159,7 +159,7 @@ void PointQuadtree::ForEachInRadius(const Eigen::Vector2d& center_m,
     visit(id, ToMetres(p));
   };
   quadtree::Disk disk(tree_, center, radius, visit_point);
-  quadtree::Traversal(tree_, center, disk).Run(tree_.root());
+  quadtree::Traversal(tree_, center, disk).Run(quadtree::SmallestAround(tree_, center, radius));
 }
 
 template <class Visit>

@@ -5,12 +5,29 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "qwsm/search/cell_quadtree.hpp"
 
 namespace qwsm::quadtree {
 
 inline bool IsFinite(const UnitPoint& p) { return std::isfinite(p.x) && std::isfinite(p.y); }
+
+/// The smallest cell of a position; the one at the edge for positions outside the largest square.
+inline Cell CellAt(const UnitPoint& p) {
+  const auto clamp = [](double units) {
+    return static_cast<std::uint32_t>(std::clamp(units / kUnitsPerCell, 0.0, 4294967295.0));
+  };
+  return {clamp(p.x), clamp(p.y)};
+}
+
+/// The smallest part of the tree that a ball can reach.
+inline CellQuadtree::Subtree SmallestAround(const CellQuadtree& tree,
+                                            const UnitPoint& center,
+                                            double radius) {
+  return tree.SmallestHolding(CellAt({center.x - radius, center.y - radius}),
+                              CellAt({center.x + radius, center.y + radius}));
+}
 
 inline UnitPoint PositionAt(const Leaf& leaf, int i) {
   const auto slot = static_cast<std::size_t>(i);
