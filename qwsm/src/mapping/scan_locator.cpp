@@ -25,25 +25,36 @@ struct KnownSurroundings {
   double mean_drift_m2 = 0.0;  // Of these surfaces.
 };
 
+// The smallest drift of what is mapped within reach of a position.
+std::uint8_t SmallestDriftAround(const LikelihoodPyramid& map,
+                                 const Eigen::Vector2d& p_map,
+                                 double reach_m) {
+  constexpr int kLevel = LikelihoodPyramid::kLevels - 1;
+  constexpr int kStride = 1 << kLevel;
+  const double cells = reach_m / (kStride * map.cell_size_m());
+  const int reach = kStride * std::max(1, static_cast<int>(std::lround(cells)));
+  std::uint8_t smallest = LikelihoodPyramid::kUnmapped;
+  for (int dy = -reach; dy <= reach; dy += kStride) {
+    for (int dx = -reach; dx <= reach; dx += kStride) {
+      smallest = std::min(
+          smallest,
+          map.DriftCodeAt(kLevel, map.CellIndex(p_map.x()) + dx, map.CellIndex(p_map.y()) + dy));
+    }
+  }
+  return smallest;
+}
+
+// @param reach_m how far the points may be off.
 KnownSurroundings SurroundingsOf(const LikelihoodPyramid& map,
                                  std::span<const Eigen::Vector2d> points_robot_m,
                                  const Pose2& T_map_robot,
+                                 double reach_m,
                                  double max_drift_m2) {
-  constexpr int kLevel = LikelihoodPyramid::kLevels - 1;
-  constexpr int kStride = 1 << kLevel;
   const std::uint8_t max_code = LikelihoodPyramid::DriftCode(max_drift_m2);
   KnownSurroundings known;
   int count = 0;
   for (const Eigen::Vector2d& p_robot : points_robot_m) {
-    const Eigen::Vector2d p_map = T_map_robot * p_robot;
-    std::uint8_t code = LikelihoodPyramid::kUnmapped;
-    for (const int dy : {-kStride, 0, kStride}) {
-      for (const int dx : {-kStride, 0, kStride}) {
-        code = std::min(
-            code,
-            map.DriftCodeAt(kLevel, map.CellIndex(p_map.x()) + dx, map.CellIndex(p_map.y()) + dy));
-      }
-    }
+    const std::uint8_t code = SmallestDriftAround(map, T_map_robot * p_robot, reach_m);
     if (code > max_code) continue;
     ++count;
     known.mean_drift_m2 += LikelihoodPyramid::DriftOf(code);
@@ -164,8 +175,10 @@ std::optional<MatchResult> ScanLocator::FindReturn(
   const UncertainPose2 doubted = Widened(estimated, options.caution);
   const double drift_m2 = std::pow(SigmaXY(estimated.covariance), 2);
   const double max_drift_m2 = options.max_drift_share * drift_m2;
+  const double reach_m =
+      std::min(options.max_window_m, options.caution * SigmaXY(estimated.covariance));
   const KnownSurroundings known =
-      SurroundingsOf(likelihood, surroundings_robot_m, estimated.T_a_b, max_drift_m2);
+      SurroundingsOf(likelihood, surroundings_robot_m, estimated.T_a_b, reach_m, max_drift_m2);
   const double drift_since_m =
       options.caution * std::sqrt(std::max(0.0, drift_m2 - known.mean_drift_m2));
   if (known.share < options.min_known_share || drift_since_m < options.min_drift_m) {
