@@ -92,7 +92,10 @@ NormalEquations Pairing::Linearize(const Pose2& T_map_cur, const Doubt& doubt) {
     pair.weight = RobustWeight(mahalanobis2, options_.outlier_sigmas);
     equations.sum_of_weights += pair.weight;
     equations.sum_of_misfits += pair.weight * mahalanobis2;
-    equations.Add(pair.weight * information, error, arm);
+    // Where a surface curves, a mean lies behind the points: means are compared with means.
+    const bool is_mean = pair.surface.is_line && !pair.surface.is_sample;
+    const Eigen::Vector2d of_means = error - (is_mean ? 1.0 : 0.0) * (R * point.to_mean_robot_m);
+    equations.Add(pair.weight * information, of_means, arm);
   }
   return equations;
 }

@@ -127,7 +127,8 @@ Surface SurfaceMap::SurfaceAt(PointId id) const {
             .normal = own_normal,
             .across_m2 = 0.0,
             .spacing_m = static_cast<double>(n.spacing_m),
-            .is_line = true};
+            .is_line = true,
+            .is_sample = true};
   }
   return {.mean_m = p_m + mean,
           .normal = axes.minor_axis,

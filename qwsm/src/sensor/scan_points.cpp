@@ -12,44 +12,75 @@
 namespace qwsm {
 namespace {
 
-constexpr double kNormalReach_m = 0.12;       // Half the length of surface a normal is fitted to,
-constexpr double kNormalReachSpacings = 2.2;  // or as many beam spacings where these are wider.
+constexpr double kNormalReachSpacings = 2.2;  // Normals need so many, where beams are far apart.
 constexpr double kGap_m = 0.15;               // Neighbouring points further apart, and
 constexpr double kGapSpacings = 6.0;          // more beam spacings apart, lie on two surfaces.
-constexpr double kMaxRoughness_m = 0.05;      // A wall is flatter than this.
-constexpr std::size_t kMaxBeamsAway = 2;      // Between neighbours, for a failed reading.
-constexpr double kInFront_m = 0.3;            // Nearer than its neighbours by this: another object.
-constexpr double kMaxTurn_rad = std::numbers::pi / 8.0;  // Of a straight surface, sparsely sampled.
+constexpr double kGapOfMean_m = 0.03;         // The same for points of which the mean is wanted.
+constexpr double kGapOfMeanSpacings = 3.0;
+constexpr double kMaxRoughness_m = 0.05;  // A wall is flatter than this.
+constexpr std::size_t kMaxBeamsAway = 2;  // Between neighbours, for a failed reading.
+constexpr double kInFront_m = 0.3;        // Nearer than its neighbours by this: another object.
+constexpr double kTanOfMaxTurn =
+    std::numbers::sqrt2 - 1.0;       // pi/8: of a straight surface, sparsely sampled.
 constexpr double kMaxAspect = 0.25;  // Across over along, as standard deviations.
 
-// Grows the neighbourhood of points[center] in one direction and returns its end (exclusive when
-// walking forward, inclusive when walking back).
-std::size_t NeighborhoodEnd(std::span<const ScanPoint> points, std::size_t center, bool forward) {
-  const ScanPoint& c = points[center];
-  const double reach_m = std::max(kNormalReach_m, kNormalReachSpacings * c.arc_m);
-  const double gap_m = std::max(kGap_m, kGapSpacings * c.arc_m);
+// How far a surface is followed from one of its points.
+struct SurfaceLimits {
+  double reach_m;  // From the point;
+  double gap_m;    // and between two neighbours.
+};
+
+// Walks from points[center] along its surface in one direction and returns the last point within
+// the limits.
+std::size_t EndOfSurface(std::span<const ScanPoint> points,
+                         std::size_t center,
+                         const SurfaceLimits& limits,
+                         bool forward) {
+  const Eigen::Vector2d& p_center = points[center].p_robot_m;
   std::size_t last = center;
   while (forward ? last + 1 < points.size() : last > 0) {
     const std::size_t next = forward ? last + 1 : last - 1;
-    if ((points[next].p_robot_m - points[last].p_robot_m).norm() > gap_m) break;
-    if ((points[next].p_robot_m - c.p_robot_m).norm() > reach_m) break;
+    const Eigen::Vector2d& p = points[next].p_robot_m;
+    if ((p - points[last].p_robot_m).squaredNorm() > limits.gap_m * limits.gap_m) break;
+    if ((p - p_center).squaredNorm() > limits.reach_m * limits.reach_m) break;
     last = next;
   }
   return last;
 }
 
+std::span<const ScanPoint> SurfaceAround(std::span<const ScanPoint> points,
+                                         std::size_t center,
+                                         const SurfaceLimits& limits) {
+  const std::size_t first = EndOfSurface(points, center, limits, false);
+  const std::size_t last = EndOfSurface(points, center, limits, true);
+  return points.subspan(first, last - first + 1);
+}
+
+// A reading half on an edge and half on what is behind it must not draw its neighbours' means
+// along, so these are of what lies close together.
+Eigen::Vector2d MeanAround(std::span<const ScanPoint> points, std::size_t i) {
+  const double gap_m = std::max(kGapOfMean_m, kGapOfMeanSpacings * points[i].arc_m);
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  const auto around = SurfaceAround(points, i, {.reach_m = kSurfaceReach_m, .gap_m = gap_m});
+  for (const ScanPoint& p : around) sum += p.p_robot_m;
+  return sum / static_cast<double>(around.size());
+}
+
 Eigen::Vector2d NormalOf(std::span<const ScanPoint> neighbors) {
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  for (const ScanPoint& p : neighbors) mean += p.p_robot_m;
-  mean /= static_cast<double>(neighbors.size());
-  Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
+  const Eigen::Vector2d origin = neighbors.front().p_robot_m;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  Eigen::Vector3d sum_of_squares = Eigen::Vector3d::Zero();  // xx, xy, yy.
   for (const ScanPoint& p : neighbors) {
-    const Eigen::Vector2d d = p.p_robot_m - mean;
-    scatter += d * d.transpose();
+    const Eigen::Vector2d d = p.p_robot_m - origin;
+    sum += d;
+    sum_of_squares += Eigen::Vector3d(d.x() * d.x(), d.x() * d.y(), d.y() * d.y());
   }
-  scatter /= static_cast<double>(neighbors.size());
-  const PrincipalAxes axes = PrincipalAxesOf(scatter(0, 0), scatter(0, 1), scatter(1, 1));
-  const bool is_line = std::sqrt(axes.minor_m2) < kMaxRoughness_m &&
+  const double scale = 1.0 / static_cast<double>(neighbors.size());
+  const Eigen::Vector2d mean = scale * sum;
+  const PrincipalAxes axes = PrincipalAxesOf(scale * sum_of_squares(0) - mean.x() * mean.x(),
+                                             scale * sum_of_squares(1) - mean.x() * mean.y(),
+                                             scale * sum_of_squares(2) - mean.y() * mean.y());
+  const bool is_line = axes.minor_m2 < kMaxRoughness_m * kMaxRoughness_m &&
                        axes.minor_m2 < kMaxAspect * kMaxAspect * axes.major_m2;
   return is_line ? axes.minor_axis : Eigen::Vector2d::Zero();
 }
@@ -78,17 +109,19 @@ Eigen::Vector2d NormalOfSparse(std::span<const ScanPoint> points, std::size_t i)
   if (points[i + 1].beam - points[i - 1].beam > 2 * kMaxBeamsAway) return Eigen::Vector2d::Zero();
   const Eigen::Vector2d before = points[i].p_robot_m - points[i - 1].p_robot_m;
   const Eigen::Vector2d after = points[i + 1].p_robot_m - points[i].p_robot_m;
-  const double turn_rad =
-      std::atan2(before.x() * after.y() - before.y() * after.x(), before.dot(after));
-  if (std::abs(turn_rad) > kMaxTurn_rad) return Eigen::Vector2d::Zero();
+  const double sine = before.x() * after.y() - before.y() * after.x();
+  if (std::abs(sine) > kTanOfMaxTurn * before.dot(after)) return Eigen::Vector2d::Zero();
   const Eigen::Vector2d tangent = (before + after).normalized();
   return {-tangent.y(), tangent.x()};
 }
 
 Eigen::Vector2d NormalTowardsLaser(std::span<const ScanPoint> points, std::size_t i) {
-  const std::size_t first = NeighborhoodEnd(points, i, false);
-  const std::size_t last = NeighborhoodEnd(points, i, true);
-  const std::span<const ScanPoint> around = points.subspan(first, last - first + 1);
+  const double arc_m = points[i].arc_m;
+  const auto around =
+      SurfaceAround(points,
+                    i,
+                    {.reach_m = std::max(kSurfaceReach_m, kNormalReachSpacings * arc_m),
+                     .gap_m = std::max(kGap_m, kGapSpacings * arc_m)});
   const Eigen::Vector2d normal = around.size() >= 3 ? NormalOf(around) : NormalOfSparse(points, i);
   return normal.dot(points[i].beam_robot) > 0.0 ? Eigen::Vector2d(-normal) : normal;
 }
@@ -108,6 +141,7 @@ std::vector<ScanPoint> ToPoints(const LaserScan& scan) {
     points.push_back({.p_robot_m = T_robot_laser.translation_m() + range_m * beam_robot,
                       .beam_robot = beam_robot,
                       .normal_robot = Eigen::Vector2d::Zero(),
+                      .to_mean_robot_m = Eigen::Vector2d::Zero(),
                       .range_m = range_m,
                       .arc_m = range_m * step_rad,
                       .spacing_m = 0.0,
@@ -116,6 +150,7 @@ std::vector<ScanPoint> ToPoints(const LaserScan& scan) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     points[i].spacing_m = SurfaceSpacing(points, i);
     points[i].normal_robot = NormalTowardsLaser(points, i);
+    points[i].to_mean_robot_m = MeanAround(points, i) - points[i].p_robot_m;
   }
   return points;
 }

@@ -63,7 +63,7 @@ struct ScanLocatorOptions {
   CorrelativeSearchOptions search;
   WeightedScanMatcherOptions matcher;
   ReturnOptions known_places;
-  double narrow_share = 0.33;
+  double narrow_share = 0.25;
   double confident_overlap = 0.9;
   double search_spacing_m = 0.12;
   double search_error_m = 0.022;

@@ -10,13 +10,14 @@
 #include "qwsm/search/likelihood_pyramid.hpp"
 #include "qwsm/search/paged_pool.hpp"
 #include "qwsm/search/point_quadtree.hpp"
+#include "qwsm/sensor/scan_points.hpp"
 
 namespace qwsm {
 
 struct SurfaceMapOptions {
   PointQuadtreeOptions quadtree;
   LikelihoodPyramidOptions likelihood;
-  double neighborhood_radius_m = 0.12;
+  double neighborhood_radius_m = kSurfaceReach_m;
   int min_neighbors = 5;
   double max_line_aspect = 0.3;
   double min_line_m = 0.03;
@@ -67,6 +68,7 @@ struct Surface {
   double spacing_m = 0.0;  ///< Between stored samples of the surface.
   double looks = 1.0;      ///< Scans that the mean is of. Readings of one scan share their errors.
   bool is_line = false;
+  bool is_sample = false;  ///< What there is of it is one sample rather than a mean.
 };
 
 /// Variance of what is uniform over a length.

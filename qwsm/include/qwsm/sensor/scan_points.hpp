@@ -11,6 +11,9 @@
 
 namespace qwsm {
 
+/// How much of a surface around a point is taken together to tell where and how it lies.
+inline constexpr double kSurfaceReach_m = 0.12;
+
 /// A surface point that a scan measured, in the robot's frame.
 struct ScanPoint {
   Eigen::Vector2d p_robot_m;
@@ -18,6 +21,8 @@ struct ScanPoint {
   /// Unit normal of the surface, towards the laser, by a line through the neighbouring beams'
   /// points; zero where they are no line (a corner, an edge, a lone point).
   Eigen::Vector2d normal_robot = Eigen::Vector2d::Zero();
+  /// From here to the mean of the points of its surface within kSurfaceReach_m.
+  Eigen::Vector2d to_mean_robot_m = Eigen::Vector2d::Zero();
   double range_m = 0.0;
   double arc_m = 0.0;      ///< From this beam to the next one at this range.
   double spacing_m = 0.0;  ///< To the next sample of the same surface; arc_m for a small object.
