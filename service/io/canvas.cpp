@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "service/io/atomic_file.hpp"
+#include "service/io/png_writer.hpp"
 
 namespace qwsm::io {
 namespace {
@@ -59,6 +60,21 @@ void TraceRectangle(cairo_t* context, const Rectangle& rectangle) {
   const auto& [corner_px, size_px] = rectangle;
   cairo_new_path(context);
   cairo_rectangle(context, corner_px.x(), corner_px.y(), size_px.x(), size_px.y());
+}
+
+PixelImage PixelsOf(cairo_surface_t* surface) {
+  cairo_surface_flush(surface);
+  PixelImage image{.width_px = cairo_image_surface_get_width(surface),
+                   .height_px = cairo_image_surface_get_height(surface),
+                   .pixels = {}};
+  const auto width = static_cast<std::size_t>(image.width_px);
+  image.pixels.resize(width * static_cast<std::size_t>(image.height_px));
+  const unsigned char* row = cairo_image_surface_get_data(surface);
+  for (std::size_t at = 0; at < image.pixels.size(); at += width) {
+    std::memcpy(&image.pixels[at], row, width * sizeof(std::uint32_t));
+    row += cairo_image_surface_get_stride(surface);
+  }
+  return image;
 }
 
 void Replay(cairo_surface_t* recording, cairo_surface_t* target) {
@@ -193,12 +209,11 @@ void Canvas::Save(const std::filesystem::path& path) const {
     cairo_surface_finish(svg.get());
     ThrowIfFailed(cairo_surface_status(svg.get()), path);
   } else {
-    const Surface png(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_px_, height_px_));
-    Replay(recording_->surface.get(), png.get());
-    const cairo_status_t status =
-        cairo_surface_write_to_png_stream(png.get(), WriteBytes, &file.stream());
-    file.ThrowIfFailed();  // Knows the reason better.
-    ThrowIfFailed(status, path);
+    const Surface pixels(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_px_, height_px_));
+    Replay(recording_->surface.get(), pixels.get());
+    ThrowIfFailed(cairo_surface_status(pixels.get()), path);
+    WritePng(file.stream(), PixelsOf(pixels.get()));
+    file.ThrowIfFailed();
   }
   file.Commit();
 }

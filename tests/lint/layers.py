@@ -40,6 +40,7 @@ THIRD_PARTY = {
     "yaml-cpp": (r"yaml-cpp/", {"service/config"}),
     "CLI11": (r"CLI/", {"service/apps"}),
     "Cairo": (r"cairo", {"service/io"}),
+    "libpng": (r"png\.h", {"service/io"}),
     "Ceres": (r"ceres/", {"service/graph"}),
     "Boost": (r"boost/", {"service/io"}),
     "SQLite": (r"sqlite3\.h", {"service/io"}),
