@@ -14,6 +14,9 @@ namespace {
 /// Small enough that a chunk's points stay in the cache from one of its three loops to the next.
 constexpr std::size_t kChunkSize = 2048;
 
+/// More pairs than so many do not make a pose better known.
+constexpr double kIndependentPairs = 30.0;
+
 /// The middle of the reference: sums are taken about it, against cancellation far from the origin.
 Eigen::Vector3d MiddleOf(const KdTree& tree) {
   if (tree.empty()) return Eigen::Vector3d::Zero();
@@ -135,8 +138,12 @@ Matrix6d PointPairs::Information() const {
 }
 
 Matrix6d PointPairs::Covariance(const Sums& sums, const Matrix6d& information, const IcpOptions&) {
-  const double variance_m2 = sums.distance2_m2 / std::max(sums.moments.count, 1.0) / 3.0;
-  return variance_m2 * information.inverse();
+  const double count = std::max(sums.moments.count, 1.0);
+  const double variance_m2 = sums.distance2_m2 / count / 3.0;
+  // Nearest points are other samples of the surface: their distances are no independent errors,
+  // but lead astray together.
+  const double independent = std::min(count, kIndependentPairs);
+  return count / independent * variance_m2 * information.inverse();
 }
 
 }  // namespace slam6d

@@ -159,6 +159,22 @@ Slam::Registration Slam::Register(std::span<const std::size_t> references,
   return is_better ? second : first;
 }
 
+/// Points find together from farther off than planes, which are asked again from there. Among
+/// trees, where the little that is flat leads astray, points have the last word.
+Slam::Registration Slam::RegisterByPoints(std::span<const std::size_t> references,
+                                          Entry& cur,
+                                          const Pose3& T_map_cur_guess,
+                                          const Registration& by_planes) const {
+  const Registration by_points =
+      Register(references, cur, T_map_cur_guess, options_.guess, IcpMetric::kPointToPoint);
+  if (!by_points.trusted) return by_planes;
+  const Registration again =
+      Register(references, cur, by_points.icp.T_ref_cur, options_.guess, cur.metric);
+  if (again.trusted && again.overlap > by_points.overlap) return again;
+  cur.metric = IcpMetric::kPointToPoint;
+  return by_points;
+}
+
 std::vector<std::size_t> Slam::LastUsable(int count) const {
   std::vector<std::size_t> scans;
   for (std::size_t scan = entries_.size(); scan-- > 0 && std::ssize(scans) < count;) {
@@ -173,17 +189,9 @@ void Slam::Match(Entry& entry, SlamStep& step) {
     step.status = SlamStatus::kFirst;
     return;
   }
-  const auto match_by = [&](IcpMetric metric) {
-    return Register(references, entry, step.T_map_scan, options_.guess, metric);
-  };
-  Registration match = match_by(entry.metric);
+  Registration match = Register(references, entry, step.T_map_scan, options_.guess, entry.metric);
   if (!match.trusted && entry.metric != IcpMetric::kPointToPoint) {
-    // Among trees hardly anything is flat, and the little that is leads astray.
-    const Registration by_points = match_by(IcpMetric::kPointToPoint);
-    if (by_points.trusted) {
-      match = by_points;
-      entry.metric = IcpMetric::kPointToPoint;
-    }
+    match = RegisterByPoints(references, entry, step.T_map_scan, match);
   }
   step.match = match.icp;
   step.overlap = match.overlap;

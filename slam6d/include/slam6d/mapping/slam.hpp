@@ -117,6 +117,10 @@ class Slam {
                         const Pose3& T_map_cur_guess,
                         const OverlapOptions& search,
                         IcpMetric metric) const;
+  Registration RegisterByPoints(std::span<const std::size_t> references,
+                                Entry& cur,
+                                const Pose3& T_map_cur_guess,
+                                const Registration& by_planes) const;
   std::vector<std::size_t> LastUsable(int count) const;
   void Constrain(std::size_t from, std::size_t to, const UncertainPose3& T_map_to);
   void Match(Entry& entry, SlamStep& step);
