@@ -45,9 +45,10 @@ RegistrationReport ReportOf(const team::CloudAnswer& answer) {
 struct Robot {
   Robot(const Participant& participant,
         const RobotNames& names,
-        const Writer<wire::TFMessage>& transforms)
+        const Writer<wire::TFMessage>& transforms,
+        const Claim& claim)
       : poses(participant, names, transforms),
-        reports(participant, names.Topic(kRegistrationTopic), Profile::kAnswer),
+        reports(participant, names.Topic(kRegistrationTopic), Profile::kAnswer, ToUserData(claim)),
         path(participant, names.Topic(kPathTopic), Profile::kLatched),
         cloud(participant, names.Topic(kCloudMapTopic), Profile::kLatched) {}
 
@@ -68,27 +69,32 @@ class CloudOutbox::Topics {
         diagnostics_(participant, kDiagnosticsTopic, Profile::kAnswer),
         graph_(participant, options) {}
 
-  const Robot& Of(std::string_view robot) {
+  void Add(const std::string& robot, const Claim& claim) {
     const std::lock_guard lock(mutex_);
-    const auto known = robots_.find(robot);
-    if (known != robots_.end()) return known->second;
-    const auto added =
-        robots_.try_emplace(std::string(robot), participant_, RobotNames(robot), transforms_);
+    if (robots_.contains(robot)) return;
+    robots_[robot] = std::make_shared<Robot>(participant_, RobotNames(robot), transforms_, claim);
     graph_.Announce();
-    return added.first->second;
+  }
+  void Remove(const std::string& robot) {
+    const std::lock_guard lock(mutex_);
+    robots_.erase(robot);
+    graph_.Announce();
   }
 
   void Take(const team::CloudAnswer& answer) {
-    const Robot& robot = Of(answer.robot);
-    robot.poses.Publish(answer.scan.stamp, answer.map_robot, answer.T_odom_robot);
+    const std::shared_ptr<const Robot> robot = Find(answer.robot);
+    if (!robot) return;
+    robot->poses.Publish(answer.scan.stamp, answer.map_robot, answer.T_odom_robot);
     // The report goes last: who waits for it has everything.
-    robot.reports.Write(ToWire(ReportOf(answer), map_frame_));
+    robot->reports.Write(ToWire(ReportOf(answer), map_frame_));
   }
 
   void Take(const team::CloudMap& map) {
-    const Robot& robot = Of(map.robot);
+    const std::shared_ptr<const Robot> robot = Find(map.robot);
+    if (!robot) return;
     const Timestamp newest = map.path.back().stamp;
-    robot.cloud.Write(CloudSample(map.cloud, CloudPrecision::kSingle, newest, map_frame_).sample());
+    robot->cloud.Write(
+        CloudSample(map.cloud, CloudPrecision::kSingle, newest, map_frame_).sample());
     std::vector<wire::PoseStamped> poses;
     for (const team::CloudMap::Stop& stop : map.path) {
       poses.push_back({HeaderOf(stop.stamp, map_frame_), ToWire(stop.T_map_robot)});
@@ -97,7 +103,7 @@ class CloudOutbox::Topics {
     wire::Path path{};
     path.header = HeaderOf(newest, map_frame_);
     path.poses = {._maximum = size, ._length = size, ._buffer = poses.data(), ._release = false};
-    robot.path.Write(path);
+    robot->path.Write(path);
   }
 
   void Take(const team::TeamStatus& status) const {
@@ -106,6 +112,12 @@ class CloudOutbox::Topics {
   }
 
  private:
+  std::shared_ptr<const Robot> Find(std::string_view robot) {
+    const std::lock_guard lock(mutex_);
+    const auto known = robots_.find(robot);
+    return known == robots_.end() ? nullptr : known->second;
+  }
+
   const Participant& participant_;
   const Refusals& refusals_;
   std::string map_frame_ = kMapFrame;
@@ -113,7 +125,7 @@ class CloudOutbox::Topics {
   Writer<wire::DiagnosticArray> diagnostics_;
   RosGraph graph_;
   std::mutex mutex_;  // Of the list; what stands in it never changes.
-  std::map<std::string, Robot, std::less<>> robots_;
+  std::map<std::string, std::shared_ptr<const Robot>, std::less<>> robots_;
 };
 
 CloudOutbox::CloudOutbox(const Participant& participant,
@@ -123,7 +135,10 @@ CloudOutbox::CloudOutbox(const Participant& participant,
 
 CloudOutbox::~CloudOutbox() = default;
 
-void CloudOutbox::AddRobot(const std::string& robot) { topics_->Of(robot); }
+void CloudOutbox::AddRobot(const std::string& robot, const Claim& claim) {
+  topics_->Add(robot, claim);
+}
+void CloudOutbox::RemoveRobot(const std::string& robot) { topics_->Remove(robot); }
 void CloudOutbox::TakeAnswer(const team::CloudAnswer& answer) { topics_->Take(answer); }
 void CloudOutbox::TakeMap(const team::CloudMap& map) { topics_->Take(map); }
 void CloudOutbox::TakeStatus(const team::TeamStatus& status) { topics_->Take(status); }

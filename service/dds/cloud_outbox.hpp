@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "service/dds/other_services.hpp"
 #include "service/dds/participant.hpp"
 #include "service/dds/refusals.hpp"
 #include "service/team/cloud_sink.hpp"
@@ -21,7 +22,9 @@ class CloudOutbox final : public team::CloudSink {
   ~CloudOutbox() override;
 
   /// Makes the topics of a robot, so that listeners find them before its first scan is answered.
-  void AddRobot(const std::string& robot);
+  void AddRobot(const std::string& robot, const Claim& claim);
+  /// Takes them away: another service answers the robot. Answers still on their way are dropped.
+  void RemoveRobot(const std::string& robot);
 
   void TakeAnswer(const team::CloudAnswer& answer) override;
   void TakeMap(const team::CloudMap& map) override;

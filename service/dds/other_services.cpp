@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
+#include <utility>
 
-#include "service/dds/robot_discovery.hpp"
 #include "service/dds/robot_names.hpp"
 
 namespace qwsm::dds {
@@ -31,8 +31,13 @@ std::string ToUserData(const Claim& claim) {
   return std::string(kKey) + std::to_string(claim.since_ns) + ";";
 }
 
-OtherServices::OtherServices(const Participant& participant)
-    : own_(participant.guid()), publications_(participant) {}
+OtherServices::OtherServices(const Participant& participant,
+                             std::string_view report_topic,
+                             std::string report_type)
+    : own_(participant.guid()),
+      report_topic_(report_topic),
+      report_type_(std::move(report_type)),
+      publications_(participant) {}
 
 void OtherServices::Update() {
   publications_.TakeAll([this](const Publication& publication) { Note(publication); });
@@ -43,8 +48,8 @@ void OtherServices::Note(const Publication& publication) {
     answerers_.erase(publication.writer);
     return;
   }
-  if (publication.participant == own_ || publication.type != kMatchReportType) return;
-  const std::optional<std::string> robot = RobotNames::RobotOf(publication.topic, kReportTopic);
+  if (publication.participant == own_ || publication.type != report_type_) return;
+  const std::optional<std::string> robot = RobotNames::RobotOf(publication.topic, report_topic_);
   if (!robot) return;
   answerers_[publication.writer] = {
       .robot = *robot,

@@ -26,7 +26,10 @@ struct Claim {
 /// nobody answers any more may be answered by whoever finds it.
 class OtherServices {
  public:
-  explicit OtherServices(const Participant& participant);
+  /// @param report_topic last part of their topic. @param report_type their DDS type.
+  OtherServices(const Participant& participant,
+                std::string_view report_topic,
+                std::string report_type);
 
   /// Notes who has come and gone since the last call.
   void Update();
@@ -45,6 +48,8 @@ class OtherServices {
   void Note(const Publication& publication);
 
   Guid own_;
+  std::string report_topic_;
+  std::string report_type_;
   Publications publications_;
   std::map<Guid, Answerer> answerers_;  // By writer.
 };

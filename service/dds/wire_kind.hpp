@@ -8,6 +8,7 @@
 
 #include "service/dds/cloud_conversion.hpp"
 #include "service/dds/planar.hpp"
+#include "service/dds/profile.hpp"
 #include "service/dds/robot_discovery.hpp"
 #include "service/dds/robot_names.hpp"
 #include "service/dds/scan_conversion.hpp"
@@ -30,6 +31,8 @@ struct OnWire<team::Planar> {
   static constexpr const char* kScanType = kLaserScanType;
   static constexpr const char* kReportType = kMatchReportType;
 
+  /// How scans are listened to. @param is_reliable whether their publisher repeats lost ones.
+  static Profile ScansIn(bool) { return Profile::kSensorIn; }
   static Pose2 PoseOf(const wire::Pose& pose) { return FromWire(pose); }
   static bool IsRotation(const wire::Quaternion& q) { return std::isfinite(UprightnessOf(q)); }
   /// Less than 2.6 degrees of tilt.
@@ -62,6 +65,11 @@ struct OnWire<team::Spatial> {
   static constexpr const char* kScanType = kPointCloudType;
   static constexpr const char* kReportType = kRegistrationReportType;
 
+  /// A cloud is a thousand packets: where the publisher repeats lost ones it is asked to, and one
+  /// that does not is heard all the same.
+  static Profile ScansIn(bool is_reliable) {
+    return is_reliable ? Profile::kSensorInWhole : Profile::kSensorIn;
+  }
   static slam6d::Pose3 PoseOf(const wire::Pose& pose) { return SpatialPose(pose); }
   static bool IsRotation(const wire::Quaternion& q) {
     return slam6d::RotationFromQuaternion({q.x, q.y, q.z, q.w}).allFinite();

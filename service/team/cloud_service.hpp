@@ -46,7 +46,27 @@ class CloudService {
   /// Waits until every scan that was taken is answered or dropped.
   void WaitUntilIdle() { sessions_.WaitUntilIdle(); }
 
-  SessionList<CloudSession>& robots() { return sessions_; }
+  /// A robot's publisher is there. What takes messages of a robot makes it join as well.
+  void Join(std::string_view robot) { sessions_.Join(robot); }
+  /// It is gone.
+  void Lose(std::string_view robot) { sessions_.Lose(robot); }
+  /// Another service answers it from now on.
+  void HandOver(std::string_view robot) { sessions_.HandOver(robot); }
+  /// @return false if the scan was refused: malformed, late or a duplicate. See its counts.
+  bool TakeScan(std::string_view robot, CloudScan scan) {
+    return sessions_.TakeScan(robot, std::move(scan));
+  }
+  void TakeOdometry(std::string_view robot, Timestamp stamp, const slam6d::Pose3& T_odom_robot) {
+    sessions_.TakeOdometry(robot, stamp, T_odom_robot);
+  }
+  /// Whether somebody publishes its odometry: only then do scans wait for it.
+  void ExpectOdometry(std::string_view robot, bool expected) {
+    sessions_.ExpectOdometry(robot, expected);
+  }
+  void PlaceAt(std::string_view robot, const slam6d::UncertainPose3& map_robot) {
+    sessions_.PlaceAt(robot, map_robot);
+  }
+
   TeamStatus Status() const;
 
   /// Fits all scans of every robot to each other. @pre it is stopped.

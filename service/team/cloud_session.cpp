@@ -48,6 +48,11 @@ void CloudSession::Lose() {
   if (intake_.Lose()) Tell(true, "is lost: nobody publishes its scans any more");
 }
 
+void CloudSession::HandOver() {
+  intake_.HandOver();
+  Tell(false, "is answered by another service");
+}
+
 bool CloudSession::TakeScan(CloudScan scan) {
   Join();
   return intake_.TakeScan(std::move(scan));

@@ -39,6 +39,7 @@ class CloudSession final : public Lane {
   void PlaceAt(const slam6d::UncertainPose3& map_robot);
   void Join();
   void Lose();
+  void HandOver();
   /// @return false if it was refused. A scan that is taken may still be dropped for newer ones.
   bool TakeScan(CloudScan scan);
   void TakeOdometry(Timestamp stamp, const slam6d::Pose3& T_odom_robot) {

@@ -4,6 +4,7 @@
 // 3D scans through the network: `slam6d replay` and `slam6d serve` as processes on loopback.
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -132,6 +133,35 @@ TEST_F(DdsSlam6d, RefusesBadCloudsAndAnswersTheGoodOnesBetweenThem) {
   }
   EXPECT_EQ(answers, 4U);
   service.End();
+}
+
+TEST_F(DdsSlam6d, SurvivorOfTwoServicesTakesOverTheRobot) {
+  Daemon first(network_.JoinService({"serve", "robot1"}), "slam6d");
+  const dds::Participant participant(Network());
+  dds::RegistrationReportReader reports(participant, {"robot1"});
+  while (!reports.has_writer()) reports.Take(10ms);
+  Daemon second(network_.JoinService({"serve"}), "slam6d");
+  dds::CloudRobotPublisher robot(
+      participant, dds::RobotNames("robot1"), dds::OdometryUse::kPublished);
+  ASSERT_TRUE(robot.WaitForListener({}, 10s));
+  auto stamp = 0s;
+  const auto drive_until_answered = [&] {
+    std::size_t answers = 0;
+    for (int scan = 0; scan < 300 && answers == 0; ++scan) {
+      EXPECT_TRUE(
+          robot.Publish({.scan = {.stamp = ++stamp, .cloud = drive_.scans[0], .T_robot_sensor = {}},
+                         .T_odom_robot = drive_.T_odom_scan[0]}));
+      answers = reports.Take(100ms).size();
+    }
+    return answers;
+  };
+  EXPECT_EQ(drive_until_answered(), 1U);
+  first.End(SIGKILL);
+  while (!reports.Take(100ms).empty()) continue;
+  // Nothing tells of the death but its silence, for ten seconds.
+  EXPECT_EQ(drive_until_answered(), 1U) << second.ErrorsSoFar();
+  const Outcome survivor = second.End();
+  EXPECT_NE(survivor.output.find("robot1"), std::string::npos) << survivor.output;
 }
 
 TEST_F(DdsSlam6d, SaysThatNobodyListens) {
