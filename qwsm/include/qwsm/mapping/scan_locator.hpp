@@ -74,7 +74,7 @@ struct ScanLocatorOptions {
   double widen_factor = 3.0;
   double widen_gain = 0.15;
   double weak_share = 0.25;
-  double contradiction_sigmas = 2.0;
+  double contradiction_sigmas = 1.5;
   double slip_gain = 0.12;
 };
 
