@@ -11,7 +11,8 @@ namespace fs = std::filesystem;
 fs::path FindScenario(const std::string& path_or_name) {
   std::error_code error;
   const bool is_name = path_or_name.find_first_of("/.") == std::string::npos;
-  if (!is_name || fs::exists(path_or_name, error)) return path_or_name;
+  // A folder of that name holds results, more likely than not.
+  if (!is_name || fs::is_regular_file(path_or_name, error)) return path_or_name;
   const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
   for (const char* folder : {"../share/qwsm/scenarios", "../../../configs/scenarios"}) {
     const fs::path file = program / folder / (path_or_name + ".yaml");

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Scenarios as YAML: the shipped ones can be run, wrong ones are refused where they are wrong.
+#include "service/config/scenario_file.hpp"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -11,6 +13,7 @@
 #include "service/config/options_io.hpp"
 #include "service/pipeline/command_log.hpp"
 #include "sim/simulation.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace qwsm {
 namespace {
@@ -125,6 +128,16 @@ TEST(ScenarioFile, SaysThatAFileIsMissing) {
     EXPECT_NE(std::string(error.what()).find("no/such.yaml: cannot be opened"), std::string::npos)
         << error.what();
   }
+}
+
+TEST(ScenarioFile, IsNotTakenForTheFolderOfItsResults) {
+  const test::TemporaryFolder folder;
+  fs::create_directory(folder.path() / "park");
+  const fs::path before = fs::current_path();
+  fs::current_path(folder.path());
+  const fs::path found = config::FindScenario("park");
+  fs::current_path(before);
+  EXPECT_EQ(found.filename(), "park.yaml") << found;
 }
 
 }  // namespace
