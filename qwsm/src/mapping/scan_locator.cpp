@@ -113,7 +113,9 @@ struct Task {
     const auto as_told = Search(predicted.learned, options.window_sigmas);
     const bool has_slipped =
         !as_told || (found && found->score > as_told->score + options.slip_gain);
-    return has_slipped ? match : Match(as_told, predicted.learned);
+    if (has_slipped) return match;
+    const MatchResult undragged = Match(as_told, predicted.learned);
+    return undragged.status == MatchStatus::kConverged ? undragged : match;
   }
 
   bool ContradictsGoodOdometry(const MatchResult& match) const {
