@@ -147,6 +147,31 @@ TEST(WeightedScanMatcher, LeavesAlongACorridorToThePrior) {
   EXPECT_LT(std::sqrt(result.covariance(2, 2)), 0.01);
 }
 
+// The mean of what a laser sees of a trunk lies behind its bark. Compared with single points it
+// would pull every scan ahead, by the same way each time.
+TEST(WeightedScanMatcher, RoundTrunksDoNotPullAhead) {
+  World trunks;
+  for (const double bearing_rad : {-0.9, -0.5, -0.2, 0.1, 0.4, 0.8}) {
+    trunks.columns.push_back(
+        {.center_m = 4.0 * Eigen::Vector2d(std::cos(bearing_rad), std::sin(bearing_rad)),
+         .radius_m = 0.2});
+  }
+  Random random(5);
+  ScanMap map;
+  for (int i = 0; i < 5; ++i) {
+    const LaserScan scan = Measure({}, trunks, {}, random);
+    map.Insert(scan, ToPoints(scan), {});
+  }
+  constexpr int kScans = 40;
+  double ahead_m = 0.0;
+  for (int i = 0; i < kScans; ++i) {
+    const MatchResult result = Match(map, Measure({}, trunks, {}, random), WeakPriorAt({}));
+    ASSERT_EQ(result.status, MatchStatus::kConverged);
+    ahead_m += result.T_ref_cur.x_m / kScans;
+  }
+  EXPECT_NEAR(ahead_m, 0.0, 0.002);
+}
+
 TEST(WeightedScanMatcher, SaysThatThereIsNothingToMatch) {
   const TwoScans scans(1);
   const ScanMap far = MapOf(scans.ref, {100.0, 100.0, 0.0});
