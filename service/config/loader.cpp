@@ -99,6 +99,13 @@ std::string UnknownOption(const std::string& name,
   return "unknown option here; did you mean '" + namesakes.front() + "'?";
 }
 
+// What cannot be resolved is left as it is: reading it tells what is wrong with it.
+fs::path Resolved(const fs::path& file) {
+  std::error_code error;
+  const fs::path resolved = fs::weakly_canonical(file, error);
+  return error ? file : resolved;
+}
+
 }  // namespace
 
 void Loader::ReadFile(const fs::path& file) { Include(file, {.source = file.string()}); }
@@ -106,9 +113,9 @@ void Loader::ReadFile(const fs::path& file) { Include(file, {.source = file.stri
 void Loader::Include(const fs::path& file, const Location& from) {
   const bool is_included = !open_files_.empty();
   const std::string who = is_included ? "'" + file.string() + "' " : std::string();
-  const fs::path canonical = fs::weakly_canonical(file);
+  const fs::path resolved = Resolved(file);
   const bool is_open = std::ranges::any_of(
-      open_files_, [&](const fs::path& open) { return fs::weakly_canonical(open) == canonical; });
+      open_files_, [&](const fs::path& open) { return Resolved(open) == resolved; });
   if (is_open) return Report(from, std::string(kBaseKey), who + "includes itself");
   if (open_files_.size() >= kMaxIncludes) {
     return Report(from, std::string(kBaseKey), "more than 16 files include each other");
