@@ -140,26 +140,41 @@ TEST_F(DdsSlam6d, SurvivorOfTwoServicesTakesOverTheRobot) {
   const dds::Participant participant(Network());
   dds::RegistrationReportReader reports(participant, {"robot1"});
   while (!reports.has_writer()) reports.Take(10ms);
-  Daemon second(network_.JoinService({"serve"}), "slam6d");
+  Daemon second(network_.JoinService({"serve", "--verbose"}), "slam6d");
   dds::CloudRobotPublisher robot(
       participant, dds::RobotNames("robot1"), dds::OdometryUse::kPublished);
   ASSERT_TRUE(robot.WaitForListener({}, 10s));
   auto stamp = 0s;
-  const auto drive_until_answered = [&] {
-    std::size_t answers = 0;
-    for (int scan = 0; scan < 300 && answers == 0; ++scan) {
-      EXPECT_TRUE(
-          robot.Publish({.scan = {.stamp = ++stamp, .cloud = drive_.scans[0], .T_robot_sensor = {}},
-                         .T_odom_robot = drive_.T_odom_scan[0]}));
-      answers = reports.Take(100ms).size();
-    }
-    return answers;
+  const auto answers_to_one_more = [&] {
+    EXPECT_TRUE(
+        robot.Publish({.scan = {.stamp = ++stamp, .cloud = drive_.scans[0], .T_robot_sensor = {}},
+                       .T_odom_robot = drive_.T_odom_scan[0]}));
+    return reports.Take(100ms).size();
   };
-  EXPECT_EQ(drive_until_answered(), 1U);
+  const auto drive_until = [](const auto& is_reached) {
+    for (int scan = 0; scan < 300; ++scan) {
+      if (is_reached()) return true;
+    }
+    return false;
+  };
+  // Time enough for the second service to find the robot, and to leave it to the first one.
+  std::size_t answers = 0;
+  ASSERT_TRUE(drive_until([&] { return (answers += answers_to_one_more()) >= 20; }));
+  const auto times_told = [&](const std::string& what) {
+    const std::string errors = second.ErrorsSoFar();
+    int times = 0;
+    for (auto at = errors.find(what); at != std::string::npos; at = errors.find(what, at + 1)) {
+      ++times;
+    }
+    return times;
+  };
+  const int joined_before = times_told("robot1: joined");
+  EXPECT_EQ(joined_before, times_told("robot1: is answered by another service"));
   first.End(SIGKILL);
   while (!reports.Take(100ms).empty()) continue;
   // Nothing tells of the death but its silence, for ten seconds.
-  EXPECT_EQ(drive_until_answered(), 1U) << second.ErrorsSoFar();
+  ASSERT_TRUE(drive_until([&] { return answers_to_one_more() > 0; })) << second.ErrorsSoFar();
+  EXPECT_EQ(times_told("robot1: joined"), joined_before + 1) << second.ErrorsSoFar();
   const Outcome survivor = second.End();
   EXPECT_NE(survivor.output.find("robot1"), std::string::npos) << survivor.output;
 }
