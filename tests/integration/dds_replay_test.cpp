@@ -10,6 +10,7 @@
 
 #include "service/io/trajectory_file.hpp"
 #include "tests/support/network.hpp"
+#include "tests/support/replay.hpp"
 
 namespace qwsm::test {
 namespace {
@@ -32,14 +33,7 @@ class DdsReplay : public ::testing::Test {
 };
 
 TEST_F(DdsReplay, GivesThePathOfTheLogBitForBit) {
-  Daemon service(network_.JoinService({"serve", "--output", Path("served")}));
-  const Outcome replay = network_.Run({"replay", Log(), "--rate", "max"});
-  ASSERT_EQ(replay.exit_code, 0) << replay.errors;
-  const Outcome served = service.End();
-  EXPECT_EQ(served.exit_code, 0) << served.errors;
-
-  const Outcome mapped = RunProgram({"map", Log(), "--output", Path("mapped")});
-  ASSERT_EQ(mapped.exit_code, 0) << mapped.errors;
+  ASSERT_NO_FATAL_FAILURE(MapOverNetworkAndFromFile(network_, Log(), folder_.path()));
   const std::string expected = ReadFile(Path("mapped/trajectory.tum"));
   ASSERT_GT(expected.size(), 10'000U);
   EXPECT_TRUE(ReadFile(Path("served/trajectory.tum")) == expected);

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "tests/support/network.hpp"
+#include "tests/support/replay.hpp"
 
 namespace qwsm::test {
 namespace {
@@ -26,14 +27,7 @@ class RecordedReplay : public ::testing::TestWithParam<const char*> {
 
 TEST_P(RecordedReplay, GivesThePathAndTheMapOfTheLogBitForBit) {
   if (!std::filesystem::exists(Log())) GTEST_SKIP() << Log() << " is not here";
-  Daemon service(network_.JoinService({"serve", "--output", Path("served")}));
-  const Outcome replay = network_.Run({"replay", Log(), "--rate", "max"});
-  ASSERT_EQ(replay.exit_code, 0) << replay.errors;
-  const Outcome served = service.End();
-  EXPECT_EQ(served.exit_code, 0) << served.errors;
-
-  const Outcome mapped = RunProgram({"map", Log(), "--output", Path("mapped")});
-  ASSERT_EQ(mapped.exit_code, 0) << mapped.errors;
+  ASSERT_NO_FATAL_FAILURE(MapOverNetworkAndFromFile(network_, Log(), folder_.path()));
   for (const char* file : {"trajectory.tum", "map.pgm", "map.yaml"}) {
     const std::string expected = ReadFile(Path("mapped") + "/" + file);
     ASSERT_FALSE(expected.empty()) << file;

@@ -19,17 +19,12 @@ LikelihoodWindow::LikelihoodWindow(const LikelihoodPyramid& pyramid,
       tiles_{(high.x >> Tile::kBits) - first_tile_.x + 1,
              (high.y >> Tile::kBits) - first_tile_.y + 1} {
   for (int level = 0; level < LikelihoodPyramid::kLevels; ++level) {
-    planes_.push_back(PlaneOf(level));
+    planes_.emplace_back(Tile::SideAt(level), tiles_);
   }
-  ForEachTile(pyramid, [&](const Tile* tile, int column, int row) {
+  ForEachTile(pyramid, [&](const Tile* tile, GridCell at) {
     for (int level = 0; level < LikelihoodPyramid::kLevels; ++level) {
-      Plane& plane = planes_[static_cast<std::size_t>(level)];
-      const int side = Tile::SideAt(level);
-      if (tile != nullptr) {
-        plane.Copy(tile->likelihoods(level), side, column, row);
-      } else {
-        plane.Fill(0, side, column, row);
-      }
+      planes_[static_cast<std::size_t>(level)].Place(
+          tile == nullptr ? nullptr : tile->likelihoods(level), 0, at);
     }
   });
   if (max_drift_code != LikelihoodPyramid::kUnmapped) ForgetDrifted(pyramid, max_drift_code);
@@ -39,7 +34,7 @@ template <class Visit>
 void LikelihoodWindow::ForEachTile(const LikelihoodPyramid& pyramid, Visit visit) const {
   for (int row = 0; row < tiles_.y; ++row) {
     for (int column = 0; column < tiles_.x; ++column) {
-      visit(pyramid.FindTile(first_tile_.x + column, first_tile_.y + row), column, row);
+      visit(pyramid.FindTile(first_tile_.x + column, first_tile_.y + row), GridCell{column, row});
     }
   }
 }
@@ -49,14 +44,11 @@ void LikelihoodWindow::ForgetDrifted(const LikelihoodPyramid& pyramid,
                                      std::uint8_t max_drift_code) {
   for (int level = 0; level < LikelihoodPyramid::kLevels; ++level) {
     const int drift_level = std::max(level, Tile::kFirstDriftLevel);
-    Plane drift = PlaneOf(drift_level);
-    ForEachTile(pyramid, [&](const Tile* tile, int column, int row) {
-      const int side = Tile::SideAt(drift_level);
-      if (tile != nullptr) {
-        drift.Copy(tile->drift_codes(drift_level), side, column, row);
-      } else {
-        drift.Fill(LikelihoodPyramid::kUnmapped, side, column, row);
-      }
+    Plane drift(Tile::SideAt(drift_level), tiles_);
+    ForEachTile(pyramid, [&](const Tile* tile, GridCell at) {
+      drift.Place(tile == nullptr ? nullptr : tile->drift_codes(drift_level),
+                  LikelihoodPyramid::kUnmapped,
+                  at);
     });
     // Drift cells that hold the level-0 cells a cell is the maximum over.
     const auto first_of = [&](int cell) { return (cell << level) >> drift_level; };
@@ -75,19 +67,16 @@ void LikelihoodWindow::ForgetDrifted(const LikelihoodPyramid& pyramid,
   }
 }
 
-LikelihoodWindow::Plane LikelihoodWindow::PlaneOf(int level) const {
-  return {tiles_.x * Tile::SideAt(level), tiles_.y * Tile::SideAt(level)};
-}
-
-// Puts the rows of a tile in their place.
-void LikelihoodWindow::Plane::Copy(const std::uint8_t* tile, int side, int column, int row) {
-  for (int y = 0; y < side; ++y)
-    std::copy_n(tile + y * side, side, &At(column * side, row * side + y));
-}
-
-// What there is where no tile is.
-void LikelihoodWindow::Plane::Fill(std::uint8_t value, int side, int column, int row) {
-  for (int y = 0; y < side; ++y) std::fill_n(&At(column * side, row * side + y), side, value);
+// Puts the rows of a tile in their place, or one value where there is no tile.
+void LikelihoodWindow::Plane::Place(const std::uint8_t* tile, std::uint8_t otherwise, GridCell at) {
+  for (int y = 0; y < side; ++y) {
+    std::uint8_t* const row = &At(at.x * side, at.y * side + y);
+    if (tile != nullptr) {
+      std::copy_n(tile + y * side, side, row);
+    } else {
+      std::fill_n(row, side, otherwise);
+    }
+  }
 }
 
 // Of the cells low .. high that the plane has.

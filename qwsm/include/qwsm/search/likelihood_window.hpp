@@ -39,19 +39,20 @@ class LikelihoodWindow {
  private:
   // All cells of one level, row after row.
   struct Plane {
-    // Not filled yet.
-    Plane(int columns, int rows)
-        : width(columns),
-          height(rows),
-          cells(std::make_unique_for_overwrite<std::uint8_t[]>(static_cast<std::size_t>(columns) *
-                                                               static_cast<std::size_t>(rows))) {}
+    // Of so many tiles; not filled yet.
+    Plane(int tile_side, GridCell tiles)
+        : side(tile_side),
+          width(tiles.x * tile_side),
+          height(tiles.y * tile_side),
+          cells(std::make_unique_for_overwrite<std::uint8_t[]>(static_cast<std::size_t>(width) *
+                                                               static_cast<std::size_t>(height))) {}
 
     std::uint8_t At(int x, int y) const { return cells[static_cast<std::size_t>(y * width + x)]; }
     std::uint8_t& At(int x, int y) { return cells[static_cast<std::size_t>(y * width + x)]; }
-    void Copy(const std::uint8_t* tile, int side, int column, int row);
-    void Fill(std::uint8_t value, int side, int column, int row);
+    void Place(const std::uint8_t* tile, std::uint8_t otherwise, GridCell at);
     std::uint8_t Smallest(GridCell low, GridCell high) const;
 
+    int side;  // Of a tile.
     int width;
     int height;
     std::unique_ptr<std::uint8_t[]> cells;
@@ -60,7 +61,6 @@ class LikelihoodWindow {
   template <class Visit>
   void ForEachTile(const LikelihoodPyramid& pyramid, Visit visit) const;
   void ForgetDrifted(const LikelihoodPyramid& pyramid, std::uint8_t max_drift_code);
-  Plane PlaneOf(int level) const;
 
   GridCell first_tile_;        // Column and row,
   GridCell tiles_;             // and how many columns and rows.
