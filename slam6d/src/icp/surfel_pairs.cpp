@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "slam6d/src/icp/held_motions.hpp"
 #include "slam6d/src/parallel.hpp"
@@ -22,9 +23,17 @@ constexpr double kMinNormalCosine = 0.8;
 /// no better known.
 constexpr double kGrazingSine = 0.05;
 
-/// The scale of the residuals starts at half the maximum distance and shrinks to its final value by
-/// this factor per iteration: true pairs look like outliers while the guess is poor.
+/// The scale of the residuals starts at this share of the maximum distance and shrinks by the
+/// factor per iteration: true pairs look like outliers while the guess is poor.
+constexpr double kFirstScaleShare = 0.5;
 constexpr double kScaleShrink = 0.6;
+
+/// It ends no lower than so many times the deviation of most residuals: among trees surfels agree
+/// to centimetres only, and a narrower scale holds on to the few that agree by chance.
+constexpr double kScaleDeviations = 4.0;
+
+/// Standard deviation of a normal distribution over the median of its absolute values.
+constexpr double kDeviationPerMedian = 1.4826;
 
 /// This share of the squared scale joins the variance of each pair: while the scale is wide,
 /// surfels count alike; in the end each counts by its own scatter.
@@ -32,6 +41,8 @@ constexpr double kScaleShare = 0.04;
 
 /// Normals better known than this do not exist: keeps their noise regular.
 constexpr double kLeastNormalVariance = 1e-8;
+
+constexpr double kUnpaired = std::numeric_limits<double>::quiet_NaN();
 
 using Matrix6x3 = Eigen::Matrix<double, 6, 3>;
 
@@ -48,6 +59,19 @@ PointCloud MeansOf(const SurfelMap& map) {
   means.reserve(map.surfels.size());
   for (const Surfel& surfel : map.surfels) means.push_back(surfel.mean_m);
   return means;
+}
+
+/// The standard deviation of most of the residuals, without the outliers among them.
+double MostDeviateBy(std::span<const double> residuals_of_points_m) {
+  std::vector<double> residuals_m;
+  residuals_m.reserve(residuals_of_points_m.size());
+  for (const double residual_m : residuals_of_points_m) {
+    if (!std::isnan(residual_m)) residuals_m.push_back(std::abs(residual_m));
+  }
+  if (residuals_m.empty()) return 0.0;
+  const auto middle = residuals_m.begin() + static_cast<std::ptrdiff_t>(residuals_m.size() / 2);
+  std::nth_element(residuals_m.begin(), middle, residuals_m.end());
+  return kDeviationPerMedian * *middle;
 }
 
 /// Whether the current scanner sees the back of what the reference's own scanner saw: of a wall
@@ -95,9 +119,12 @@ SurfelPairs::SurfelPairs(const ScanModel& ref, const ScanModel& cur, const IcpOp
       search_(ref.tree,
               cur_.size(),
               {.max_distance_m = options.max_distance_m, .start = options.search}),
-      cur_ref_(cur_.size()) {}
+      cur_ref_(cur_.size()),
+      residuals_m_(cur_.size(), kUnpaired),
+      scale_m_(kFirstScaleShare * options.max_distance_m) {}
 
-void SurfelPairs::AddPair(const Rules& rules, std::size_t i, NormalEquations& equations) const {
+void SurfelPairs::AddPair(const Rules& rules, std::size_t i, NormalEquations& equations) {
+  residuals_m_[i] = kUnpaired;
   if (!search_.found(i)) return;
   const std::int32_t number = ref_.surfel_of_block[search_.neighbor_slot(i) / kLanes];
   if (number == SurfelMap::kNone) return;
@@ -119,6 +146,7 @@ void SurfelPairs::AddPair(const Rules& rules, std::size_t i, NormalEquations& eq
   const Eigen::Vector3d point_m = cur_ref_[i];
   const Eigen::Vector3d offset_m = ref.mean_m - point_m;
   const double residual_m = normal.dot(offset_m);
+  residuals_m_[i] = residual_m;
   variance_m2 += offset_m.dot(C * offset_m) + kScaleShare * rules.scale2_m2;
   // Geman & McClure (1987): weight (1 + r^2 / s^2)^-2.
   const double outlier = 1.0 + residual_m * residual_m / rules.scale2_m2;
@@ -137,16 +165,24 @@ void SurfelPairs::AddPair(const Rules& rules, std::size_t i, NormalEquations& eq
   ++equations.pairs;
 }
 
-NormalEquations SurfelPairs::Sum(const Rules& rules, std::size_t first, std::size_t last) const {
+NormalEquations SurfelPairs::Sum(const Rules& rules, std::size_t first, std::size_t last) {
   NormalEquations equations;
   for (std::size_t i = first; i < last; ++i) AddPair(rules, i, equations);
   return equations;
 }
 
+/// @return whether the scale has changed.
+bool SurfelPairs::ShrinkScale() {
+  const double before_m = scale_m_;
+  const double least_m =
+      std::max(options_.residual_scale_m, kScaleDeviations * MostDeviateBy(residuals_m_));
+  scale_m_ = std::min(before_m, std::max(least_m, kScaleShrink * before_m));
+  return scale_m_ < before_m;
+}
+
 NormalEquations SurfelPairs::Collect(const Pose3& T_ref_cur, int iteration) {
-  const double wide_m = 0.5 * options_.max_distance_m * std::pow(kScaleShrink, iteration - 1);
-  const double scale_m = std::max(options_.residual_scale_m, wide_m);
-  const Rules rules{.T_ref_cur = T_ref_cur, .scale2_m2 = scale_m * scale_m};
+  const bool settled = iteration > 1 && !ShrinkScale();
+  const Rules rules{.T_ref_cur = T_ref_cur, .scale2_m2 = scale_m_ * scale_m_};
   const std::size_t chunks = (cur_.size() + kChunkSize - 1) / kChunkSize;
   std::vector<NormalEquations> sums(chunks);
   std::vector<SearchStatistics> statistics(chunks);
@@ -159,7 +195,7 @@ NormalEquations SurfelPairs::Collect(const Pose3& T_ref_cur, int iteration) {
   for (const SearchStatistics& part : statistics) statistics_ += part;
   NormalEquations total;
   for (const NormalEquations& part : sums) total += part;
-  total.settled = wide_m <= options_.residual_scale_m;
+  total.settled = settled;
   information_ = total.A;
   return total;
 }

@@ -47,8 +47,9 @@ class SurfelPairs {
     double scale2_m2;  ///< Residuals well above it lose their weight.
   };
 
-  NormalEquations Sum(const Rules& rules, std::size_t first, std::size_t last) const;
-  void AddPair(const Rules& rules, std::size_t i, NormalEquations& equations) const;
+  bool ShrinkScale();
+  NormalEquations Sum(const Rules& rules, std::size_t first, std::size_t last);
+  void AddPair(const Rules& rules, std::size_t i, NormalEquations& equations);
 
   const SurfelMap& ref_;
   const SurfelMap* cur_surfels_;  ///< None for points.
@@ -56,6 +57,8 @@ class SurfelPairs {
   PointCloud cur_;
   CachedSearch search_;
   PointCloud cur_ref_;
+  std::vector<double> residuals_m_;  ///< Of the current points in the last iteration, or NaN.
+  double scale_m_;                   ///< Residuals well above it lose their weight.
   Matrix6d information_ = Matrix6d::Zero();
   SearchStatistics statistics_;
 };

@@ -25,6 +25,10 @@ constexpr double kReachFactor = 2.0;
 /// On the way round a loop more error gathers than from one scan to the next.
 constexpr double kLoopSearchFactor = 2.0;
 
+/// Where planes failed, points are first paired so many times farther off than else: a turn of 15
+/// degrees moves what is 5 m away by more than the usual pair is long, and ICP stops on the way.
+constexpr double kWidePairsFactor = 3.0;
+
 Matrix6d CovarianceOf(double sigma_m, double sigma_rad) {
   Vector6d variances;
   variances << Eigen::Vector3d::Constant(sigma_m * sigma_m),
@@ -126,6 +130,14 @@ SlamStep Slam::Add(const PointCloud& scan, const Pose3& T_odom_scan) {
   return step;
 }
 
+std::vector<IcpReference> Slam::ModelsOf(std::span<const std::size_t> scans) const {
+  std::vector<IcpReference> models;
+  for (const std::size_t scan : scans) {
+    models.push_back({.model = &entries_[scan]->model, .T_map_ref = graph_.T_map_scan[scan]});
+  }
+  return models;
+}
+
 /// Paper sections 3.2 and 3.3. ICP comes first here, and the octrees are asked for a better guess
 /// only where it does not convince: they cost four times as much as all the rest of a scan
 /// (`slam6d register --set slam.guess.needed_below=1` asks them every time).
@@ -133,13 +145,10 @@ Slam::Registration Slam::Register(std::span<const std::size_t> references,
                                   const Entry& cur,
                                   const Pose3& T_map_cur_guess,
                                   const OverlapOptions& search,
-                                  IcpMetric metric) const {
-  IcpOptions icp = options_.icp;
-  icp.metric = metric;
-  std::vector<IcpReference> models;
+                                  const IcpOptions& icp) const {
+  const std::vector<IcpReference> models = ModelsOf(references);
   std::vector<OverlapReference> cubes;
   for (const std::size_t scan : references) {
-    models.push_back({.model = &entries_[scan]->model, .T_map_ref = graph_.T_map_scan[scan]});
     cubes.push_back({.model = &entries_[scan]->overlap, .T_map_ref = graph_.T_map_scan[scan]});
   }
   const auto align = [&](const Pose3& T_map_cur) {
@@ -165,11 +174,18 @@ Slam::Registration Slam::RegisterByPoints(std::span<const std::size_t> reference
                                           Entry& cur,
                                           const Pose3& T_map_cur_guess,
                                           const Registration& by_planes) const {
-  const Registration by_points =
-      Register(references, cur, T_map_cur_guess, options_.guess, IcpMetric::kPointToPoint);
+  IcpOptions icp = options_.icp;
+  icp.metric = IcpMetric::kPointToPoint;
+  icp.max_distance_m *= kWidePairsFactor;
+  const IcpResult coarse = Align(ModelsOf(references), cur.model, T_map_cur_guess, icp);
+  const Pose3 T_map_cur = IsWithinReach(T_map_cur_guess, coarse.T_ref_cur, options_.guess)
+                              ? coarse.T_ref_cur
+                              : T_map_cur_guess;
+  icp.max_distance_m = options_.icp.max_distance_m;
+  const Registration by_points = Register(references, cur, T_map_cur, options_.guess, icp);
   if (!by_points.trusted) return by_planes;
   const Registration again =
-      Register(references, cur, by_points.icp.T_ref_cur, options_.guess, cur.metric);
+      Register(references, cur, by_points.icp.T_ref_cur, options_.guess, options_.icp);
   if (again.trusted && again.overlap > by_points.overlap) return again;
   cur.metric = IcpMetric::kPointToPoint;
   return by_points;
@@ -189,8 +205,8 @@ void Slam::Match(Entry& entry, SlamStep& step) {
     step.status = SlamStatus::kFirst;
     return;
   }
-  Registration match = Register(references, entry, step.T_map_scan, options_.guess, entry.metric);
-  if (!match.trusted && entry.metric != IcpMetric::kPointToPoint) {
+  Registration match = Register(references, entry, step.T_map_scan, options_.guess, options_.icp);
+  if (!match.trusted && options_.icp.metric != IcpMetric::kPointToPoint) {
     match = RegisterByPoints(references, entry, step.T_map_scan, match);
   }
   step.match = match.icp;
@@ -228,10 +244,12 @@ void Slam::CloseLoops(SlamStep& step) {
   const std::size_t scan = entries_.size() - 1;
   const Entry& cur = *entries_[scan];
   const OverlapOptions search = Widened(options_.guess, kLoopSearchFactor);
+  IcpOptions icp = options_.icp;
+  icp.metric = cur.metric;
   for (const std::size_t earlier : LoopHypotheses(graph_.T_map_scan, cur.range_m, options_.loop)) {
     if (!entries_[earlier]) continue;
     const Registration match =
-        Register(std::span(&earlier, 1), cur, graph_.T_map_scan[scan], search, cur.metric);
+        Register(std::span(&earlier, 1), cur, graph_.T_map_scan[scan], search, icp);
     if (!match.trusted || match.overlap < options_.loop.min_overlap) continue;
     Constrain(earlier, scan, {match.icp.T_ref_cur, CovarianceOf(match.icp)});
     const Matrix6d covariance = ByLastConstraint().covariance;

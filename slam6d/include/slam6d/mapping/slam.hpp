@@ -112,11 +112,12 @@ class Slam {
     bool trusted = false;
   };
 
+  std::vector<IcpReference> ModelsOf(std::span<const std::size_t> scans) const;
   Registration Register(std::span<const std::size_t> references,
                         const Entry& cur,
                         const Pose3& T_map_cur_guess,
                         const OverlapOptions& search,
-                        IcpMetric metric) const;
+                        const IcpOptions& icp) const;
   Registration RegisterByPoints(std::span<const std::size_t> references,
                                 Entry& cur,
                                 const Pose3& T_map_cur_guess,
