@@ -2,13 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/team/stamp_guard.hpp"
 
+#include <algorithm>
+
 namespace qwsm::team {
+
+std::chrono::nanoseconds StampGuard::SystemTime() {
+  return std::chrono::system_clock::now().time_since_epoch();
+}
 
 StampVerdict StampGuard::Judge(std::chrono::nanoseconds stamp) {
   if (recent_.contains(stamp)) return StampVerdict::kDuplicate;
   if (!recent_.empty()) {
     const std::chrono::nanoseconds newest = *recent_.rbegin();
-    if (stamp <= newest - kMaxDelay || stamp > newest + kMaxPause) return Doubt(stamp);
+    const bool is_ahead = stamp > std::max(newest, now_()) + kMaxAhead;
+    if (stamp <= newest - kMaxDelay || is_ahead) return Doubt(stamp);
     if (stamp < newest) {
       Remember(stamp);
       return StampVerdict::kLate;
@@ -21,7 +28,7 @@ StampVerdict StampGuard::Judge(std::chrono::nanoseconds stamp) {
 
 StampVerdict StampGuard::Doubt(std::chrono::nanoseconds stamp) {
   const bool follows =
-      wrong_in_order_ > 0 && stamp > last_wrong_ && stamp <= last_wrong_ + kMaxPause;
+      wrong_in_order_ > 0 && stamp > last_wrong_ && stamp <= last_wrong_ + kMaxAhead;
   wrong_in_order_ = follows ? wrong_in_order_ + 1 : 1;
   last_wrong_ = stamp;
   if (wrong_in_order_ < kConfirmations) return StampVerdict::kWrongTime;

@@ -20,20 +20,30 @@ enum class StampVerdict {
 /// Watches the stamps of one sender. What is of a wrong time is to be refused; but when several
 /// messages in a row, in order among themselves, are, then it is the clock that was wrong, before
 /// or now, and from then on the new time counts.
+///
+/// A log is played back with its own stamps and may pause for as long as it likes: all of it is
+/// past. From the future is what is newer than both this machine's time and all before.
 class StampGuard {
  public:
+  using Clock = std::chrono::nanoseconds (*)();  ///< Time since 1970.
+
   static constexpr std::chrono::nanoseconds kMaxDelay = std::chrono::seconds(1);
-  /// Nobody pauses for longer, and logs neither: what is newer by more is from the future.
-  static constexpr std::chrono::nanoseconds kMaxPause = std::chrono::hours(1);
+  /// By how much clocks may differ, and messages of a wrong time that follow each other be apart.
+  static constexpr std::chrono::nanoseconds kMaxAhead = std::chrono::hours(1);
   static constexpr int kConfirmations = 3;
   static constexpr std::size_t kRemembered = 64;  ///< Stamps, to know duplicates by.
+
+  explicit StampGuard(Clock now = SystemTime) : now_(now) {}
 
   StampVerdict Judge(std::chrono::nanoseconds stamp);
 
  private:
+  static std::chrono::nanoseconds SystemTime();
+
   StampVerdict Doubt(std::chrono::nanoseconds stamp);
   void Remember(std::chrono::nanoseconds stamp);
 
+  Clock now_;
   std::set<std::chrono::nanoseconds> recent_;  // The newest ones.
   std::chrono::nanoseconds last_wrong_{};
   int wrong_in_order_ = 0;

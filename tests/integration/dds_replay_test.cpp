@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,17 @@ class DdsReplay : public ::testing::Test {
   std::string Log() const { return Path("two-rooms.log"); }
   std::string Path(const char* name) const { return folder_.path() / name; }
 
+  /// The log as if the last 15 of its 114 seconds had been driven two hours later.
+  std::string LogWithPause() const {
+    const std::string stamp = " 10000001";  // ..00 to ..14, in seconds; the log starts at 1e9.
+    std::string text = ReadFile(Log());
+    for (std::size_t at = 0; (at = text.find(stamp, at)) != std::string::npos;) {
+      text.replace(at, stamp.size(), " 10000073");
+    }
+    std::ofstream(Path("pause.log"), std::ios::binary) << text;
+    return Path("pause.log");
+  }
+
   TemporaryFolder folder_;
   PrivateNetwork network_;
 };
@@ -38,6 +50,13 @@ TEST_F(DdsReplay, GivesThePathOfTheLogBitForBit) {
   ASSERT_GT(expected.size(), 10'000U);
   EXPECT_TRUE(ReadFile(Path("served/trajectory.tum")) == expected);
   EXPECT_TRUE(fs::exists(Path("served/map.png")));
+}
+
+TEST_F(DdsReplay, LosesNoScanAfterAPauseOfHours) {
+  ASSERT_NO_FATAL_FAILURE(MapOverNetworkAndFromFile(network_, LogWithPause(), folder_.path()));
+  const std::string expected = ReadFile(Path("mapped/trajectory.tum"));
+  ASSERT_NE(expected.find("\n1000007300"), std::string::npos);
+  EXPECT_TRUE(ReadFile(Path("served/trajectory.tum")) == expected);
 }
 
 TEST_F(DdsReplay, IsHeardPoseByPose) {

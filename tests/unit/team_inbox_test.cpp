@@ -19,7 +19,11 @@ namespace {
 using std::chrono::hours;
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
+using std::chrono::minutes;
 using std::chrono::seconds;
+
+/// This machine's time, in a test.
+std::chrono::nanoseconds HalfPastTen() { return hours(10) + minutes(30); }
 
 TEST(StampGuard, TellsDuplicatesAndOvertakenMessagesApart) {
   StampGuard guard;
@@ -48,7 +52,7 @@ TEST(StampGuard, FollowsAClockThatWasSetBack) {
 }
 
 TEST(StampGuard, RefusesOneStampFromTheFutureAndGoesOn) {
-  StampGuard guard;
+  StampGuard guard(HalfPastTen);
   guard.Judge(seconds(1));
   EXPECT_EQ(guard.Judge(hours(100'000)), StampVerdict::kWrongTime);
   EXPECT_EQ(guard.Judge(milliseconds(1100)), StampVerdict::kInOrder);
@@ -56,8 +60,17 @@ TEST(StampGuard, RefusesOneStampFromTheFutureAndGoesOn) {
   EXPECT_EQ(guard.Judge(milliseconds(1200)), StampVerdict::kInOrder);
 }
 
+TEST(StampGuard, TakesAPauseInALogForNoFuture) {
+  StampGuard guard(HalfPastTen);
+  guard.Judge(seconds(1));
+  EXPECT_EQ(guard.Judge(hours(3)), StampVerdict::kInOrder);
+  EXPECT_EQ(guard.Judge(hours(3) + milliseconds(100)), StampVerdict::kInOrder);
+  EXPECT_EQ(guard.Judge(hours(11)), StampVerdict::kInOrder);  // Clocks differ.
+  EXPECT_EQ(guard.Judge(hours(12) + milliseconds(100)), StampVerdict::kWrongTime);
+}
+
 TEST(StampGuard, FollowsAClockThatWasSetForward) {
-  StampGuard guard;
+  StampGuard guard(HalfPastTen);
   guard.Judge(seconds(1));
   EXPECT_EQ(guard.Judge(hours(100'000)), StampVerdict::kWrongTime);
   EXPECT_EQ(guard.Judge(hours(100'000) + milliseconds(100)), StampVerdict::kWrongTime);

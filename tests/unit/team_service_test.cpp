@@ -112,7 +112,9 @@ TEST(TeamService, RefusesAndCountsDuplicatesWrongTimesAndMalformedScans) {
   EXPECT_TRUE(service.TakeScan("robot1", scan));
   EXPECT_FALSE(service.TakeScan("robot1", scan));
   EXPECT_FALSE(service.TakeScan("robot1", test::ObservationInRoom(5).scan));
-  EXPECT_FALSE(service.TakeScan("robot1", test::ObservationInRoom(100'000).scan));
+  LaserScan future = test::ObservationInRoom(19).scan;
+  future.stamp = std::chrono::system_clock::now().time_since_epoch() + std::chrono::hours(2);
+  EXPECT_FALSE(service.TakeScan("robot1", future));
   LaserScan malformed = test::ObservationInRoom(19).scan;
   malformed.geometry.bearing_step_rad = std::numeric_limits<float>::quiet_NaN();
   EXPECT_FALSE(service.TakeScan("robot1", malformed));
