@@ -7,9 +7,10 @@
 
 #include <array>
 #include <cmath>
-#include <cstring>
+#include <deque>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "service/io/atomic_file.hpp"
 #include "service/io/png_writer.hpp"
@@ -62,19 +63,12 @@ void TraceRectangle(cairo_t* context, const Rectangle& rectangle) {
   cairo_rectangle(context, corner_px.x(), corner_px.y(), size_px.x(), size_px.y());
 }
 
-PixelImage PixelsOf(cairo_surface_t* surface) {
+PixelRows RowsOf(cairo_surface_t* surface) {
   cairo_surface_flush(surface);
-  PixelImage image{.width_px = cairo_image_surface_get_width(surface),
-                   .height_px = cairo_image_surface_get_height(surface),
-                   .pixels = {}};
-  const auto width = static_cast<std::size_t>(image.width_px);
-  image.pixels.resize(width * static_cast<std::size_t>(image.height_px));
-  const unsigned char* row = cairo_image_surface_get_data(surface);
-  for (std::size_t at = 0; at < image.pixels.size(); at += width) {
-    std::memcpy(&image.pixels[at], row, width * sizeof(std::uint32_t));
-    row += cairo_image_surface_get_stride(surface);
-  }
-  return image;
+  return {.width_px = cairo_image_surface_get_width(surface),
+          .height_px = cairo_image_surface_get_height(surface),
+          .first = cairo_image_surface_get_data(surface),
+          .stride_bytes = cairo_image_surface_get_stride(surface)};
 }
 
 void Replay(cairo_surface_t* recording, cairo_surface_t* target) {
@@ -94,6 +88,22 @@ struct Canvas::Recording {
     context.reset(cairo_create(surface.get()));
   }
 
+  /// An image that was drawn: the recording refers to it.
+  struct DrawnImage {
+    explicit DrawnImage(PixelImage drawn)
+        : image(std::move(drawn)),
+          surface(cairo_image_surface_create_for_data(
+              reinterpret_cast<unsigned char*>(image.pixels.data()),
+              CAIRO_FORMAT_RGB24,
+              image.width_px,
+              image.height_px,
+              cairo_format_stride_for_width(CAIRO_FORMAT_RGB24, image.width_px))) {}
+
+    PixelImage image;
+    Surface surface;
+  };
+
+  std::deque<DrawnImage> images;
   Surface surface;
   Context context;
 };
@@ -146,19 +156,9 @@ void Canvas::StrokeLine(const Eigen::Vector2d& from_px,
   Stroke(points_px, style);
 }
 
-void Canvas::Draw(const PixelImage& image, const Eigen::Vector2d& corner_px) {
-  const Surface pixels(
-      cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width_px, image.height_px));
-  unsigned char* const bytes = cairo_image_surface_get_data(pixels.get());
-  const int stride = cairo_image_surface_get_stride(pixels.get());
-  const auto width = static_cast<std::size_t>(image.width_px);
-  for (int row = 0; row < image.height_px && bytes != nullptr; ++row) {
-    std::memcpy(bytes + static_cast<std::ptrdiff_t>(row) * stride,
-                image.pixels.data() + static_cast<std::size_t>(row) * width,
-                width * sizeof(std::uint32_t));
-  }
-  cairo_surface_mark_dirty(pixels.get());
-  cairo_set_source_surface(recording_->context.get(), pixels.get(), corner_px.x(), corner_px.y());
+void Canvas::Draw(PixelImage image, const Eigen::Vector2d& corner_px) {
+  cairo_surface_t* const pixels = recording_->images.emplace_back(std::move(image)).surface.get();
+  cairo_set_source_surface(recording_->context.get(), pixels, corner_px.x(), corner_px.y());
   cairo_paint(recording_->context.get());
 }
 
@@ -212,7 +212,7 @@ void Canvas::Save(const std::filesystem::path& path) const {
     const Surface pixels(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_px_, height_px_));
     Replay(recording_->surface.get(), pixels.get());
     ThrowIfFailed(cairo_surface_status(pixels.get()), path);
-    WritePng(file.stream(), PixelsOf(pixels.get()));
+    WritePng(file.stream(), RowsOf(pixels.get()));
     file.ThrowIfFailed();
   }
   file.Commit();

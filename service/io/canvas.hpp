@@ -75,7 +75,7 @@ class Canvas {
                   const Eigen::Vector2d& to_px,
                   const LineStyle& style);
   /// Its upper-left corner at `corner_px`, one pixel for one.
-  void Draw(const PixelImage& image, const Eigen::Vector2d& corner_px);
+  void Draw(PixelImage image, const Eigen::Vector2d& corner_px);
 
   /// `anchor_px` is on the text's middle line, where the alignment says.
   void Write(const std::string& text, const Eigen::Vector2d& anchor_px, const TextStyle& style);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "service/io/axis.hpp"
 
@@ -31,6 +33,8 @@ double WholeScale(double px_per_cell) {
 struct Span {
   int first = 0;
   int last = 0;
+
+  bool operator==(const Span&) const = default;
 };
 
 // For every pixel of a side, the cells under it, of `count` there are.
@@ -46,32 +50,51 @@ std::vector<Span> CellsUnder(int side_px, double px_per_cell, double offset_cell
   return cells;
 }
 
-CellState MostTelling(const OccupancyGrid& grid, const Span& columns, const Span& rows) {
-  CellState telling = CellState::kUnknown;
+// What the pixels of a row show, which lies over these rows of cells.
+std::vector<CellState> MostTelling(const OccupancyGrid& grid,
+                                   std::span<const Span> columns,
+                                   const Span& rows) {
+  std::vector<CellState> telling(columns.size(), CellState::kUnknown);
   for (int y = rows.first; y < rows.last; ++y) {
-    for (int x = columns.first; x < columns.last; ++x) {
-      telling = std::max(telling, grid.At(x, y));
+    for (std::size_t px = 0; px < columns.size(); ++px) {
+      for (int x = columns[px].first; x < columns[px].last; ++x) {
+        telling[px] = std::max(telling[px], grid.At(x, y));
+      }
     }
   }
   return telling;
 }
 
-// Where the pixels of one side lie in the grid of lines drawn below the map.
-struct Ruler {
-  std::vector<bool> is_odd;   // The square between lines that the pixel's middle is in.
-  std::vector<bool> is_line;  // The first pixel of a square, but for the first square.
+// Where a pixel of one side lies in the grid of lines drawn below the map.
+struct Place {
+  bool is_odd = false;   // The square between lines that its middle is in.
+  bool is_line = false;  // The first pixel of a square, but for the first square.
 };
 
-Ruler RulerOf(int side_px, double first_m, double m_per_px, double square_m) {
-  Ruler ruler;
+std::vector<Place> PlacesOf(int side_px, double first_m, double m_per_px, double square_m) {
+  std::vector<Place> places;
   long last = 0;
   for (int px = 0; px < side_px; ++px) {
     const long square = std::lround(std::floor((first_m + (px + 0.5) * m_per_px) / square_m));
-    ruler.is_odd.push_back(square % 2 != 0);
-    ruler.is_line.push_back(px > 0 && square != last);
+    places.push_back({.is_odd = square % 2 != 0, .is_line = px > 0 && square != last});
     last = square;
   }
-  return ruler;
+  return places;
+}
+
+std::uint32_t PixelOf(CellState state, const Place& column, const Place& row) {
+  static const std::uint32_t wall = ToPixel(kWall);
+  static const std::array free{ToPixel(kFree), ToPixel(kGridLine)};
+  static const std::array unknown{ToPixel(kUnknownDark), ToPixel(kUnknownLight)};
+  switch (state) {
+    case CellState::kOccupied:
+      return wall;
+    case CellState::kFree:
+      return free[row.is_line || column.is_line ? 1 : 0];
+    case CellState::kUnknown:
+      break;
+  }
+  return unknown[row.is_odd != column.is_odd ? 1 : 0];
 }
 
 }  // namespace
@@ -100,30 +123,23 @@ double MapView::grid_step_m() const {
 
 PixelImage RenderMap(const OccupancyGrid& grid, const MapView& view) {
   PixelImage image{.width_px = view.width_px(), .height_px = view.height_px(), .pixels = {}};
-  const auto width = static_cast<std::size_t>(image.width_px);
-  const auto height = static_cast<std::size_t>(image.height_px);
-  image.pixels.reserve(width * height);
   const double m_per_px = 1.0 / view.px_per_m();
   const double px_per_cell = view.px_per_m() * grid.cell_m;
   const Eigen::Vector2d low_map_m = view.ToMap({0.0, image.height_px});
   const Eigen::Vector2d offset_cells = (low_map_m - grid.origin_map_m) / grid.cell_m;
   const double step_m = view.grid_step_m();
-  const Ruler columns = RulerOf(image.width_px, low_map_m.x(), m_per_px, step_m);
-  const Ruler rows = RulerOf(image.height_px, low_map_m.y(), m_per_px, step_m);
+  const auto columns = PlacesOf(image.width_px, low_map_m.x(), m_per_px, step_m);
+  const auto rows = PlacesOf(image.height_px, low_map_m.y(), m_per_px, step_m);
   const auto cell_columns = CellsUnder(image.width_px, px_per_cell, offset_cells.x(), grid.width);
   const auto cell_rows = CellsUnder(image.height_px, px_per_cell, offset_cells.y(), grid.height);
-  const std::uint32_t wall = ToPixel(kWall);
-  const std::array free{ToPixel(kFree), ToPixel(kGridLine)};
-  const std::array unknown{ToPixel(kUnknownDark), ToPixel(kUnknownLight)};
 
-  for (std::size_t y = height; y-- > 0;) {
-    for (std::size_t x = 0; x < width; ++x) {
-      const CellState state = MostTelling(grid, cell_columns[x], cell_rows[y]);
-      const bool is_line = rows.is_line[y] || columns.is_line[x];
-      const bool is_light = columns.is_odd[x] != rows.is_odd[y];
-      image.pixels.push_back(state == CellState::kOccupied ? wall
-                             : state == CellState::kFree   ? free[is_line ? 1 : 0]
-                                                           : unknown[is_light ? 1 : 0]);
+  image.pixels.reserve(columns.size() * rows.size());
+  std::vector<CellState> states;
+  for (std::size_t y = rows.size(); y-- > 0;) {
+    const bool shows_the_same = y + 1 < rows.size() && cell_rows[y] == cell_rows[y + 1];
+    if (!shows_the_same) states = MostTelling(grid, cell_columns, cell_rows[y]);
+    for (std::size_t x = 0; x < columns.size(); ++x) {
+      image.pixels.push_back(PixelOf(states[x], columns[x], rows[y]));
     }
   }
   return image;

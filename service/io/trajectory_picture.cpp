@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -188,27 +189,40 @@ class OverlayPainter {
     return items;
   }
 
+  // Without the poses that are within a pixel of the one before: a robot that waits has thousands.
   template <class Pose>
-  Points ToCanvas(const std::vector<Pose>& path) const {
+  Points ToCanvas(std::span<const Pose> path) const {
+    constexpr double kLeastStepPx = 1.0;
     Points points_px;
-    for (const Pose& pose : path) points_px.push_back(frame_.ToCanvas(PositionOf(pose)));
+    for (const Pose& pose : path) {
+      const Eigen::Vector2d point_px = frame_.ToCanvas(PositionOf(pose));
+      const bool is_last = &pose == &path.back();
+      if (points_px.empty() || is_last || (point_px - points_px.back()).norm() >= kLeastStepPx) {
+        points_px.push_back(point_px);
+      }
+    }
     return points_px;
   }
 
   template <class Pose>
   void StrokePath(const std::vector<Pose>& path, const LineStyle& style) {
-    frame_.canvas().Stroke(ToCanvas(path), style);
+    frame_.canvas().Stroke(ToCanvas(std::span(path)), style);
   }
 
+  // Its colour changes in steps too small to be seen.
   void PaintPath() {
-    const Points points_px = ToCanvas(overlay_.path);
-    for (std::size_t i = 1; i < points_px.size(); ++i) {
-      const double share = static_cast<double>(i) / static_cast<double>(points_px.size());
-      frame_.canvas().Stroke(std::span(points_px).subspan(i - 1, 2),
-                             {.color = ColorAlongPath(share), .width_px = kPathWidthPx});
+    constexpr std::size_t kSteps = 250;
+    const std::span path(overlay_.path);
+    for (std::size_t step = 0; step < kSteps; ++step) {
+      const std::size_t first = step * path.size() / kSteps;
+      const std::size_t end = std::min((step + 1) * path.size() / kSteps + 1, path.size());
+      if (end - first < 2) continue;
+      frame_.canvas().Stroke(
+          ToCanvas(path.subspan(first, end - first)),
+          {.color = ColorAlongPath(static_cast<double>(step) / kSteps), .width_px = kPathWidthPx});
     }
-    for (std::size_t i = 0; i < points_px.size(); ++i) {
-      if (IsDeadReckoned(overlay_.path[i])) DrawDot(frame_.canvas(), points_px[i]);
+    for (const PathPose& pose : path) {
+      if (IsDeadReckoned(pose)) DrawDot(frame_.canvas(), frame_.ToCanvas(PositionOf(pose)));
     }
   }
 
