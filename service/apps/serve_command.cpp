@@ -61,7 +61,7 @@ class Server {
     manager.TellReady("serving");
     spdlog::info("serving as {}", service_.identity());
     while (!interruption.requested()) {
-      inbox_.Deliver(100ms);
+      inbox_.Deliver(20ms);  // A signal does not end this.
       manager.TellAlive("serving");
     }
     manager.TellStopping();

@@ -9,20 +9,20 @@
 
 namespace qwsm::team {
 
-bool MapPainter::Paint(const TeamMap& map, const std::stop_token& stop) {
-  const std::vector<RelevantScan> scans = NewScansOf(map);
-  for (const RelevantScan& scan : scans) {
-    if (stop.stop_requested()) return false;
+void MapPainter::Paint(const TeamMap& map, const std::stop_token& stop) {
+  for (const RelevantScan& scan : NewScansOf(map)) {
+    if (stop.stop_requested()) return;
     painter_.Add(scan);
     newest_ = std::max(newest_, scan.scan.stamp);
     ++painted_;
+    has_news_ = true;
   }
-  return !scans.empty();
 }
 
 std::optional<OccupancyGrid> MapPainter::Grid() {
   OccupancyGridResult result = painter_.Grid();
   trouble_.clear();
+  has_news_ = false;
   if (result.status == RenderStatus::kRendered) return std::move(result.grid);
   if (result.status == RenderStatus::kTooLarge) {
     trouble_ =

@@ -20,10 +20,12 @@ class MapPainter {
   explicit MapPainter(const OccupancyGridOptions& options)
       : cell_m_(options.cell_m), painter_(options) {}
 
-  /// Draws what is new in the map. Given up when asked to stop. @return whether anything was.
-  bool Paint(const TeamMap& map, const std::stop_token& stop);
+  /// Draws what is new in the map. Given up when asked to stop.
+  void Paint(const TeamMap& map, const std::stop_token& stop);
   /// The map as drawn so far, if it can be.
   std::optional<OccupancyGrid> Grid();
+  /// Whether there is more to see than in the last grid.
+  bool has_news() const { return has_news_; }
 
   /// Stamp of the newest scan that was drawn.
   Timestamp newest() const { return newest_; }
@@ -36,6 +38,7 @@ class MapPainter {
   double cell_m_;
   OccupancyPainter painter_;
   std::size_t painted_ = 0;  // Scans.
+  bool has_news_ = false;
   Timestamp newest_{};
   std::string trouble_;
 };

@@ -17,6 +17,9 @@ namespace {
 
 using std::chrono::steady_clock;
 
+// Maps are painted this often, however seldom they are told: little is left to do at the end.
+constexpr std::chrono::duration<double> kPaintPeriod{0.2};
+
 // A map that does not change is told again for readers that do not ask for what was before them.
 constexpr std::chrono::seconds kMapRepetition{10};
 
@@ -99,11 +102,10 @@ void TeamService::Start() {
   for (const TeamScan& scan : offered_) sink_.TakeRelevantScan(scan);
   offered_ = {};
   sessions_.Start(team.threads);
-  const std::chrono::duration<double> map_period(team.map_period_s);
   const std::chrono::duration<double> status_period(team.status_period_s);
   if (team.map_period_s > 0.0) {
     painting_ = std::make_unique<PeriodicTask>(
-        map_period, true, [this](const std::stop_token& stop) { PaintMaps(stop); });
+        kPaintPeriod, true, [this](const std::stop_token& stop) { PaintMaps(stop); });
   }
   reporting_ = std::make_unique<PeriodicTask>(
       status_period, false, [this](const std::stop_token&) { sink_.TakeStatus(Status()); });
@@ -216,20 +218,31 @@ MapStatus TeamService::StatusOfMaps() const {
   return status;
 }
 
+// The thread of this gives way to all others: who waits for it to stop waits for them, too.
 void TeamService::PaintMaps(const std::stop_token& stop) {
-  const bool is_time_to_repeat = steady_clock::now() - maps_repeated_ >= kMapRepetition;
-  if (is_time_to_repeat) maps_repeated_ = steady_clock::now();
+  const auto now = steady_clock::now();
+  const auto is_time = [now](steady_clock::time_point& last, std::chrono::duration<double> period) {
+    const bool is_due = now - last >= period;
+    if (is_due) last = now;
+    return is_due;
+  };
+  const bool is_time_to_tell =
+      is_time(maps_told_, std::chrono::duration<double>(options_.team.map_period_s));
+  const bool is_time_to_repeat = is_time_to_tell && is_time(maps_repeated_, kMapRepetition);
   for (const TeamMaps::NamedMap& named : maps_.All()) {
     MapPainter& painter = PainterOf(*named.map);
-    if (!painter.Paint(*named.map, stop) && !is_time_to_repeat) continue;
-    const std::optional<OccupancyGrid> grid = painter.Grid();
-    if (grid) sink_.TakeMap({.robot = named.robot, .stamp = painter.newest(), .grid = *grid});
-    if (!painter.trouble().empty()) {
-      const auto robot =
-          named.robot.empty() ? std::nullopt : std::optional<std::string_view>(named.robot);
-      sink_.TakeEvent({.robot = robot, .is_warning = true, .text = painter.trouble()});
-    }
+    painter.Paint(*named.map, stop);
+    if (stop.stop_requested()) return;
+    if (is_time_to_repeat || (is_time_to_tell && painter.has_news())) TellMap(named.robot, painter);
   }
+}
+
+void TeamService::TellMap(const std::string& robot, MapPainter& painter) {
+  const std::optional<OccupancyGrid> grid = painter.Grid();
+  if (grid) sink_.TakeMap({.robot = robot, .stamp = painter.newest(), .grid = *grid});
+  if (painter.trouble().empty()) return;
+  const auto whose = robot.empty() ? std::nullopt : std::optional<std::string_view>(robot);
+  sink_.TakeEvent({.robot = whose, .is_warning = true, .text = painter.trouble()});
 }
 
 std::optional<OccupancyGrid> TeamService::DrawMapOf(std::string_view robot) {

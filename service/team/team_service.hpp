@@ -116,6 +116,7 @@ class TeamService {
   void Report(const RobotAnswer& answer);
   void TellNewPoints(const TeamScan& scan, const MapAddition& addition);
   void PaintMaps(const std::stop_token& stop);
+  void TellMap(const std::string& robot, MapPainter& painter);
   MapPainter& PainterOf(const TeamMap& map);
   MapStatus StatusOfMaps() const;
 
@@ -134,6 +135,7 @@ class TeamService {
   SessionList<RobotSession> sessions_;
   // Of the task that paints, while it runs.
   std::map<const TeamMap*, MapPainter> painters_;
+  std::chrono::steady_clock::time_point maps_told_{};
   std::chrono::steady_clock::time_point maps_repeated_{};
 
   std::unique_ptr<Journal> journal_;  // Null: there is none.
