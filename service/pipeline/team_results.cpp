@@ -5,14 +5,17 @@
 #include <spdlog/spdlog.h>
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "service/io/atomic_file.hpp"
 #include "service/io/map_picture.hpp"
 #include "service/io/ros_map_file.hpp"
 #include "service/io/trajectory_picture.hpp"
+#include "service/pipeline/parallel.hpp"
 #include "service/pipeline/results_writer.hpp"
 #include "service/pipeline/run_report.hpp"
 
@@ -42,7 +45,7 @@ class TeamResults::RobotResults {
     history_.Take(timed);
   }
 
-  void Finish(const ScanMap& map, const std::optional<OccupancyGrid>& grid) {
+  void Finish(const ScanMap& map, const OccupancyGrid* grid) {
     if (has_failed_ || !files_) return;
     files_->first.Commit();
     files_->second.Commit();
@@ -91,24 +94,32 @@ TeamResults::RobotResults& TeamResults::ResultsOf(const std::string& robot) {
 
 void TeamResults::Finish(team::TeamService& service) {
   std::map<const team::TeamMap*, std::optional<OccupancyGrid>> drawn;
+  std::vector<std::function<void()>> tasks;
   const auto draw = [&](const std::string& robot, const fs::path& folder) {
     const std::shared_ptr<const team::TeamMap> map = service.MapOf(robot);
     const auto [known, is_new] = drawn.try_emplace(map.get());
-    if (is_new && !map->Read()->empty()) {
-      known->second = service.DrawMapOf(robot);
-      if (!known->second) known->second = RenderOrWarn(*map->Read(), rendering_);
-      if (known->second) {
-        io::WriteRosMap(folder / "map.yaml", *known->second);
-        io::WriteMapPicture(folder / "map.png", *known->second);
-      }
+    if (is_new && !map->Read()->empty()) known->second = Draw(service, robot);
+    const OccupancyGrid* const grid = known->second ? &*known->second : nullptr;
+    if (is_new && grid) {
+      tasks.push_back([grid, folder] { io::WriteRosMap(folder / "map.yaml", *grid); });
+      tasks.push_back([grid, folder] { io::WriteMapPicture(folder / "map.png", *grid); });
     }
-    return known->second;
+    return grid;
   };
   draw("", folder_.path());  // The team's, where it shares one.
   for (const auto& [robot, results] : robots_) {
-    const std::optional<OccupancyGrid> grid = draw(robot, results->folder());
-    results->Finish(*service.MapOf(robot)->Read(), grid);
+    const OccupancyGrid* const grid = draw(robot, results->folder());
+    tasks.push_back([&service, &robot, &results, grid] {
+      results->Finish(*service.MapOf(robot)->Read(), grid);
+    });
   }
+  RunInParallel(tasks);
+}
+
+std::optional<OccupancyGrid> TeamResults::Draw(team::TeamService& service,
+                                               const std::string& robot) const {
+  std::optional<OccupancyGrid> grid = service.DrawMapOf(robot);
+  return grid ? std::move(grid) : RenderOrWarn(*service.MapOf(robot)->Read(), rendering_);
 }
 
 }  // namespace qwsm::pipeline

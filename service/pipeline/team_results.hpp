@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "qwsm/mapping/occupancy_grid.hpp"
@@ -32,7 +33,8 @@ class TeamResults final : public team::TeamSink {
   void TakeStatus(const team::TeamStatus&) override {}
   void TakeEvent(const team::TeamEvent&) override {}
 
-  /// Writes what can only be known at the end. @pre the service has stopped.
+  /// Writes what can only be known at the end, on all cores, for who stops a service waits.
+  /// @pre the service has stopped.
   /// @throws io::WriteError.
   void Finish(team::TeamService& service);
 
@@ -40,6 +42,7 @@ class TeamResults final : public team::TeamSink {
   class RobotResults;
 
   RobotResults& ResultsOf(const std::string& robot);
+  std::optional<OccupancyGrid> Draw(team::TeamService& service, const std::string& robot) const;
 
   ResultsFolder folder_;
   OccupancyGridOptions rendering_;

@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include <chrono>
 #include <memory>
 #include <string>
 #include <utility>
@@ -57,6 +58,7 @@ class Daemon {
   pid_t process() const { return program_->process(); }
   void Signal(int number) const { program_->Signal(number); }
   std::string ErrorsSoFar() const { return program_->ErrorsSoFar(); }
+  std::chrono::nanoseconds CpuSoFar() const { return program_->CpuSoFar(); }
   /// Waits until the program says something on stderr. @returns false after ten seconds without.
   bool WaitUntilItSays(const std::string& text) const {
     for (int i = 0; i < 1000; ++i) {

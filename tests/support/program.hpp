@@ -4,9 +4,12 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -34,6 +37,7 @@ struct Outcome {
   int exit_code = -1;  ///< 128 + signal where it was killed.
   std::string output;
   std::string errors;
+  std::chrono::nanoseconds cpu{};  ///< All it needed, of all its threads.
 };
 
 /// Where a program reads and writes, if not nowhere and into its outcome.
@@ -60,13 +64,25 @@ class Program {
 
   std::string ErrorsSoFar() const { return ReadFile(streams_.path() / "errors"); }
 
+  /// What it has needed so far, of all its threads. @pre it has not ended.
+  std::chrono::nanoseconds CpuSoFar() const {
+    clockid_t clock{};
+    timespec time{};
+    if (clock_getcpuclockid(process_, &clock) != 0 || clock_gettime(clock, &time) != 0) {
+      throw std::runtime_error("the program has ended");
+    }
+    return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+  }
+
   Outcome Wait() {
     int status = 0;
-    waitpid(process_, &status, 0);
+    rusage usage{};
+    wait4(process_, &status, 0, &usage);
     process_ = -1;
     return {.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
             .output = ReadFile(streams_.path() / "output"),
-            .errors = ReadFile(streams_.path() / "errors")};
+            .errors = ReadFile(streams_.path() / "errors"),
+            .cpu = Duration(usage.ru_utime) + Duration(usage.ru_stime)};
   }
 
  private:
@@ -86,6 +102,10 @@ class Program {
     Redirect(STDERR_FILENO, streams_.path() / "errors", O_WRONLY | O_CREAT);
     execv(argv.front(), argv.data());
     _exit(127);
+  }
+
+  static std::chrono::nanoseconds Duration(const timeval& time) {
+    return std::chrono::seconds(time.tv_sec) + std::chrono::microseconds(time.tv_usec);
   }
 
   static void Redirect(int descriptor, const std::filesystem::path& file, int flags) {
