@@ -6,12 +6,12 @@
 #include <cstring>
 #include <limits>
 
+#include "service/dds/robot_names.hpp"
+
 namespace qwsm::dds {
 namespace {
 
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
-
-constexpr std::size_t kMaxNameLength = 256;
 
 // Indices of x, y and yaw among (x, y, z, roll, pitch, yaw).
 constexpr int kPlanar[3] = {0, 1, 5};

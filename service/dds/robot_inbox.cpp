@@ -14,7 +14,7 @@ namespace {
 // A transform that is not there after this long will not come.
 constexpr auto kPatienceForTransforms = std::chrono::seconds(1);
 constexpr std::size_t kMaxUnplaced = 64;
-constexpr std::size_t kMaxFrameLength = 256;
+constexpr std::size_t kMaxMissingFrames = 256;
 
 template <class Kind>
 std::string_view ObjectionToPose(const wire::Header& header, const wire::Pose& pose) {
@@ -60,8 +60,8 @@ void BasicRobotInbox<Kind>::TakeOdometry(const wire::Odometry& sample,
                                          BasicRobotListener<Kind>& listener) {
   const std::string_view objection = ObjectionToPose<Kind>(sample.header, sample.pose.pose);
   if (!objection.empty()) return refusals_.Add(names_.Topic(kOdometryTopic), objection);
-  const std::size_t length = strnlen(sample.child_frame_id, kMaxFrameLength + 1);
-  if (length > 0 && length <= kMaxFrameLength) robot_frame_ = sample.child_frame_id;
+  const std::size_t length = strnlen(sample.child_frame_id, kMaxNameLength + 1);
+  if (length > 0 && length <= kMaxNameLength) robot_frame_ = sample.child_frame_id;
   listener.TakeOdometry(
       names_.name(), *FromWire(sample.header.stamp), OnWire<Kind>::PoseOf(sample.pose.pose));
 }
@@ -78,18 +78,22 @@ void BasicRobotInbox<Kind>::TakeScan(const typename OnWire<Kind>::Scan& sample) 
   refusals_.Add(topic, "/tf_static does not say yet where on the robot its frame is");
 }
 
-// Scans and /tf_static overtake each other at the beginning.
+// Scans and /tf_static overtake each other at the beginning. Scans of one frame wait for it, not
+// those of another: anybody may send scans of frames that there are not.
 template <class Kind>
 void BasicRobotInbox<Kind>::DeliverPlacedScans(const BasicStaticTransforms<Kind>& transforms,
                                                BasicRobotListener<Kind>& listener) {
-  while (!unplaced_.empty()) {
-    UnplacedScan& first = unplaced_.front();
-    const auto T_robot_sensor = SensorOnRobot(first.sensor_frame, transforms);
-    if (!T_robot_sensor) return;
-    OnWire<Kind>::Mounting(first.scan) = *T_robot_sensor;
-    listener.TakeScan(names_.name(), std::move(first.scan));
-    unplaced_.pop_front();
+  std::deque<UnplacedScan> waiting;
+  for (UnplacedScan& next : unplaced_) {
+    const auto T_robot_sensor = SensorOnRobot(next.sensor_frame, transforms);
+    if (!T_robot_sensor) {
+      waiting.push_back(std::move(next));
+      continue;
+    }
+    OnWire<Kind>::Mounting(next.scan) = *T_robot_sensor;
+    listener.TakeScan(names_.name(), std::move(next.scan));
   }
+  unplaced_ = std::move(waiting);
 }
 
 template <class Kind>
@@ -108,14 +112,11 @@ void BasicRobotInbox<Kind>::TakeInitialPose(const wire::PoseWithCovarianceStampe
 template <class Kind>
 std::optional<typename Kind::Pose> BasicRobotInbox<Kind>::SensorOnRobot(
     const std::string& sensor_frame, const BasicStaticTransforms<Kind>& transforms) {
-  if (const auto known = transforms.Find(robot_frame_, sensor_frame)) {
-    unplaced_since_.reset();
-    return known;
-  }
+  if (const auto known = transforms.Find(robot_frame_, sensor_frame)) return known;
   const auto now = std::chrono::steady_clock::now();
-  if (!unplaced_since_) unplaced_since_ = now;
-  return now - *unplaced_since_ < kPatienceForTransforms ? std::nullopt
-                                                         : std::optional(typename Kind::Pose{});
+  if (missing_since_.size() >= kMaxMissingFrames) missing_since_.clear();
+  const auto since = missing_since_.try_emplace(sensor_frame, now).first->second;
+  return now - since < kPatienceForTransforms ? std::nullopt : std::optional(typename Kind::Pose{});
 }
 
 template class BasicRobotInbox<team::Planar>;

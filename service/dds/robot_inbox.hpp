@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 #include <deque>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -54,7 +55,7 @@ class BasicRobotInbox {
   Reader<typename OnWire<Kind>::Scan> scans_;
   Reader<wire::PoseWithCovarianceStamped> initial_poses_;
   std::deque<UnplacedScan> unplaced_;
-  std::optional<std::chrono::steady_clock::time_point> unplaced_since_;
+  std::map<std::string, std::chrono::steady_clock::time_point> missing_since_;  // By frame.
 };
 
 using RobotInbox = BasicRobotInbox<team::Planar>;

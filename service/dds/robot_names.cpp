@@ -8,14 +8,14 @@
 namespace qwsm::dds {
 namespace {
 
-constexpr std::size_t kMaxNameLength = 128;
+constexpr std::size_t kMaxNamespaceLength = 128;
 
 /// What ROS accepts. Names become topics of ours and folders: nothing else must get through.
 bool IsNamespace(std::string_view name) {
   const auto is_legal = [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '/';
   };
-  return name.size() <= kMaxNameLength && std::ranges::all_of(name, is_legal) &&
+  return name.size() <= kMaxNamespaceLength && std::ranges::all_of(name, is_legal) &&
          !name.starts_with('/') && !name.ends_with('/') && name.find("//") == name.npos;
 }
 

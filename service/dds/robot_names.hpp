@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -51,6 +52,9 @@ inline constexpr const char* kNewPointsTopic = "/map_points";
 inline constexpr const char* kDiagnosticsTopic = "/diagnostics";
 inline constexpr const char* kGraphTopic = "/ros_discovery_info";
 inline constexpr const char* kSharedScansTopic = "/qwsm/relevant_scans";
+
+/// What is longer is no name of a robot, service or frame, but an attack.
+inline constexpr std::size_t kMaxNameLength = 256;
 
 /// Frames.
 inline constexpr const char* kMapFrame = "map";

@@ -6,11 +6,10 @@
 #include <vector>
 
 #include "service/dds/planar.hpp"
+#include "service/dds/robot_names.hpp"
 
 namespace qwsm::dds {
 namespace {
-
-constexpr std::size_t kMaxNameLength = 256;
 
 std::size_t LengthOf(const char* name) { return strnlen(name, kMaxNameLength + 1); }
 

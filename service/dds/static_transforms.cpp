@@ -2,10 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/dds/static_transforms.hpp"
 
+#include <cstring>
+
+#include "service/dds/robot_names.hpp"
+
 namespace qwsm::dds {
 namespace {
 
 constexpr std::size_t kMaxFrames = 10'000;  // Of any sane team; more is an attack.
+
+bool IsName(const char* frame) { return strnlen(frame, kMaxNameLength + 1) <= kMaxNameLength; }
 
 }  // namespace
 
@@ -16,6 +22,7 @@ void BasicStaticTransforms<Kind>::Take(const wire::TFMessage& message) {
     const auto& p = transform.transform.translation;
     const wire::Quaternion& rotation = transform.transform.rotation;
     const Pose T_parent_child = OnWire<Kind>::PoseOf({{p.x, p.y, p.z}, rotation});
+    if (!IsName(transform.header.frame_id) || !IsName(transform.child_frame_id)) continue;
     if (!IsFinite(T_parent_child) || !OnWire<Kind>::IsRotation(rotation)) continue;
     if (links_.size() >= kMaxFrames && !links_.contains(transform.child_frame_id)) continue;
     links_[transform.child_frame_id] = {.parent = transform.header.frame_id,

@@ -2,17 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What must not hurt the service: peers that die, come back, send nonsense.
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
 
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
-#include <random>
 #include <string>
 #include <thread>
 #include <vector>
@@ -20,7 +16,9 @@
 #include "service/dds/robot_names.hpp"
 #include "service/dds/scan_conversion.hpp"
 #include "service/dds/writer.hpp"
+#include "tests/support/hostile_peer.hpp"
 #include "tests/support/network.hpp"
+#include "tests/support/process_state.hpp"
 
 namespace qwsm::test {
 namespace {
@@ -87,32 +85,10 @@ TEST_F(DdsFaults, LateServiceHasTheMapOfTheFirstOneWhichMayDie) {
   EXPECT_EQ(RelevantScans(of_second), RelevantScans(of_first)) << of_second.errors;
 }
 
-/// Sends bytes that are no RTPS, and some that begin like it, to the ports of everybody here.
-void SendGarbage(int datagrams) {
-  const int out = socket(AF_INET, SOCK_DGRAM, 0);
-  std::mt19937 random(7);
-  std::vector<char> bytes(512);
-  for (int i = 0; i < datagrams; ++i) {
-    for (char& byte : bytes) byte = static_cast<char>(random());
-    if (i % 2 == 0) std::copy_n("RTPS\x02\x01", 6, bytes.begin());
-    sockaddr_in to{};
-    to.sin_family = AF_INET;
-    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    to.sin_port = htons(static_cast<std::uint16_t>(7410 + i % 12));
-    sendto(out,
-           bytes.data(),
-           random() % bytes.size(),
-           0,
-           reinterpret_cast<sockaddr*>(&to),
-           sizeof(to));
-  }
-  close(out);
-}
-
 TEST_F(DdsFaults, GarbageOnThePortsChangesNothing) {
   Daemon service(Serve({"--output", Path("served")}));
   ASSERT_TRUE(service.WaitUntilItSays("serving as"));
-  SendGarbage(20'000);
+  SendGarbage(UdpPorts(service.process()), 20'000);
   const Outcome replay = Replay({"--rate", "max"});
   EXPECT_EQ(replay.exit_code, 0) << replay.errors;
   const Outcome served = service.End();

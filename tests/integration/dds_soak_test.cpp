@@ -3,15 +3,14 @@
 //
 // A service that works for long without a new thing to learn keeps its memory: `ctest -C soak`.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
 #include <iostream>
 #include <string>
 #include <vector>
 
+#include "tests/support/process_state.hpp"
 #include "tests/support/robot_in_room.hpp"
 
 namespace qwsm::test {
@@ -23,15 +22,6 @@ using namespace std::chrono_literals;
 std::chrono::seconds Duration() {
   const char* text = std::getenv("QWSM_SOAK_S");
   return std::chrono::seconds(text == nullptr ? 600 : std::atoi(text));
-}
-
-/// Memory of the process that is in use, in kB.
-double ResidentKilobytes(pid_t process) {
-  std::ifstream file("/proc/" + std::to_string(process) + "/statm");
-  double total_pages = 0.0;
-  double resident_pages = 0.0;
-  file >> total_pages >> resident_pages;
-  return resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1024.0;
 }
 
 struct Sample {

@@ -30,6 +30,9 @@ class RobotInRoom {
         shared_(participant_, dds::kSharedScansTopic, dds::Profile::kSharedScans),
         health_(participant_, dds::kDiagnosticsTopic, dds::Profile::kAnswerIn) {}
 
+  /// There is one in a process.
+  const dds::Participant& participant() const { return participant_; }
+
   /// The next scan of its way, ten of which make a second.
   Observation NextObservation() { return ObservationInRoom(scan_++); }
   void Publish(const Observation& observation) { publisher_.Publish(observation); }
