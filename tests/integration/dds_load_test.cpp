@@ -24,14 +24,21 @@ class DdsLoad : public ::testing::Test {
   PrivateNetwork network_;
 };
 
+// On a machine that is busy with something else, or under a sanitizer, more slowly: what counts is
+// that nothing is lost.
 TEST_F(DdsLoad, SixteenRobotsAreAllAnswered) {
-  TeamTraffic team({.robots = 16, .rate_hz = 10.0, .duration_s = 4.0});
+  constexpr int kRobots = 16;
+  TeamTraffic team({.robots = kRobots, .rate_hz = 10.0, .duration_s = 4.0});
   Daemon service(network_.Join({"serve"}));
   ASSERT_TRUE(team.Join(Network()));
-  // On a machine that is busy with something else, more slowly: what counts is that nothing is
-  // lost.
-  const TrafficResult result = team.Run(team.scans_left(), 0.5);
-  EXPECT_EQ(result.counted, result.sent);
+  const TrafficResult calm = team.Run(4 * kRobots, 0.2);
+  // Who has only just found a robot may have missed the odometry of its first scan.
+  ASSERT_GE(calm.answered + kRobots, calm.sent);
+  const std::chrono::duration<double> match = Quantile(calm.matching, 0.9);
+  const double speed = std::min(0.5, 0.5 / (match.count() * kRobots * 10.0));
+
+  const TrafficResult result = team.Run(team.scans_left(), speed);
+  EXPECT_EQ(result.counted, calm.sent + result.sent);
   EXPECT_EQ(result.answered, result.sent);
   EXPECT_EQ(result.dropped, 0U);
   EXPECT_EQ(result.out_of_order, 0U);
