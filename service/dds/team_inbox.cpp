@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "service/dds/scan_conversion.hpp"
-#include "service/dds/service_inbox.inc"
 
 namespace qwsm::dds {
 

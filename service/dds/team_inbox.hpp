@@ -12,6 +12,8 @@
 
 namespace qwsm::dds {
 
+extern template class ServiceInbox<team::Planar, team::TeamService, TeamOutbox>;
+
 /// Brings the service what robots and other services say. Used by one thread.
 class TeamInbox {
  public:

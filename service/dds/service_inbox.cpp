@@ -1,18 +1,22 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// The functions of ServiceInbox, for the two files that make one.
+#include "service/dds/service_inbox.hpp"
+
 #include <utility>
 
-#include "service/dds/service_inbox.hpp"
+#include "service/dds/cloud_inbox.hpp"
+#include "service/dds/team_inbox.hpp"
 #include "service/dds/wire_kind.hpp"
 
 namespace qwsm::dds {
+namespace {
 
-inline std::uint64_t NanosecondsNow() {
+std::uint64_t NanosecondsNow() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return static_cast<std::uint64_t>(std::chrono::nanoseconds(now).count());
 }
+
+}  // namespace
 
 template <class Kind, class Service, class Outbox>
 ServiceInbox<Kind, Service, Outbox>::ServiceInbox(const Participant& participant,
@@ -135,5 +139,8 @@ void ServiceInbox<Kind, Service, Outbox>::Listen(const std::string& name, Robot&
       participant_, RobotNames(name), refusals_, robot.profile);
   for (const Entity::Handle handle : robot.inbox->handles()) wait_set_.Add(handle);
 }
+
+template class ServiceInbox<team::Planar, team::TeamService, TeamOutbox>;
+template class ServiceInbox<team::Spatial, team::CloudService, CloudOutbox>;
 
 }  // namespace qwsm::dds
