@@ -38,6 +38,7 @@ TEST_P(RecordedReplay, GivesThePathAndTheMapOfTheLogBitForBit) {
 INSTANTIATE_TEST_SUITE_P(Radish,
                          RecordedReplay,
                          ::testing::Values("intel.raw-odom.clf.gz",
+                                           "aces.raw-odom.clf.gz",
                                            "belgioioso.raw-odom.clf.gz",
                                            "edmonton.raw-odom.clf.gz"));
 
