@@ -121,10 +121,10 @@ void RobotSession::Answer(Work& work, std::span<const ScanPoint> points) {
   context_.sink.TakeAnswer(answer);
   if (step.relevant) {
     context_.extend({.key = {.service = context_.service, .robot = name(), .sequence = ++sequence_},
-                     .scan = observation.scan,
+                     .scan = step.relevant_scan,
                      .map_robot = step.map_robot,
                      .T_odom_robot = work.T_odom_robot},
-                    points);
+                    ToPoints(step.relevant_scan));
   }
   context_.report(answer);
 }

@@ -104,20 +104,22 @@ std::array<double, kRobots> Errors_m(const std::vector<sim::Reading>& readings,
   return rmse_m;
 }
 
-class TeamDrive : public ::testing::TestWithParam<int> {};
-
-TEST_P(TeamDrive, OneMapForAllIsAsAccurateAsOneEach) {
-  const std::vector<sim::Reading> readings = Drive(GetParam(), 90);
-  const std::array<double, kRobots> each_m = Errors_m(readings, MapSharing::kEachRobot);
-  const std::array<double, kRobots> shared_m = Errors_m(readings, MapSharing::kTeam);
-  for (std::size_t i = 0; i < kRobots; ++i) {
-    RecordProperty(NameOf(i),
-                   std::to_string(shared_m[i]) + " m, alone " + std::to_string(each_m[i]));
-    EXPECT_LT(shared_m[i], 2.0 * each_m[i] + kLuck_m) << NameOf(i);
+TEST(TeamDrive, OneMapForAllIsAsAccurateAsOneEach) {
+  std::vector<double> all_shared_m;
+  std::vector<double> all_each_m;
+  for (const int seed : {1, 2, 3}) {
+    const std::vector<sim::Reading> readings = Drive(seed, 90);
+    const std::array<double, kRobots> each_m = Errors_m(readings, MapSharing::kEachRobot);
+    const std::array<double, kRobots> shared_m = Errors_m(readings, MapSharing::kTeam);
+    for (std::size_t i = 0; i < kRobots; ++i) {
+      SCOPED_TRACE(NameOf(i) + ", seed " + std::to_string(seed));
+      EXPECT_LT(shared_m[i], 2.0 * each_m[i] + kLuck_m);
+    }
+    all_shared_m.insert(all_shared_m.end(), shared_m.begin(), shared_m.end());
+    all_each_m.insert(all_each_m.end(), each_m.begin(), each_m.end());
   }
-  // Both are about a centimetre; a tenth of it is luck.
-  EXPECT_LT(Summarize({shared_m.begin(), shared_m.end()}).median,
-            1.1 * Summarize({each_m.begin(), each_m.end()}).median);
+  // Of twelve robots, for which of them is lucky alone changes with every seed.
+  EXPECT_LT(Summarize(all_shared_m).median, Summarize(all_each_m).median);
 }
 
 TEST(TeamDriveLater, RobotsThatComeIntoAKnownPlaceAreAsAccurateAsItsMap) {
@@ -133,8 +135,6 @@ TEST(TeamDriveLater, RobotsThatComeIntoAKnownPlaceAreAsAccurateAsItsMap) {
     EXPECT_LT(shared_m[i], 3.0 * shared_m[0]) << NameOf(i);
   }
 }
-
-INSTANTIATE_TEST_SUITE_P(, TeamDrive, ::testing::Values(1, 2, 3));
 
 }  // namespace
 }  // namespace qwsm::team

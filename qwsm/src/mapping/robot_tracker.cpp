@@ -75,15 +75,17 @@ RobotTracker::RobotTracker(const MapperOptions& options)
     : options_(options),
       motion_(options.motion),
       locator_(LocatorOptions(options)),
-      recent_(options.surroundings) {}
+      recent_(options.surroundings),
+      seen_free_(options.free_space) {}
 
 void RobotTracker::PlaceAt(const UncertainPose2& map_robot,
                            const std::optional<Pose2>& T_odom_robot) {
   motion_.Remember({}, T_odom_robot);
   recent_.Clear();
+  seen_free_.Clear();
   map_last_ = map_robot;
   local_last_ = map_robot;
-  T_map_relevant_.reset();
+  T_map_remembered_.reset();
   is_told_ = true;
   is_told_now_ = !T_odom_robot;
 }
@@ -97,8 +99,16 @@ MappingStep RobotTracker::Track(const ScanMap& map,
   } else {
     Locate(map, observation, points, step);
   }
-  step.relevant = IsRelevant(points, step);
+  const bool has_moved_on = HasMovedOn(points, step);
+  step.relevant = has_moved_on && (options_.extend_map || step.status == StepStatus::kFirst);
   if (step.relevant) FindReturn(map, points, step);
+  if (step.relevant) {
+    step.relevant_scan = seen_free_.WithoutMoving(observation.scan, points, step.map_robot.T_a_b);
+  }
+  if (has_moved_on) {
+    seen_free_.Add(observation.scan, step.map_robot.T_a_b);
+    T_map_remembered_ = step.map_robot.T_a_b;
+  }
   Remember(observation, step);
   return step;
 }
@@ -120,10 +130,11 @@ void RobotTracker::Locate(const ScanMap& map,
                           std::span<const ScanPoint> points,
                           MappingStep& step) {
   PosePrediction last_robot = is_told_now_ ? Unmoved() : motion_.Predict(observation.T_odom_robot);
-  step.match = locator_.Locate(map, points, local_last_ * last_robot);
+  step.match = locator_.Locate(map, points, local_last_ * last_robot.cautious, seen_free_);
   if (is_odometry_doubted_) {
     const PosePrediction without_odometry = motion_.Predict(std::nullopt);
-    const MatchResult other = locator_.Locate(map, points, local_last_ * without_odometry);
+    const MatchResult other =
+        locator_.Locate(map, points, local_last_ * without_odometry.cautious, seen_free_);
     if (other.overlap >= step.match.overlap) {
       last_robot = without_odometry;
       step.match = other;
@@ -170,11 +181,10 @@ void RobotTracker::Judge(const ScanMap& map,
   step.local_covariance = match.covariance;
 }
 
-bool RobotTracker::IsRelevant(std::span<const ScanPoint> points, const MappingStep& step) const {
+bool RobotTracker::HasMovedOn(std::span<const ScanPoint> points, const MappingStep& step) const {
   if (step.status == StepStatus::kFirst) return !points.empty();
-  if (!options_.extend_map) return false;
-  if (!T_map_relevant_) return true;
-  const Pose2 moved = T_map_relevant_->Inverse() * step.map_robot.T_a_b;
+  if (!T_map_remembered_) return true;
+  const Pose2 moved = T_map_remembered_->Inverse() * step.map_robot.T_a_b;
   return moved.translation_m().norm() > options_.relevant_translation_m ||
          std::abs(moved.theta_rad) > options_.relevant_rotation_rad;
 }
@@ -193,6 +203,7 @@ void RobotTracker::FindReturn(const ScanMap& map,
   step.map_robot.covariance = back->covariance;
   step.local_covariance = back->covariance;
   recent_.Clear();
+  seen_free_.Clear();
 }
 
 void RobotTracker::Remember(const Observation& observation, const MappingStep& step) {
@@ -201,7 +212,6 @@ void RobotTracker::Remember(const Observation& observation, const MappingStep& s
                    observation.T_odom_robot);
   map_last_ = step.map_robot;
   local_last_ = {.T_a_b = step.map_robot.T_a_b, .covariance = step.local_covariance};
-  if (step.relevant) T_map_relevant_ = step.map_robot.T_a_b;
   is_told_ = is_told_ && is_first && !step.relevant;
   is_told_now_ = is_told_;
   is_odometry_doubted_ = false;

@@ -75,8 +75,7 @@ struct Task {
   const SurfaceMap& map;
   std::span<const ScanPoint> points;
   std::vector<Eigen::Vector2d> thinned;
-  const PosePrediction& predicted;
-  MatchTrace* trace;
+  const FreeSpace& seen_free;
 
   // The best pose within so many sigmas of where it is expected, if it scores more than that.
   std::optional<FoundPose> Search(const UncertainPose2& expected,
@@ -94,7 +93,7 @@ struct Task {
         options.search);
   }
 
-  // Matches from the pose found, or from where it is expected.
+  // Matches what has not moved from the pose found, or from where it is expected.
   MatchResult Match(const std::optional<FoundPose>& found, const UncertainPose2& expected) const {
     MatchPrior prior{.predicted = expected,
                      .start = expected.T_a_b,
@@ -104,30 +103,7 @@ struct Task {
       prior.start = found->T_map_robot;
       prior.start_error = {.translation_m = options.search_error_m};
     }
-    return matcher.Match(map, points, prior, trace);
-  }
-
-  // The match, or where few points contradict good odometry, the match according to odometry.
-  MatchResult UnlessDragged(const std::optional<FoundPose>& found, const MatchResult& match) const {
-    if (!ContradictsGoodOdometry(match)) return match;
-    const auto as_told = Search(predicted.learned, options.window_sigmas);
-    const bool has_slipped =
-        !as_told || (found && found->score > as_told->score + options.slip_gain);
-    if (has_slipped) return match;
-    const MatchResult undragged = Match(as_told, predicted.learned);
-    return undragged.status == MatchStatus::kConverged ? undragged : match;
-  }
-
-  bool ContradictsGoodOdometry(const MatchResult& match) const {
-    const PositionHold hold = HoldOf(match.information);
-    if (hold.weakest_information == 0.0 || hold.share() > options.weak_share) return false;
-    const UncertainPose2& learned = predicted.learned;
-    const double way_m =
-        hold.weakest.dot(match.T_ref_cur.translation_m() - learned.T_a_b.translation_m());
-    const double of_pairs_m2 = options.matcher.correlated_points / hold.weakest_information;
-    const double of_odometry_m2 =
-        hold.weakest.dot(learned.covariance.topLeftCorner<2, 2>() * hold.weakest);
-    return std::abs(way_m) > options.contradiction_sigmas * std::sqrt(of_pairs_m2 + of_odometry_m2);
+    return matcher.Match(map, seen_free.WithoutMoving(points, prior.start), prior);
   }
 };
 
@@ -135,27 +111,26 @@ struct Task {
 
 MatchResult ScanLocator::Locate(const ScanMap& map,
                                 std::span<const ScanPoint> points,
-                                const PosePrediction& predicted,
-                                MatchTrace* trace) const {
+                                const UncertainPose2& predicted,
+                                const FreeSpace& seen_free) const {
   const Task task{.options = options_,
                   .matcher = matcher_,
                   .map = map.surfaces(),
                   .points = points,
-                  .thinned = ThinOut(points, options_.search_spacing_m),
-                  .predicted = predicted,
-                  .trace = trace};
+                  .thinned = ThinOut(seen_free.WithoutMoving(points, predicted.T_a_b),
+                                     options_.search_spacing_m),
+                  .seen_free = seen_free};
   const double sigmas = options_.window_sigmas;
 
-  const auto near = task.Search(predicted.cautious, options_.narrow_share * sigmas);
-  const MatchResult narrow = task.UnlessDragged(near, task.Match(near, predicted.cautious));
+  const auto near = task.Search(predicted, options_.narrow_share * sigmas);
+  const MatchResult narrow = task.Match(near, predicted);
   if (narrow.overlap >= options_.confident_overlap) return narrow;
 
-  const auto better = task.Search(predicted.cautious, sigmas, near ? near->score : 0.0);
-  const MatchResult full =
-      better ? task.UnlessDragged(better, task.Match(better, predicted.cautious)) : narrow;
+  const auto better = task.Search(predicted, sigmas, near ? near->score : 0.0);
+  const MatchResult full = better ? task.Match(better, predicted) : narrow;
   if (full.overlap >= options_.widen_below_overlap) return full;
 
-  const UncertainPose2 doubted = Widened(predicted.cautious, options_.widen_factor);
+  const UncertainPose2 doubted = Widened(predicted, options_.widen_factor);
   const MatchResult wide = task.Match(task.Search(doubted, sigmas), doubted);
   return wide.overlap > full.overlap + options_.widen_gain ? wide : full;
 }

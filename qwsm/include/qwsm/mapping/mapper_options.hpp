@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "qwsm/mapping/free_space.hpp"
 #include "qwsm/mapping/motion_model.hpp"
 #include "qwsm/mapping/recent_scans.hpp"
 #include "qwsm/mapping/scan_locator.hpp"
@@ -36,6 +37,7 @@ struct MapperOptions {
   ScanLocatorOptions locator;
   ScanMapOptions map;
   RecentScansOptions surroundings;
+  FreeSpaceOptions free_space;
   double relevant_translation_m = 0.5;
   double relevant_rotation_rad = 0.35;
   double extend_below_overlap = 0.6;
@@ -51,6 +53,7 @@ void Describe(Visitor& visit, MapperOptions& o) {
   visit("locator", o.locator, {.help = "finding a scan in the map"});
   visit("map", o.map, {.help = "what is stored of relevant scans"});
   visit("surroundings", o.surroundings, {.help = "what is compared with places seen long ago"});
+  visit("free_space", o.free_space, {.help = "telling what moves by the free space seen before"});
   visit("relevant_translation_m",
         o.relevant_translation_m,
         {.help = "a scan is relevant when the robot moved this far since the last one",

@@ -29,7 +29,8 @@ struct MappingStep {
   StepStatus status = StepStatus::kFirst;
   std::string_view reason{};  ///< Why that status, in words.
   MatchResult match{};        ///< Covariance of the match alone.
-  bool relevant = false;      ///< The map was extended with this scan.
+  bool relevant = false;      ///< The map is extended with this scan,
+  LaserScan relevant_scan{};  ///< then, without the beams that ended on what moves.
 };
 
 }  // namespace qwsm

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "qwsm/mapping/free_space.hpp"
 #include "qwsm/mapping/mapper_options.hpp"
 #include "qwsm/mapping/mapping_step.hpp"
 #include "qwsm/mapping/motion_model.hpp"
@@ -52,7 +53,7 @@ class RobotTracker {
              std::span<const ScanPoint> points,
              const Eigen::Matrix3d& motion_covariance,
              MappingStep& step) const;
-  bool IsRelevant(std::span<const ScanPoint> points, const MappingStep& step) const;
+  bool HasMovedOn(std::span<const ScanPoint> points, const MappingStep& step) const;
   void FindReturn(const ScanMap& map, std::span<const ScanPoint> points, MappingStep& step);
   void Remember(const Observation& observation, const MappingStep& step);
 
@@ -60,11 +61,12 @@ class RobotTracker {
   MotionModel motion_;
   ScanLocator locator_;
   RecentScans recent_;
-  UncertainPose2 map_last_;              // Pose at the last scan,
-  UncertainPose2 local_last_;            // and how uncertain it is relative to the map around it.
-  std::optional<Pose2> T_map_relevant_;  // Pose at the last relevant scan.
-  bool is_told_ = false;                 // The last pose was told, not found.
-  bool is_told_now_ = false;             // And it is that of the next scan.
+  FreeSpace seen_free_;
+  UncertainPose2 map_last_;                // Pose at the last scan,
+  UncertainPose2 local_last_;              // and how uncertain it is relative to the map around it.
+  std::optional<Pose2> T_map_remembered_;  // Pose at the last scan that was worth it.
+  bool is_told_ = false;                   // The last pose was told, not found.
+  bool is_told_now_ = false;               // And it is that of the next scan.
   bool is_odometry_doubted_ = false;
 };
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "qwsm/mapping/pose_prediction.hpp"
+#include "qwsm/mapping/free_space.hpp"
 #include "qwsm/mapping/scan_map.hpp"
 #include "qwsm/matching/correlative_search.hpp"
 #include "qwsm/matching/weighted_scan_matcher.hpp"
@@ -73,9 +73,6 @@ struct ScanLocatorOptions {
   double widen_below_overlap = 0.5;
   double widen_factor = 3.0;
   double widen_gain = 0.15;
-  double weak_share = 0.25;
-  double contradiction_sigmas = 1.5;
-  double slip_gain = 0.12;
 };
 
 template <class Visitor>
@@ -107,21 +104,6 @@ void Describe(Visitor& visit, ScanLocatorOptions& o) {
   visit("widen_gain",
         o.widen_gain,
         {.help = "and believe it if that much more agrees", .min = 0, .max = 1});
-  visit("weak_share",
-        o.weak_share,
-        {.help = "a direction with less of the information than this may be held by moving objects",
-         .min = 0,
-         .max = 1});
-  visit("contradiction_sigmas",
-        o.contradiction_sigmas,
-        {.help = "and is, if it contradicts odometry as it has proved to be by this much",
-         .min = 0,
-         .max = 100});
-  visit("slip_gain",
-        o.slip_gain,
-        {.help = "unless a score better by this says that the wheels have slipped",
-         .min = 0,
-         .max = 1});
 }
 
 /// Finds where in the map a scan was taken, from a rough prediction.
@@ -135,14 +117,12 @@ class ScanLocator {
   /// uncertain where not nearly all of the scan is explained; and wider still where little of it
   /// is, for then odometry has jumped or slipped.
   ///
-  /// Where few points hold a direction, as along a corridor, someone who walks there would drag the
-  /// pose along. So what they say of it is not believed against odometry that has proved better.
-  ///
   /// @param predicted pose of the robot in the map.
+  /// @param seen_free what ends there has moved and is left out of the match.
   MatchResult Locate(const ScanMap& map,
                      std::span<const ScanPoint> points,
-                     const PosePrediction& predicted,
-                     MatchTrace* trace = nullptr) const;
+                     const UncertainPose2& predicted,
+                     const FreeSpace& seen_free = FreeSpace{}) const;
 
   /// Looks for the robot among the surfaces mapped long ago, with much less drift than `estimated`.
   ///

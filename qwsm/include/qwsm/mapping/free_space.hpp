@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "qwsm/geometry/pose2.hpp"
+#include "qwsm/sensor/laser_scan.hpp"
+#include "qwsm/sensor/scan_points.hpp"
+
+namespace qwsm {
+
+struct FreeSpaceOptions {
+  int scans = 10;
+  double margin_m = 0.3;
+  int margin_beams = 2;
+  double max_moving_share = 0.3;
+};
+
+template <class Visitor>
+void Describe(Visitor& visit, FreeSpaceOptions& o) {
+  visit("scans",
+        o.scans,
+        {.help = "what ends where one of so many last scans saw through has moved there",
+         .min = 0,
+         .max = 1000});
+  visit("margin_m",
+        o.margin_m,
+        {.help = "seen through is what lies this much before where a beam ended",
+         .min = 0,
+         .max = 10});
+  visit("margin_beams",
+        o.margin_beams,
+        {.help = "and so many beams to both sides of it", .min = 0, .max = 100});
+  visit("max_moving_share",
+        o.max_moving_share,
+        {.help = "if more of a scan seems to have moved, it is the pose that is wrong",
+         .min = 0,
+         .max = 1});
+}
+
+/// What one scan saw to be free: in each direction the way up to where its beams ended. Where no
+/// beam came back, nothing is known.
+class FreeSpaceFan {
+ public:
+  FreeSpaceFan(const LaserScan& scan, const Pose2& T_map_robot, const FreeSpaceOptions& options);
+
+  /// Whether the scan saw through the place, with the margins of the options.
+  bool SawThrough(const Eigen::Vector2d& p_map_m) const;
+
+ private:
+  static constexpr std::size_t kDirections = 1024;  // Of nearly equal width.
+
+  Eigen::Vector2d p_map_laser_m_;
+  Eigen::Matrix2d R_laser_map_;
+  std::array<float, kDirections> free_m_;  // By direction in the laser's frame.
+};
+
+/// The free space that the last few relevant scans of a robot saw. Points of a new scan that end
+/// there are of somebody who walked there, or another robot; in the map they would be paired with
+/// where he was a moment ago and drag the pose along.
+class FreeSpace {
+ public:
+  explicit FreeSpace(const FreeSpaceOptions& options = {}) : options_(options) {}
+
+  void Add(const LaserScan& scan, const Pose2& T_map_robot);
+  void Clear() { fans_.clear(); }
+
+  /// The points that may have stood where they are all the time.
+  std::vector<ScanPoint> WithoutMoving(std::span<const ScanPoint> points,
+                                       const Pose2& T_map_robot) const;
+  /// The scan with the beams to all others turned invalid. @param points those of the scan.
+  LaserScan WithoutMoving(LaserScan scan,
+                          std::span<const ScanPoint> points,
+                          const Pose2& T_map_robot) const;
+
+ private:
+  bool SawThrough(const Eigen::Vector2d& p_map_m) const;
+
+  FreeSpaceOptions options_;
+  std::deque<FreeSpaceFan> fans_;  // The latest last.
+};
+
+}  // namespace qwsm

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "qwsm/mapping/free_space.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+namespace qwsm::test {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr float kRange_m = 5.0F;
+
+/// A laser in the middle of a round room.
+LaserScan InARoundRoom(double first_rad,
+                       double last_rad,
+                       int beams,
+                       const Pose2& T_robot_laser = {}) {
+  LaserScan scan;
+  scan.ranges_m.assign(static_cast<std::size_t>(beams), kRange_m);
+  scan.geometry = {.first_bearing_rad = static_cast<float>(first_rad),
+                   .bearing_step_rad = static_cast<float>((last_rad - first_rad) / (beams - 1)),
+                   .range_min_m = 0.1F,
+                   .range_max_m = 20.0F,
+                   .T_robot_laser = T_robot_laser};
+  return scan;
+}
+
+Eigen::Vector2d Towards(double bearing_rad, double range_m) {
+  return range_m * Eigen::Vector2d(std::cos(bearing_rad), std::sin(bearing_rad));
+}
+
+struct Turning {
+  std::string name;
+  double first_rad;
+  double last_rad;
+};
+
+class FreeSpaceFanOf : public testing::TestWithParam<Turning> {};
+
+TEST_P(FreeSpaceFanOf, SawThroughAllBeforeItsBeamsEndedAndNothingElse) {
+  const Turning& turning = GetParam();
+  const Pose2 T_map_robot{2.0, -3.0, 2.5};
+  const Pose2 T_robot_laser{0.3, 0.1, -1.0};
+  const LaserScan scan = InARoundRoom(turning.first_rad, turning.last_rad, 361, T_robot_laser);
+  const FreeSpaceFan fan(scan, T_map_robot, {});
+  const Pose2 T_map_laser = T_map_robot * T_robot_laser;
+  const double middle_rad = 0.5 * (turning.first_rad + turning.last_rad);
+  const double half_rad = 0.5 * std::abs(turning.last_rad - turning.first_rad);
+  constexpr double kBorder_rad = 0.05;  // Where some neighbouring beams are missing.
+  for (double off_rad = -kPi + 0.01; off_rad < kPi; off_rad += 0.01) {
+    const bool is_in_view = std::abs(off_rad) < half_rad - kBorder_rad;
+    if (!is_in_view && std::abs(off_rad) < half_rad + kBorder_rad) continue;
+    SCOPED_TRACE(off_rad);
+    const double bearing_rad = middle_rad + off_rad;
+    EXPECT_EQ(fan.SawThrough(T_map_laser * Towards(bearing_rad, 4.6)), is_in_view);
+    EXPECT_FALSE(fan.SawThrough(T_map_laser * Towards(bearing_rad, 4.8)));  // Within the margin.
+    EXPECT_FALSE(fan.SawThrough(T_map_laser * Towards(bearing_rad, 5.5)));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Lasers,
+                         FreeSpaceFanOf,
+                         testing::Values(Turning{"Forwards", -0.5 * kPi, 0.5 * kPi},
+                                         Turning{"Clockwise", 0.75 * kPi, -0.75 * kPi},
+                                         Turning{"AllAround", -kPi, kPi},
+                                         Turning{"FromZero", 0.0, 2.0 * kPi}),
+                         [](const auto& tested) { return tested.param.name; });
+
+TEST(FreeSpaceFan, KnowsNothingWhereABeamNearbyBroughtNoEcho) {
+  LaserScan scan = InARoundRoom(-1.0, 1.0, 201);
+  scan.ranges_m[100] = std::numeric_limits<float>::quiet_NaN();
+  const FreeSpaceFan fan(scan, {}, {.margin_beams = 2});
+  EXPECT_FALSE(fan.SawThrough(Towards(0.0, 2.0)));
+  EXPECT_FALSE(fan.SawThrough(Towards(0.02, 2.0)));
+  EXPECT_TRUE(fan.SawThrough(Towards(0.05, 2.0)));
+}
+
+TEST(FreeSpaceFan, IsNotMistakenAtTheLaserItself) {
+  EXPECT_TRUE(FreeSpaceFan(InARoundRoom(-kPi, kPi, 361), {}, {}).SawThrough({0.0, 0.0}));
+}
+
+class WhoWalksIn : public testing::Test {
+ protected:
+  WhoWalksIn() { seen_free_.Add(scan_, {}); }
+
+  void Enter(std::size_t first_beam, std::size_t beams) {
+    for (std::size_t i = first_beam; i < first_beam + beams; ++i) scan_.ranges_m[i] = 2.0F;
+  }
+
+  LaserScan scan_ = InARoundRoom(-0.5 * kPi, 0.5 * kPi, 181);
+  FreeSpace seen_free_;
+};
+
+TEST_F(WhoWalksIn, IsLeftOut) {
+  Enter(80, 10);
+  const std::vector<ScanPoint> points = ToPoints(scan_);
+  const std::vector<ScanPoint> still = seen_free_.WithoutMoving(points, {});
+  EXPECT_EQ(still.size(), points.size() - 10);
+  for (const ScanPoint& point : still) EXPECT_GT(point.range_m, 4.0);
+
+  const LaserScan kept = seen_free_.WithoutMoving(scan_, points, {});
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    EXPECT_EQ(std::isnan(kept.ranges_m[i]), i >= 80 && i < 90) << i;
+  }
+}
+
+TEST_F(WhoWalksIn, IsForgottenAfterSoManyScans) {
+  Enter(80, 10);
+  for (int i = 0; i < FreeSpaceOptions{}.scans; ++i) seen_free_.Add(scan_, {});
+  EXPECT_EQ(seen_free_.WithoutMoving(ToPoints(scan_), {}).size(), scan_.size());
+}
+
+TEST_F(WhoWalksIn, IsNoLongerToldFromAWrongPoseWhereAllSeemsToMove) {
+  Enter(20, 140);
+  EXPECT_EQ(seen_free_.WithoutMoving(ToPoints(scan_), {}).size(), scan_.size());
+}
+
+}  // namespace
+}  // namespace qwsm::test
