@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "qwsm/geometry/frame_covariance.hpp"
 
+#include <Eigen/Eigenvalues>
+
 namespace qwsm {
 namespace {
 
@@ -14,6 +16,12 @@ Eigen::Matrix3d LeverOf(const Eigen::Vector2d& p_m) {
 }
 
 }  // namespace
+
+Eigen::Matrix3d PositivePart(const Eigen::Matrix3d& difference) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(difference);
+  return axes.eigenvectors() * axes.eigenvalues().cwiseMax(0.0).asDiagonal() *
+         axes.eigenvectors().transpose();
+}
 
 FrameCovariance FrameCovariance::Of(const UncertainPose2& map_robot) {
   const Eigen::Matrix3d lever = LeverOf(-map_robot.T_a_b.translation_m());

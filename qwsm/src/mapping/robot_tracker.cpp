@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "qwsm/mapping/robot_tracker.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
 #include <optional>
@@ -11,9 +10,6 @@
 
 namespace qwsm {
 namespace {
-
-constexpr double kReferenceReach_m = 0.2;    // Stored points this near are what a scan matched.
-constexpr double kReferenceSpacing_m = 0.3;  // Enough to tell which scans they came from.
 
 ScanLocatorOptions LocatorOptions(const MapperOptions& options) {
   ScanLocatorOptions locator = options.locator;
@@ -38,21 +34,8 @@ Eigen::Matrix3d FuseWithReference(const Eigen::Matrix3d& reference,
                                   const Eigen::Matrix3d& predicted,
                                   const Eigen::Matrix3d& motion,
                                   const Eigen::Matrix3d& pair_information) {
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> excess(predicted - motion - reference);
-  const Eigen::Matrix3d relative = excess.eigenvectors() *
-                                       excess.eigenvalues().cwiseMax(0.0).asDiagonal() *
-                                       excess.eigenvectors().transpose() +
-                                   motion;
+  const Eigen::Matrix3d relative = PositivePart(predicted - motion - reference) + motion;
   return reference + (pair_information + relative.inverse()).inverse();
-}
-
-std::vector<Eigen::Vector2d> ToMap(std::span<const Eigen::Vector2d> points_robot_m,
-                                   const Pose2& T_map_robot) {
-  std::vector<Eigen::Vector2d> points_map_m;
-  points_map_m.reserve(points_robot_m.size());
-  for (const Eigen::Vector2d& p_robot : points_robot_m)
-    points_map_m.push_back(T_map_robot * p_robot);
-  return points_map_m;
 }
 
 }  // namespace
@@ -167,9 +150,7 @@ void RobotTracker::Judge(const ScanMap& map,
   step.status = extends ? StepStatus::kExtended : StepStatus::kMatched;
   step.reason = extends ? "much of the scan is new" : "agrees with the map";
 
-  const std::vector<Eigen::Vector2d> points_map =
-      ToMap(ThinOut(points, kReferenceSpacing_m), match.T_ref_cur);
-  const FrameCovariance reference = map.CovarianceAround(points_map, kReferenceReach_m);
+  const FrameCovariance reference = map.CovarianceUnder(points, match.T_ref_cur);
   step.map_robot.covariance = FuseWithReference(reference.At(match.T_ref_cur.translation_m()),
                                                 step.map_robot.covariance,
                                                 motion_covariance,

@@ -8,6 +8,10 @@
 
 namespace qwsm {
 
+/// The symmetric matrix without its negative eigenvalues: what is left of a difference of
+/// covariances.
+Eigen::Matrix3d PositivePart(const Eigen::Matrix3d& difference);
+
 /// Covariance of a small motion (x, y, theta) of a whole frame about its origin.
 ///
 /// Poses that were displaced together, as by the drift of the map around them, share it wherever

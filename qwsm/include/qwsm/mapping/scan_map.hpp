@@ -54,6 +54,7 @@ struct MapAddition {
   LaserScan scan;
   UncertainPose2 map_robot;
   std::vector<MapPoint> points;  ///< Those of its points that are stored.
+  FrameCovariance own_error;     ///< What it did not take over from the scans it lies on.
 };
 
 /// The union of all relevant scans: their points, searchable, and the scans themselves.
@@ -78,18 +79,24 @@ class ScanMap {
   /// Forgets all points, but not the scans: what follows is matched to what is inserted next.
   void ForgetPoints();
 
-  /// How uncertain that part of the map is which the points lie on: the mean over the scans that
-  /// stored the points nearest to them. Those of the last scan if none is near.
-  FrameCovariance CovarianceAround(std::span<const Eigen::Vector2d> points_map_m,
-                                   double max_distance_m) const;
+  /// How uncertain that part of the map is which a scan lies on: the mean error of the scans that
+  /// stored the points nearest to its own. Those of the last scan if none is near.
+  FrameCovariance CovarianceUnder(std::span<const ScanPoint> points,
+                                  const Pose2& T_map_robot) const;
 
  private:
+  // Of a scan's frame, in two parts that are independent of each other.
+  struct ScanError {
+    FrameCovariance shared;  // With the scans it lies on;
+    FrameCovariance own;     // independent of all scans before.
+  };
+
   bool IsNewSurface(const Eigen::Vector2d& p_map_m) const;
 
   ScanMapOptions options_;
   SurfaceMap surfaces_;
-  std::vector<RelevantScan> scans_;           // By ScanId.
-  std::vector<FrameCovariance> covariances_;  // By ScanId.
+  std::vector<RelevantScan> scans_;  // By ScanId.
+  std::vector<ScanError> errors_;    // By ScanId.
 };
 
 }  // namespace qwsm
