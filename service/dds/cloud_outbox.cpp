@@ -25,7 +25,7 @@ RegistrationReport ReportOf(const team::CloudAnswer& answer) {
   const bool has_match = step.status == slam6d::SlamStatus::kMatched ||
                          step.status == slam6d::SlamStatus::kDeadReckoned;
   return {.robot = answer.robot,
-          .stamp = answer.scan.stamp,
+          .stamp = answer.scan->stamp,
           .map_robot = answer.map_robot,
           .status = step.status,
           .reason = std::string(has_match ? Reason(step.match.status) : NameOf(step.status)),
@@ -81,12 +81,15 @@ class CloudOutbox::Topics {
     graph_.Announce();
   }
 
-  void Take(const team::CloudAnswer& answer) {
+  void TakePose(const team::CloudAnswer& answer) {
     const std::shared_ptr<const Robot> robot = Find(answer.robot);
-    if (!robot) return;
-    robot->poses.Publish(answer.scan.stamp, answer.map_robot, answer.T_odom_robot);
-    // The report goes last: who waits for it has everything.
-    robot->reports.Write(ToWire(ReportOf(answer), map_frame_));
+    if (robot) robot->poses.Publish(answer.scan->stamp, answer.map_robot, answer.T_odom_robot);
+  }
+
+  // After the pose: who waits for the report has everything.
+  void TakeReport(const team::CloudAnswer& answer) {
+    const std::shared_ptr<const Robot> robot = Find(answer.robot);
+    if (robot) robot->reports.Write(ToWire(ReportOf(answer), map_frame_));
   }
 
   void Take(const team::CloudMap& map) {
@@ -139,7 +142,8 @@ void CloudOutbox::AddRobot(const std::string& robot, const Claim& claim) {
   topics_->Add(robot, claim);
 }
 void CloudOutbox::RemoveRobot(const std::string& robot) { topics_->Remove(robot); }
-void CloudOutbox::TakeAnswer(const team::CloudAnswer& answer) { topics_->Take(answer); }
+void CloudOutbox::TakeAnswer(const team::CloudAnswer& answer) { topics_->TakePose(answer); }
+void CloudOutbox::TakeReport(const team::CloudAnswer& answer) { topics_->TakeReport(answer); }
 void CloudOutbox::TakeMap(const team::CloudMap& map) { topics_->Take(map); }
 void CloudOutbox::TakeStatus(const team::TeamStatus& status) { topics_->Take(status); }
 

@@ -27,6 +27,8 @@ class CloudOutbox final : public team::CloudSink {
   void RemoveRobot(const std::string& robot);
 
   void TakeAnswer(const team::CloudAnswer& answer) override;
+  void TakeReport(const team::CloudAnswer& answer) override;
+  void TakeRestored(const team::CloudAnswer&) override {}
   void TakeMap(const team::CloudMap& map) override;
   void TakeStatus(const team::TeamStatus& status) override;
   void TakeEvent(const team::TeamEvent&) override {}

@@ -3,7 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "qwsm/sensor/laser_scan.hpp"
@@ -22,6 +25,18 @@ struct CloudScan {
 struct CloudObservation {
   CloudScan scan;
   std::optional<slam6d::Pose3> T_odom_robot;
+};
+
+/// A scan of a robot's model, and all that its registration began with: from these, in their order,
+/// the model is built once more to the last bit.
+struct KeptCloud {
+  std::string robot;
+  std::uint64_t sequence = 0;  ///< Grows with the scans of the robot.
+  std::shared_ptr<const CloudScan> scan;
+  slam6d::Pose3 T_odom_sensor;                ///< The estimate.
+  std::optional<slam6d::Pose3> T_odom_robot;  ///< For the robot to go on from.
+  /// Where odometry began anew, or the start was told; nothing where it is as it was published.
+  std::optional<slam6d::Pose3> T_slam_odom;
 };
 
 /// More points in one scan are a mistake or an attack.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <stop_token>
 #include <string>
@@ -14,6 +15,7 @@
 #include "service/team/cloud_session.hpp"
 #include "service/team/cloud_sink.hpp"
 #include "service/team/periodic_task.hpp"
+#include "service/team/service_journal.hpp"
 #include "service/team/session_list.hpp"
 
 namespace qwsm::team {
@@ -31,20 +33,26 @@ struct CloudServiceOptions {
 class CloudService {
  public:
   /// @param closer and sink outlive this.
+  /// @param journal where scans are kept; the models begin with those in it. Empty: nowhere.
+  /// @throws io::JournalError where it cannot be opened or is no journal.
   CloudService(const CloudServiceOptions& options,
                const slam6d::LoopCloser& closer,
-               CloudSink& sink);
+               CloudSink& sink,
+               const std::filesystem::path& journal = {});
   /// Stops.
   ~CloudService();
   CloudService(const CloudService&) = delete;
   CloudService& operator=(const CloudService&) = delete;
 
-  /// Starts to work. What arrives before waits.
+  /// Starts to work: first on what is in the journal. What arrives before waits.
   void Start();
   /// Finishes the registrations at work and works no more. What waits in queues is left out.
   void Stop();
-  /// Waits until every scan that was taken is answered or dropped.
-  void WaitUntilIdle() { sessions_.WaitUntilIdle(); }
+  /// Waits until every scan that was taken is answered or dropped, and all is on disk that can be.
+  void WaitUntilIdle();
+
+  /// The name of the service in the keys of its scans.
+  const std::string& identity() const { return journal_.identity(); }
 
   /// A robot's publisher is there. What takes messages of a robot makes it join as well.
   void Join(std::string_view robot) { sessions_.Join(robot); }
@@ -74,12 +82,15 @@ class CloudService {
 
  private:
   std::shared_ptr<CloudSession> MakeSession(std::string robot);
+  void Restore(KeptCloud scan);
+  void Keep(const KeptCloud& scan);
   void TellMaps(const std::stop_token& stop);
 
   const CloudServiceOptions options_;
   const CloudContext context_;
   const std::chrono::steady_clock::time_point begun_;
   SessionList<CloudSession> sessions_;
+  ServiceJournal journal_;
   std::unique_ptr<PeriodicTask> merging_;
   std::unique_ptr<PeriodicTask> reporting_;
 };

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/team/cloud_session.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <utility>
 
 namespace qwsm::team {
@@ -32,11 +35,19 @@ CloudSession::CloudSession(std::string name,
       intake_(std::move(name), options.session),
       slam_(slam, context.closer) {}
 
+void CloudSession::Restore(KeptCloud kept) {
+  intake_.GoOnFrom(kept.scan->stamp, kept.T_odom_robot);
+  const std::lock_guard lock(mutex_);
+  to_restore_.push_back(std::move(kept));
+}
+
 void CloudSession::PlaceAt(const slam6d::UncertainPose3& map_robot) {
   const std::string_view objection = ObjectionTo(map_robot);
   if (!objection.empty()) return Tell(true, objection);
   const std::lock_guard lock(mutex_);
-  if (!stops_.empty()) return Tell(true, "its model has begun: it is where its scans say");
+  if (!stops_.empty() || !to_restore_.empty()) {
+    return Tell(true, "its model has begun: it is where its scans say");
+  }
   T_map_start_ = map_robot.T_a_b;
 }
 
@@ -58,15 +69,67 @@ bool CloudSession::TakeScan(CloudScan scan) {
   return intake_.TakeScan(std::move(scan));
 }
 
+std::optional<Lane::Time> CloudSession::ReadyAt() const {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!to_restore_.empty()) return Time{};
+  }
+  return intake_.ReadyAt();
+}
+
 void CloudSession::RunOne() {
-  const std::optional<Work> work = intake_.Take();
+  if (RestoreOne()) return;
+  std::optional<Work> work = intake_.Take();
   if (!work) return;
-  const auto begun = steady_clock::now();
   T_odom_sensor_last_ = EstimateSensor(*work);
-  const slam6d::SlamStep step = slam_.Add(work->scan.cloud, T_odom_sensor_last_);
+  const auto scan = std::make_shared<const CloudScan>(std::move(work->scan));
+  CloudAnswer answer = Register(scan);
+  answer.T_odom_robot = work->T_odom_robot;
+  Note(*work, answer);
+  const SessionCounts counts = intake_.Status().counts;
+  answer.scans = counts.scans;
+  answer.dropped = counts.dropped;
+  answer.latency = steady_clock::now() - work->arrived;
+  context_.sink.TakeAnswer(answer);
+  context_.keep({.robot = name(),
+                 .sequence = ++sequence_,
+                 .scan = scan,
+                 .T_odom_sensor = T_odom_sensor_last_,
+                 .T_odom_robot = work->T_odom_robot,
+                 .T_slam_odom = T_slam_odom_});
+  context_.report(answer);
+}
+
+/// @return false where there is nothing to be restored.
+bool CloudSession::RestoreOne() {
+  std::unique_lock lock(mutex_);
+  if (to_restore_.empty()) return false;
+  const KeptCloud kept = std::move(to_restore_.front());
+  to_restore_.pop_front();
+  const bool is_last = to_restore_.empty();
+  lock.unlock();
+  sequence_ = std::max(sequence_, kept.sequence);
+  T_odom_sensor_last_ = kept.T_odom_sensor;
+  T_slam_odom_ = kept.T_slam_odom;
+  context_.sink.TakeRestored(Register(kept.scan));
+  if (is_last) {
+    Tell(false, fmt::format("has its {} scans back from the journal", slam_.T_map_scan().size()));
+  }
+  return true;
+}
+
+CloudAnswer CloudSession::Register(std::shared_ptr<const CloudScan> scan) {
+  const auto begun = steady_clock::now();
+  slam6d::SlamStep step = slam_.Add(scan->cloud, T_odom_sensor_last_);
   const auto matching = steady_clock::now() - begun;
-  Keep(work->scan);
-  Answer(*work, step, matching);
+  Draw(*scan);
+  const slam6d::UncertainPose3 map_robot = RobotBy(step, scan->T_robot_sensor);
+  return {.robot = name(),
+          .scan = std::move(scan),
+          .step = std::move(step),
+          .T_odom_sensor = T_odom_sensor_last_,
+          .map_robot = map_robot,
+          .matching = matching};
 }
 
 /// Where to begin the registration: what odometry says, carried on from the scan before.
@@ -95,7 +158,7 @@ Pose3 CloudSession::EstimateFirst(const Work& work) {
   return *T_map_start_ * T_robot_sensor;
 }
 
-void CloudSession::Keep(const CloudScan& scan) {
+void CloudSession::Draw(const CloudScan& scan) {
   auto thinned = std::make_shared<const slam6d::PointCloud>(Reduce(scan.cloud, thinning_));
   const std::lock_guard lock(mutex_);
   stops_.push_back({scan.stamp, scan.T_robot_sensor, std::move(thinned)});
@@ -103,27 +166,15 @@ void CloudSession::Keep(const CloudScan& scan) {
   is_map_new_ = true;
 }
 
-void CloudSession::Answer(const Work& work,
-                          const slam6d::SlamStep& step,
-                          std::chrono::nanoseconds matching) {
-  intake_.NoteAnswer({.stamp = work.scan.stamp,
+void CloudSession::Note(const Work& work, const CloudAnswer& answer) {
+  const slam6d::SlamStatus status = answer.step.status;
+  intake_.NoteAnswer({.stamp = answer.scan->stamp,
                       .arrived = work.arrived,
-                      .working = matching,
-                      .is_dead_reckoned = step.status == slam6d::SlamStatus::kDeadReckoned ||
-                                          step.status == slam6d::SlamStatus::kUnusable,
-                      .is_relevant = step.status != slam6d::SlamStatus::kUnusable,
+                      .working = answer.matching,
+                      .is_dead_reckoned = status == slam6d::SlamStatus::kDeadReckoned ||
+                                          status == slam6d::SlamStatus::kUnusable,
+                      .is_relevant = status != slam6d::SlamStatus::kUnusable,
                       .has_odometry = work.T_odom_robot.has_value()});
-  const SessionCounts counts = intake_.Status().counts;
-  context_.sink.TakeAnswer({.robot = name(),
-                            .scan = work.scan,
-                            .step = step,
-                            .T_odom_sensor = T_odom_sensor_last_,
-                            .map_robot = RobotBy(step, work.scan.T_robot_sensor),
-                            .T_odom_robot = work.T_odom_robot,
-                            .matching = matching,
-                            .latency = steady_clock::now() - work.arrived,
-                            .scans = counts.scans,
-                            .dropped = counts.dropped});
 }
 
 std::optional<CloudMap> CloudSession::NewMap() {
@@ -144,11 +195,11 @@ std::optional<CloudMap> CloudSession::NewMap() {
   return map;
 }
 
-std::size_t CloudSession::map_points() const {
+MapStatus CloudSession::ModelStatus() const {
   const std::lock_guard lock(mutex_);
-  std::size_t points = 0;
-  for (const Stop& stop : stops_) points += stop.thinned->size();
-  return points;
+  MapStatus status{.scans = stops_.size()};
+  for (const Stop& stop : stops_) status.points += stop.thinned->size();
+  return status;
 }
 
 void CloudSession::Tell(bool is_warning, std::string_view text) const {

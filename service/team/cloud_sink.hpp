@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,11 +17,11 @@
 
 namespace qwsm::team {
 
-/// The answer to one 3D scan. What it refers to lives as long as the call.
+/// The answer to one 3D scan.
 struct CloudAnswer {
   std::string robot;
-  const CloudScan& scan;
-  const slam6d::SlamStep& step;                 ///< Of the sensor's pose.
+  std::shared_ptr<const CloudScan> scan;
+  slam6d::SlamStep step;                        ///< Of the sensor's pose.
   slam6d::Pose3 T_odom_sensor;                  ///< The estimate that the registration began with.
   slam6d::UncertainPose3 map_robot;             ///< Where the scan says the robot is.
   std::optional<slam6d::Pose3> T_odom_robot{};  ///< At the scan's stamp, as odometry has it.
@@ -50,7 +51,12 @@ class CloudSink {
   CloudSink& operator=(const CloudSink&) = delete;
   virtual ~CloudSink() = default;
 
+  /// A pose, as soon as it is known.
   virtual void TakeAnswer(const CloudAnswer& answer) = 0;
+  /// The same again, once the scan is safely in the journal, if there is one that can be written.
+  virtual void TakeReport(const CloudAnswer& answer) = 0;
+  /// A scan of the journal is in its robot's model once more. It was answered in its time.
+  virtual void TakeRestored(const CloudAnswer& answer) = 0;
   virtual void TakeMap(const CloudMap& map) = 0;
   virtual void TakeStatus(const TeamStatus& status) = 0;
   virtual void TakeEvent(const TeamEvent& event) = 0;

@@ -19,14 +19,6 @@ constexpr std::chrono::nanoseconds kSearchPeriod = std::chrono::seconds(2);
 constexpr double kPushed_m = 0.3;
 constexpr double kPushed_rad = 0.1;
 
-// A service that was killed while it could not write its journal does not know which numbers it
-// gave. So those of each run begin with its time, in microseconds: no robot makes that many.
-std::uint64_t NewSequence() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return static_cast<std::uint64_t>(
-      std::chrono::microseconds(now / std::chrono::microseconds(1)).count());
-}
-
 UncertainPose2 Loosened(UncertainPose2 pose) {
   pose.covariance.diagonal() += Eigen::Vector3d(kPushed_m, kPushed_m, kPushed_rad).cwiseAbs2();
   return pose;
@@ -42,7 +34,7 @@ RobotSession::RobotSession(std::string name,
       intake_(std::move(name), options),
       tracker_(mapper),
       sequence_(
-          std::max(context_.map.LastSequence(context_.service, this->name()), NewSequence())) {}
+          std::max(context_.map.LastSequence(context_.service, this->name()), SequenceOfNow())) {}
 
 void RobotSession::SetStart(const UncertainPose2& map_robot) {
   const std::lock_guard lock(mutex_);

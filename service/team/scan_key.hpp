@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <chrono>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -18,6 +19,14 @@ struct ScanKey {
 
   friend auto operator<=>(const ScanKey&, const ScanKey&) = default;
 };
+
+/// What the sequence numbers of a run begin with: its time, in microseconds, as no robot makes that
+/// many scans. A service that was killed while it could not write its journal does not know which
+/// numbers it gave.
+inline std::uint64_t SequenceOfNow() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return static_cast<std::uint64_t>(now / std::chrono::microseconds(1));
+}
 
 struct ScanKeyHash {
   std::size_t operator()(const ScanKey& key) const {

@@ -115,6 +115,14 @@ void SessionIntake<Kind>::ExpectOdometry(bool expected) {
 }
 
 template <class Kind>
+void SessionIntake<Kind>::GoOnFrom(Timestamp stamp, const std::optional<Pose>& T_odom_robot) {
+  const std::lock_guard lock(mutex_);
+  static_cast<void>(guard_.Judge(stamp));  // If it comes once more it is a duplicate.
+  last_stamp_ = stamp;
+  T_odom_last_ = T_odom_robot;
+}
+
+template <class Kind>
 std::optional<Lane::Time> SessionIntake<Kind>::ReadyAt() const {
   const std::lock_guard lock(mutex_);
   if (queue_.empty()) return std::nullopt;

@@ -65,6 +65,9 @@ class SessionIntake {
   /// Whether scans are to wait for odometry. They are, from the first reading on.
   void ExpectOdometry(bool expected);
 
+  /// A run before this one took a scan of that stamp, with that odometry: it goes on from there.
+  void GoOnFrom(Timestamp stamp, const std::optional<Pose>& T_odom_robot);
+
   /// From when on there is work; nothing where there is none.
   std::optional<Lane::Time> ReadyAt() const;
   /// The oldest scan that waits and can be used. To be called by one thread at a time.

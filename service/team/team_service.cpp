@@ -2,10 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/team/team_service.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <random>
 #include <thread>
 #include <tuple>
 #include <utility>
@@ -22,10 +19,6 @@ constexpr std::chrono::duration<double> kPaintPeriod{0.2};
 
 // A map that does not change is told again for readers that do not ask for what was before them.
 constexpr std::chrono::seconds kMapRepetition{10};
-
-std::string NewIdentity(const std::string& name) {
-  return fmt::format("{}-{:08x}", name, std::random_device{}());
-}
 
 TeamServiceOptions WithQuadtree(TeamServiceOptions options) {
   options.mapper.matcher = MatcherKind::kQWsm;
@@ -64,14 +57,12 @@ TeamService::TeamService(const TeamServiceOptions& options,
     : options_(WithQuadtree(options)),
       sink_(sink),
       begun_(steady_clock::now()),
-      identity_(NewIdentity(options.team.service)),
       maps_(options.team.map, options.mapper.map),
-      sessions_([this](std::string robot) { return MakeSession(std::move(robot)); }) {
-  if (!journal.empty()) {
-    journal_ = std::make_unique<Journal>(Journal::Names{
-        .file = journal, .kind = std::string(io::kScanJournal), .identity = identity_});
-    Restore();
-  }
+      sessions_([this](std::string robot) { return MakeSession(std::move(robot)); }),
+      journal_(options.team.service,
+               {.file = journal, .kind = io::kScanJournal},
+               [&sink](const TeamEvent& event) { sink.TakeEvent(event); }) {
+  journal_.Restore([this](const io::JournalEntry& entry) { Restore(FromJournal(entry)); });
   for (const RobotStartOptions& robot : options_.team.robots) {
     if (const auto session = sessions_.Of(robot.name)) session->SetStart(StartOf(robot));
   }
@@ -79,22 +70,9 @@ TeamService::TeamService(const TeamServiceOptions& options,
 
 TeamService::~TeamService() { Stop(); }
 
-void TeamService::Restore() {
-  std::size_t damaged = 0;
-  damaged += journal_->Restore([&](const io::JournalEntry& entry) {
-    try {
-      const TeamScan scan = FromJournal(entry);
-      if (!maps_.Of(scan.key.robot)->Insert(scan, ToPoints(scan.scan))) return;
-      offered_.push_back(scan);
-    } catch (const io::BinaryError&) {
-      ++damaged;
-    }
-  });
-  identity_ = journal_->identity();
-  if (damaged == 0) return;
-  const std::string text =
-      fmt::format("{}: {} entries are damaged and left out", journal_->Status().file, damaged);
-  sink_.TakeEvent({.robot = std::nullopt, .is_warning = true, .text = text});
+void TeamService::Restore(TeamScan scan) {
+  if (!maps_.Of(scan.key.robot)->Insert(scan, ToPoints(scan.scan))) return;
+  offered_.push_back(std::move(scan));
 }
 
 void TeamService::Start() {
@@ -115,18 +93,12 @@ void TeamService::Stop() {
   painting_.reset();
   reporting_.reset();
   sessions_.Stop();
-  if (!journal_) return;
-  journal_->Stop();
-  const JournalStatus journal = journal_->Status();
-  if (journal.waiting == 0) return;
-  const std::string text =
-      fmt::format("{} relevant scans could not be stored: {}", journal.waiting, journal.trouble);
-  sink_.TakeEvent({.robot = std::nullopt, .is_warning = true, .text = text});
+  journal_.Stop();
 }
 
 void TeamService::WaitUntilIdle() {
   sessions_.WaitUntilIdle();
-  if (journal_) journal_->WaitUntilSettled();
+  journal_.WaitUntilSettled();
 }
 
 void TeamService::TakeIn(std::vector<TeamScan> scans) {
@@ -178,17 +150,12 @@ bool TeamService::Insert(const TeamScan& scan,
     addition = maps_.Of(scan.key.robot)->Insert(scan, points);
     if (!addition) return false;
     if (journal_) {
-      journal_->Append(ToJournal(scan), [settled, addition] { settled(*addition); });
+      journal_.Append(ToJournal(scan), [settled, addition] { settled(*addition); });
       return true;
     }
   }
   settled(*addition);
   return true;
-}
-
-void TeamService::Report(const RobotAnswer& answer) {
-  if (!journal_) return sink_.TakeReport(answer);
-  journal_->Tell([this, answer] { sink_.TakeReport(answer); });
 }
 
 void TeamService::TellNewPoints(const TeamScan& scan, const MapAddition& addition) {
@@ -200,10 +167,11 @@ void TeamService::TellNewPoints(const TeamScan& scan, const MapAddition& additio
 }
 
 TeamStatus TeamService::Status() const {
-  TeamStatus status{
-      .service = identity_, .uptime = steady_clock::now() - begun_, .robots = sessions_.Statuses()};
+  TeamStatus status{.service = identity(),
+                    .uptime = steady_clock::now() - begun_,
+                    .robots = sessions_.Statuses()};
   status.map = StatusOfMaps();
-  if (journal_) status.journal = journal_->Status();
+  status.journal = journal_.Status();
   return status;
 }
 
@@ -260,12 +228,15 @@ std::shared_ptr<RobotSession> TeamService::MakeSession(std::string robot) {
   const auto extend = [this](const TeamScan& scan, std::span<const ScanPoint> points) {
     Extend(scan, points);
   };
-  SessionContext context{.service = identity_,
+  const auto report = [this](const RobotAnswer& answer) {
+    journal_.TellWhenSafe([this, answer] { sink_.TakeReport(answer); });
+  };
+  SessionContext context{.service = identity(),
                          .map = *maps_.Of(robot),
                          .sink = sink_,
                          .teammate_radius_m = options_.team.teammate_radius_m,
                          .extend = extend,
-                         .report = [this](const RobotAnswer& answer) { Report(answer); }};
+                         .report = report};
   return std::make_shared<RobotSession>(
       std::move(robot), options_.team.session, options_.mapper, std::move(context));
 }

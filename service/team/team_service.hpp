@@ -19,10 +19,10 @@
 
 #include "qwsm/mapping/mapper_options.hpp"
 #include "qwsm/mapping/occupancy_grid.hpp"
-#include "service/team/journal.hpp"
 #include "service/team/map_painter.hpp"
 #include "service/team/periodic_task.hpp"
 #include "service/team/robot_session.hpp"
+#include "service/team/service_journal.hpp"
 #include "service/team/session_list.hpp"
 #include "service/team/team_maps.hpp"
 #include "service/team/team_options.hpp"
@@ -63,10 +63,8 @@ class TeamService {
   /// Waits until every scan that was taken is answered or dropped, and all is on disk that can be.
   void WaitUntilIdle();
 
-  /// The name of the service in the keys of its relevant scans: that of the options and a random
-  /// number, which the journal keeps. So a service that comes back with its memory continues its
-  /// numbers, and one without does not take old numbers for new scans.
-  const std::string& identity() const { return identity_; }
+  /// The name of the service in the keys of its relevant scans.
+  const std::string& identity() const { return journal_.identity(); }
 
   /// A robot's publisher is there. What takes messages of a robot makes it join as well.
   void Join(std::string_view robot) { sessions_.Join(robot); }
@@ -109,11 +107,10 @@ class TeamService {
   std::shared_ptr<RobotSession> MakeSession(std::string robot);
   void Extend(const TeamScan& scan, std::span<const ScanPoint> points);
   void TakeInOne(TeamScan scan);
-  void Restore();
+  void Restore(TeamScan scan);
   bool Insert(const TeamScan& scan,
               std::span<const ScanPoint> points,
               const std::function<void(const MapAddition&)>& settled);
-  void Report(const RobotAnswer& answer);
   void TellNewPoints(const TeamScan& scan, const MapAddition& addition);
   void PaintMaps(const std::stop_token& stop);
   void TellMap(const std::string& robot, MapPainter& painter);
@@ -123,7 +120,6 @@ class TeamService {
   const TeamServiceOptions options_;
   TeamSink& sink_;
   const std::chrono::steady_clock::time_point begun_;
-  std::string identity_;
   TeamMaps maps_;
   std::mutex extension_;             // Keeps the journal in the order of the map.
   std::vector<TeamScan> offered_;    // From the journal, until the start.
@@ -138,7 +134,7 @@ class TeamService {
   std::chrono::steady_clock::time_point maps_told_{};
   std::chrono::steady_clock::time_point maps_repeated_{};
 
-  std::unique_ptr<Journal> journal_;  // Null: there is none.
+  ServiceJournal journal_;
   std::unique_ptr<PeriodicTask> painting_;
   std::unique_ptr<PeriodicTask> reporting_;
 };

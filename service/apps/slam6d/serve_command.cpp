@@ -30,6 +30,7 @@ using qwsm::pipeline::ResultsFolder;
 struct ServeArguments {
   std::vector<std::string> robots;
   std::optional<std::filesystem::path> output;
+  std::filesystem::path journal;
   bool force = false;
   NetworkArguments network;
 };
@@ -37,7 +38,7 @@ struct ServeArguments {
 /// The service and everything that listens to it.
 class Server {
  public:
-  Server(const std::vector<std::string>& robots,
+  Server(const ServeArguments& arguments,
          const pipeline::ProgramOptions& options,
          const std::optional<ResultsFolder>& folder)
       : refusals_([](const std::string& text) { spdlog::warn("{}", text); }),
@@ -46,14 +47,14 @@ class Server {
         results_(folder ? std::make_unique<pipeline::CloudResults>(*folder, options) : nullptr),
         sinks_(Sinks()),
         closer_(graph::MakeLoopCloser(options.loop_error)),
-        service_({.team = options.team, .slam = options.slam}, *closer_, sinks_),
-        inbox_(participant_, robots, service_, outbox_, refusals_) {}
+        service_({.team = options.team, .slam = options.slam}, *closer_, sinks_, arguments.journal),
+        inbox_(participant_, arguments.robots, service_, outbox_, refusals_) {}
 
   void Run(const qwsm::pipeline::Interruption& interruption) {
     qwsm::apps::ServiceManager manager;
     service_.Start();
     manager.TellReady("serving");
-    spdlog::info("serving");
+    spdlog::info("serving as {}", service_.identity());
     while (!interruption.requested()) {
       inbox_.Deliver(100ms);
       manager.TellAlive("serving");
@@ -112,7 +113,7 @@ ExitCode RunServe(const ServeArguments& arguments) {
   }
   spdlog::info("version {}", qwsm::apps::Version());
   const qwsm::pipeline::Interruption interruption;
-  Server server(arguments.robots, session.options(), folder);
+  Server server(arguments, session.options(), folder);
   server.Run(interruption);
   if (!arguments.network.verbosity.quiet) Summarize(server.Status());
   return ExitCode::kDone;
@@ -126,12 +127,15 @@ Command AddServeCommand(CLI::App& program) {
   parser->footer(
       "  slam6d serve                      for whoever publishes clouds, until Ctrl-C\n"
       "  slam6d serve --output run-7       and leave poses, models and pictures there\n"
+      "  slam6d serve --journal team.db    and have the models back when started again\n"
       "  ROS_DOMAIN_ID=7 slam6d serve      in another DDS domain");
   parser->add_option("ROBOT", arguments->robots, "namespaces of robots; else all that appear")
       ->type_name("");
   parser->add_option("-o,--output", arguments->output, "folder for the results; else none")
       ->type_name("DIR");
   parser->add_flag("--force", arguments->force, "write into a folder that holds other things");
+  parser->add_option("--journal", arguments->journal, "where scans are kept for restarts")
+      ->type_name("FILE");
   AddNetworkArguments(*parser, arguments->network);
   return {.parser = parser, .run = [arguments] { return RunServe(*arguments); }};
 }

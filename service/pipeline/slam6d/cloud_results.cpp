@@ -11,14 +11,14 @@
 
 namespace slam6d::pipeline {
 
-void CloudResults::TakeAnswer(const qwsm::team::CloudAnswer& answer) {
+void CloudResults::Keep(const qwsm::team::CloudAnswer& answer) {
   const std::lock_guard lock(mutex_);
   std::vector<RegisteredScan>& scans = robots_[answer.robot].scans;
   scans.push_back({.name = fmt::format("scan{:03}", scans.size()),
                    .file = {},
-                   .stamp = answer.scan.stamp,
+                   .stamp = answer.scan->stamp,
                    .T_odom_scan = answer.T_odom_sensor,
-                   .cloud = WithinRange(answer.scan.cloud, options_.slam),
+                   .cloud = WithinRange(answer.scan->cloud, options_.slam),
                    .step = answer.step,
                    .time_s = std::chrono::duration<double>(answer.matching).count()});
 }

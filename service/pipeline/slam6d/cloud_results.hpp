@@ -19,7 +19,9 @@ class CloudResults final : public qwsm::team::CloudSink {
   CloudResults(const qwsm::pipeline::ResultsFolder& folder, const RegistrationOptions& options)
       : folder_(folder), options_(options) {}
 
-  void TakeAnswer(const qwsm::team::CloudAnswer& answer) override;
+  void TakeAnswer(const qwsm::team::CloudAnswer& answer) override { Keep(answer); }
+  void TakeReport(const qwsm::team::CloudAnswer&) override {}
+  void TakeRestored(const qwsm::team::CloudAnswer& answer) override { Keep(answer); }
   void TakeMap(const qwsm::team::CloudMap&) override {}
   void TakeStatus(const qwsm::team::TeamStatus&) override {}
   void TakeEvent(const qwsm::team::TeamEvent&) override {}
@@ -29,6 +31,8 @@ class CloudResults final : public qwsm::team::CloudSink {
   void Finish(qwsm::team::CloudService& service);
 
  private:
+  void Keep(const qwsm::team::CloudAnswer& answer);
+
   const qwsm::pipeline::ResultsFolder folder_;
   const RegistrationOptions options_;
   std::mutex mutex_;

@@ -19,6 +19,12 @@ class CloudSinks final : public qwsm::team::CloudSink {
   void TakeAnswer(const qwsm::team::CloudAnswer& answer) override {
     for (qwsm::team::CloudSink* sink : sinks_) sink->TakeAnswer(answer);
   }
+  void TakeReport(const qwsm::team::CloudAnswer& answer) override {
+    for (qwsm::team::CloudSink* sink : sinks_) sink->TakeReport(answer);
+  }
+  void TakeRestored(const qwsm::team::CloudAnswer& answer) override {
+    for (qwsm::team::CloudSink* sink : sinks_) sink->TakeRestored(answer);
+  }
   void TakeMap(const qwsm::team::CloudMap& map) override {
     for (qwsm::team::CloudSink* sink : sinks_) sink->TakeMap(map);
   }
@@ -37,6 +43,8 @@ class CloudSinks final : public qwsm::team::CloudSink {
 class CloudLog final : public qwsm::team::CloudSink {
  public:
   void TakeAnswer(const qwsm::team::CloudAnswer&) override {}
+  void TakeReport(const qwsm::team::CloudAnswer&) override {}
+  void TakeRestored(const qwsm::team::CloudAnswer&) override {}
   void TakeMap(const qwsm::team::CloudMap&) override {}
   void TakeStatus(const qwsm::team::TeamStatus& status) override { log_.TakeStatus(status); }
   void TakeEvent(const qwsm::team::TeamEvent& event) override { log_.TakeEvent(event); }
