@@ -1,11 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "service/apps/network.hpp"
-
-#include <spdlog/spdlog.h>
-
-#include "service/apps/messages.hpp"
-#include "service/dds/middleware_messages.hpp"
+#include "service/apps/network_session.hpp"
 
 namespace qwsm::apps {
 
@@ -15,14 +10,5 @@ void AddNetworkArguments(CLI::App& parser,
   AddConfiguration(parser, arguments.sources);
   AddVerbosity(parser, arguments.verbosity, json_help);
 }
-
-NetworkSession::NetworkSession(const NetworkArguments& arguments) {
-  StartMessages(arguments.verbosity);
-  options_ = config::LoadOptions<config::ProgramOptions>(arguments.sources);
-  messages_ = std::make_unique<dds::MiddlewareMessages>(
-      [](const std::string& text) { spdlog::warn("{}", text); });
-}
-
-NetworkSession::~NetworkSession() = default;
 
 }  // namespace qwsm::apps

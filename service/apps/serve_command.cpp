@@ -1,25 +1,18 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <chrono>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "service/apps/command.hpp"
-#include "service/apps/messages.hpp"
 #include "service/apps/network.hpp"
-#include "service/apps/service_manager.hpp"
+#include "service/apps/serving.hpp"
 #include "service/apps/version.hpp"
 #include "service/dds/team_inbox.hpp"
 #include "service/dds/team_outbox.hpp"
-#include "service/io/atomic_file.hpp"
-#include "service/pipeline/interruption.hpp"
-#include "service/pipeline/results_folder.hpp"
 #include "service/pipeline/team_log.hpp"
 #include "service/pipeline/team_results.hpp"
 #include "service/pipeline/team_sinks.hpp"
@@ -27,16 +20,6 @@
 
 namespace qwsm::apps {
 namespace {
-
-using namespace std::chrono_literals;
-
-struct ServeArguments {
-  std::vector<std::string> robots;
-  std::optional<std::filesystem::path> output;
-  std::filesystem::path journal;
-  bool force = false;
-  NetworkArguments network;
-};
 
 /// The service and everything that listens to it.
 class Server {
@@ -56,19 +39,8 @@ class Server {
         inbox_(participant_, arguments.robots, service_, outbox_, refusals_) {}
 
   void Run(const pipeline::Interruption& interruption) {
-    ServiceManager manager;
-    service_.Start();
-    manager.TellReady("serving");
-    spdlog::info("serving as {}", service_.identity());
-    while (!interruption.requested()) {
-      inbox_.Deliver(20ms);  // A signal does not end this.
-      manager.TellAlive("serving");
-    }
-    manager.TellStopping();
-    service_.Stop();
-    if (results_) results_->Finish(service_);
+    Serve(Serving{service_, inbox_, results_.get()}, interruption);
   }
-
   team::TeamStatus Status() const { return service_.Status(); }
 
  private:
@@ -89,35 +61,10 @@ class Server {
   dds::TeamInbox inbox_;
 };
 
-void Summarize(const team::TeamStatus& status) {
-  for (const team::RobotStatus& robot : status.robots) {
-    const auto milliseconds = [](std::chrono::nanoseconds duration) {
-      return std::chrono::duration<double, std::milli>(duration).count();
-    };
-    fmt::print(
-        "{:<14} {} of {} scans answered, {} dropped, {} relevant; latency {:.2f} ms, p99 {:.2f} "
-        "ms\n",
-        team::DisplayName(robot.name),
-        robot.counts.answered,
-        robot.counts.scans,
-        robot.counts.dropped,
-        robot.counts.relevant,
-        milliseconds(robot.latency.median),
-        milliseconds(robot.latency.p99));
-  }
-  fmt::print(
-      "map            {} points of {} relevant scans\n", status.map.points, status.map.scans);
-}
-
 ExitCode RunServe(const ServeArguments& arguments) {
   const NetworkSession session(arguments.network);
-  if (arguments.network.verbosity.json) WriteMessagesAsJson();
-  std::optional<pipeline::ResultsFolder> folder;
-  if (arguments.output) {
-    folder.emplace(*arguments.output, arguments.force);
-    CopyMessagesTo(*folder / "run.log");
-    io::WriteTextFile(*folder / "config.yaml", config::DumpOptions(session.options()));
-  }
+  const std::optional<pipeline::ResultsFolder> folder =
+      BeginResults(arguments, config::DumpOptions(session.options()));
   spdlog::info("version {}", Version());
   const pipeline::Interruption interruption;
   Server server(arguments, session.options(), folder);
@@ -136,14 +83,7 @@ Command AddServeCommand(CLI::App& program) {
       "  qwsm serve --output run-7         and leave paths and map there\n"
       "  qwsm serve --journal team.db      and have the map back when started again\n"
       "  ROS_DOMAIN_ID=7 qwsm serve        in another DDS domain");
-  parser->add_option("ROBOT", arguments->robots, "namespaces of robots; else all that appear")
-      ->type_name("");
-  parser->add_option("-o,--output", arguments->output, "folder for the results; else none")
-      ->type_name("DIR");
-  parser->add_flag("--force", arguments->force, "write into a folder that holds other things");
-  parser->add_option("--journal", arguments->journal, "where relevant scans are kept for restarts")
-      ->type_name("FILE");
-  AddNetworkArguments(*parser, arguments->network, "messages as JSON, one object a line");
+  AddServeArguments(*parser, *arguments);
   return {.parser = parser, .run = [arguments] { return RunServe(*arguments); }};
 }
 

@@ -3,8 +3,10 @@
 #include "service/dds/report_conversion.hpp"
 
 #include "service/dds/planar.hpp"
+#include "service/dds/report_fields.hpp"
 
 namespace qwsm::dds {
+
 MatchReport ReportOf(const team::RobotAnswer& answer) {
   const MappingStep& step = answer.step;
   const MatchResult& match = step.match;
@@ -27,46 +29,23 @@ MatchReport ReportOf(const team::RobotAnswer& answer) {
 
 wire::MatchReport ToWire(const MatchReport& report, const std::string& map_frame) {
   wire::MatchReport sample{};
-  sample.header = HeaderOf(report.stamp, map_frame);
-  sample.robot = Borrow(report.robot);
+  AddCommonFields(report, map_frame, sample);
   sample.pose = ToWire2D(report.map_robot.T_a_b);
   CopyCovariance(report.map_robot.covariance, sample.covariance);
-  sample.status = static_cast<std::uint8_t>(report.status);
-  sample.reason = Borrow(report.reason);
   sample.relevant = report.relevant;
-  sample.pairs = report.pairs;
-  sample.iterations = report.iterations;
-  sample.overlap = report.overlap;
   sample.mean_residual = report.mean_residual_m;
   sample.position_trace = report.position_trace_m2;
-  sample.duration = Seconds(report.duration);
-  sample.latency = Seconds(report.latency);
-  sample.scans = report.scans;
-  sample.dropped = report.dropped;
   return sample;
 }
 
 std::optional<MatchReport> FromWire(const wire::MatchReport& sample) {
-  const std::optional<Timestamp> stamp = FromWire(sample.header.stamp);
-  const bool is_known = sample.status <= static_cast<std::uint8_t>(StepStatus::kDeadReckoned);
-  if (!stamp || !is_known) return std::nullopt;
-  MatchReport report;
-  report.robot = sample.robot;
-  report.stamp = *stamp;
-  report.map_robot = {.T_a_b = FromWire(sample.pose),
-                      .covariance = CovarianceOf(sample.covariance)};
-  report.status = static_cast<StepStatus>(sample.status);
-  report.reason = sample.reason;
-  report.relevant = sample.relevant;
-  report.pairs = sample.pairs;
-  report.iterations = sample.iterations;
-  report.overlap = sample.overlap;
-  report.mean_residual_m = sample.mean_residual;
-  report.position_trace_m2 = sample.position_trace;
-  report.duration = Nanoseconds(sample.duration);
-  report.latency = Nanoseconds(sample.latency);
-  report.scans = sample.scans;
-  report.dropped = sample.dropped;
+  auto report = CommonFieldsOf<MatchReport>(sample, StepStatus::kDeadReckoned);
+  if (!report) return std::nullopt;
+  report->map_robot = {.T_a_b = FromWire(sample.pose),
+                       .covariance = CovarianceOf(sample.covariance)};
+  report->relevant = sample.relevant;
+  report->mean_residual_m = sample.mean_residual;
+  report->position_trace_m2 = sample.position_trace;
   return report;
 }
 

@@ -1,39 +1,26 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <chrono>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "service/apps/service_manager.hpp"
+#include "service/apps/serving.hpp"
 #include "service/apps/slam6d/commands.hpp"
 #include "service/apps/slam6d/network.hpp"
 #include "service/apps/version.hpp"
 #include "service/dds/cloud_inbox.hpp"
 #include "service/dds/cloud_outbox.hpp"
-#include "service/io/atomic_file.hpp"
-#include "service/pipeline/interruption.hpp"
 #include "service/pipeline/slam6d/cloud_results.hpp"
 #include "service/pipeline/slam6d/cloud_sinks.hpp"
 
 namespace slam6d::apps {
 namespace {
 
-using namespace std::chrono_literals;
+using qwsm::apps::ServeArguments;
 using qwsm::pipeline::ResultsFolder;
-
-struct ServeArguments {
-  std::vector<std::string> robots;
-  std::optional<std::filesystem::path> output;
-  std::filesystem::path journal;
-  bool force = false;
-  NetworkArguments network;
-};
 
 /// The service and everything that listens to it.
 class Server {
@@ -51,19 +38,8 @@ class Server {
         inbox_(participant_, arguments.robots, service_, outbox_, refusals_) {}
 
   void Run(const qwsm::pipeline::Interruption& interruption) {
-    qwsm::apps::ServiceManager manager;
-    service_.Start();
-    manager.TellReady("serving");
-    spdlog::info("serving as {}", service_.identity());
-    while (!interruption.requested()) {
-      inbox_.Deliver(100ms);
-      manager.TellAlive("serving");
-    }
-    manager.TellStopping();
-    service_.Stop();
-    if (results_) results_->Finish(service_);
+    qwsm::apps::Serve(qwsm::apps::Serving{service_, inbox_, results_.get()}, interruption);
   }
-
   qwsm::team::TeamStatus Status() const { return service_.Status(); }
 
  private:
@@ -85,37 +61,15 @@ class Server {
   qwsm::dds::CloudInbox inbox_;
 };
 
-void Summarize(const qwsm::team::TeamStatus& status) {
-  for (const qwsm::team::RobotStatus& robot : status.robots) {
-    const auto milliseconds = [](std::chrono::nanoseconds duration) {
-      return std::chrono::duration<double, std::milli>(duration).count();
-    };
-    fmt::print(
-        "{:<14} {} of {} scans answered, {} dead reckoned, {} dropped; latency {:.1f} ms, "
-        "p99 {:.1f} ms\n",
-        robot.name.empty() ? "robot" : robot.name,
-        robot.counts.answered,
-        robot.counts.scans,
-        robot.counts.dead_reckoned,
-        robot.counts.dropped,
-        milliseconds(robot.latency.median),
-        milliseconds(robot.latency.p99));
-  }
-}
-
 ExitCode RunServe(const ServeArguments& arguments) {
   const NetworkSession session(arguments.network);
-  std::optional<ResultsFolder> folder;
-  if (arguments.output) {
-    folder.emplace(*arguments.output, arguments.force);
-    qwsm::apps::CopyMessagesTo(*folder / "run.log");
-    qwsm::io::WriteTextFile(*folder / "config.yaml", qwsm::config::DumpOptions(session.options()));
-  }
+  const std::optional<ResultsFolder> folder =
+      qwsm::apps::BeginResults(arguments, qwsm::config::DumpOptions(session.options()));
   spdlog::info("version {}", qwsm::apps::Version());
   const qwsm::pipeline::Interruption interruption;
   Server server(arguments, session.options(), folder);
   server.Run(interruption);
-  if (!arguments.network.verbosity.quiet) Summarize(server.Status());
+  if (!arguments.network.verbosity.quiet) qwsm::apps::Summarize(server.Status());
   return ExitCode::kDone;
 }
 
@@ -129,14 +83,7 @@ Command AddServeCommand(CLI::App& program) {
       "  slam6d serve --output run-7       and leave poses, models and pictures there\n"
       "  slam6d serve --journal team.db    and have the models back when started again\n"
       "  ROS_DOMAIN_ID=7 slam6d serve      in another DDS domain");
-  parser->add_option("ROBOT", arguments->robots, "namespaces of robots; else all that appear")
-      ->type_name("");
-  parser->add_option("-o,--output", arguments->output, "folder for the results; else none")
-      ->type_name("DIR");
-  parser->add_flag("--force", arguments->force, "write into a folder that holds other things");
-  parser->add_option("--journal", arguments->journal, "where scans are kept for restarts")
-      ->type_name("FILE");
-  AddNetworkArguments(*parser, arguments->network);
+  qwsm::apps::AddServeArguments(*parser, *arguments);
   return {.parser = parser, .run = [arguments] { return RunServe(*arguments); }};
 }
 

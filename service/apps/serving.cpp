@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/apps/serving.hpp"
+
+#include <fmt/format.h>
+
+#include "service/io/atomic_file.hpp"
+
+namespace qwsm::apps {
+
+void AddServeArguments(CLI::App& parser, ServeArguments& arguments) {
+  parser.add_option("ROBOT", arguments.robots, "namespaces of robots; else all that appear")
+      ->type_name("");
+  parser.add_option("-o,--output", arguments.output, "folder for the results; else none")
+      ->type_name("DIR");
+  parser.add_flag("--force", arguments.force, "write into a folder that holds other things");
+  parser.add_option("--journal", arguments.journal, "where the map's scans are kept for restarts")
+      ->type_name("FILE");
+  AddNetworkArguments(parser, arguments.network, "messages as JSON, one object a line");
+}
+
+std::optional<pipeline::ResultsFolder> BeginResults(const ServeArguments& arguments,
+                                                    const std::string& configuration) {
+  if (arguments.network.verbosity.json) WriteMessagesAsJson();
+  if (!arguments.output) return std::nullopt;
+  pipeline::ResultsFolder folder(*arguments.output, arguments.force);
+  CopyMessagesTo(folder / "run.log");
+  io::WriteTextFile(folder / "config.yaml", configuration);
+  return folder;
+}
+
+void Summarize(const team::TeamStatus& status) {
+  const auto milliseconds = [](std::chrono::nanoseconds duration) {
+    return std::chrono::duration<double, std::milli>(duration).count();
+  };
+  for (const team::RobotStatus& robot : status.robots) {
+    fmt::print(
+        "{:<14} {} of {} scans answered, {} dead reckoned, {} dropped, {} relevant; "
+        "latency {:.2f} ms, p99 {:.2f} ms\n",
+        team::DisplayName(robot.name),
+        robot.counts.answered,
+        robot.counts.scans,
+        robot.counts.dead_reckoned,
+        robot.counts.dropped,
+        robot.counts.relevant,
+        milliseconds(robot.latency.median),
+        milliseconds(robot.latency.p99));
+  }
+  fmt::print(
+      "map            {} points of {} relevant scans\n", status.map.points, status.map.scans);
+}
+
+}  // namespace qwsm::apps

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "service/apps/network_session.hpp"
+#include "service/apps/service_manager.hpp"
+#include "service/pipeline/interruption.hpp"
+#include "service/pipeline/results_folder.hpp"
+#include "service/team/team_status.hpp"
+
+namespace qwsm::apps {
+
+/// Arguments of `serve`, whatever the robots' sensors are.
+struct ServeArguments {
+  std::vector<std::string> robots;
+  std::optional<std::filesystem::path> output;
+  std::filesystem::path journal;
+  bool force = false;
+  NetworkArguments network;
+};
+
+void AddServeArguments(CLI::App& parser, ServeArguments& arguments);
+
+/// Lets messages be as wanted, and begins the folder of the results, with messages and
+/// configuration in it; nothing where none is wanted.
+/// @param configuration as YAML. @throws io::WriteError.
+std::optional<pipeline::ResultsFolder> BeginResults(const ServeArguments& arguments,
+                                                    const std::string& configuration);
+
+/// A service with the topics it listens to and what is left of it in the end.
+/// @tparam Service has identity(), Start() and Stop(). @tparam Inbox delivers to it.
+/// @tparam Results finishes with it.
+template <class Service, class Inbox, class Results>
+struct Serving {
+  Service& service;
+  Inbox& inbox;
+  Results* results;  ///< Null: none are wanted.
+};
+
+/// Serves until the interruption, then stops and finishes the results.
+template <class Service, class Inbox, class Results>
+void Serve(const Serving<Service, Inbox, Results>& serving,
+           const pipeline::Interruption& interruption) {
+  ServiceManager manager;
+  serving.service.Start();
+  manager.TellReady("serving");
+  spdlog::info("serving as {}", serving.service.identity());
+  while (!interruption.requested()) {
+    serving.inbox.Deliver(std::chrono::milliseconds(20));  // A signal does not end this.
+    manager.TellAlive("serving");
+  }
+  manager.TellStopping();
+  serving.service.Stop();
+  if (serving.results != nullptr) serving.results->Finish(serving.service);
+}
+
+/// What became of the robots' scans, a line for each robot, on standard output.
+void Summarize(const team::TeamStatus& status);
+
+}  // namespace qwsm::apps
