@@ -11,6 +11,7 @@
 #include <string>
 
 #include "service/config/options_io.hpp"
+#include "service/config/problem.hpp"
 #include "service/pipeline/command_log.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -47,6 +48,18 @@ std::string Complaint(const std::string& text) {
     return error.what();
   }
   return "accepted";
+}
+
+TEST(FindScenario, TellsTheNamesThereAre) {
+  try {
+    config::FindScenario("parc");
+    FAIL() << "accepted";
+  } catch (const config::ConfigError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("parc: is no file and no scenario (campus, corridor,"), message.npos)
+        << message;
+    EXPECT_NE(message.find("did you mean 'park'?"), message.npos) << message;
+  }
 }
 
 class ShippedScenario : public ::testing::TestWithParam<const char*> {};
