@@ -42,11 +42,11 @@ fs::path FindScenario(const std::string& path_or_name) {
   if (const auto found = shipped.find(path_or_name); found != shipped.end()) return found->second;
   const auto keys = std::views::keys(shipped);
   const std::vector<std::string> names(keys.begin(), keys.end());
-  throw ConfigError({{.location = {.source = path_or_name},
-                      .key = {},
-                      .what = fmt::format("is no file and no scenario ({}){}",
-                                          fmt::join(names, ", "),
-                                          DidYouMean(path_or_name, names))}});
+  Problem unknown;
+  unknown.location.source = path_or_name;
+  unknown.what = fmt::format(
+      "is no file and no scenario ({}){}", fmt::join(names, ", "), DidYouMean(path_or_name, names));
+  throw ConfigError({unknown});
 }
 
 }  // namespace qwsm::config
