@@ -28,6 +28,16 @@ double BearingOf(double quarters) {
   return 0.5 * std::numbers::pi * quarter + std::atan2(share, 1.0 - share);
 }
 
+// The middles of so many directions.
+std::vector<double> BearingsOf(std::size_t directions) {
+  const double width = kQuarters / static_cast<double>(directions);
+  std::vector<double> bearings_rad(directions);
+  for (std::size_t i = 0; i < directions; ++i) {
+    bearings_rad[i] = BearingOf((static_cast<double>(i) + 0.5) * width);
+  }
+  return bearings_rad;
+}
+
 // How far all beams near a bearing went; 0 if one of them is missing or brought no echo.
 float FreeTowards(const LaserScan& scan, double bearing_rad, int margin_beams) {
   const LaserGeometry& laser = scan.geometry;
@@ -51,14 +61,14 @@ float FreeTowards(const LaserScan& scan, double bearing_rad, int margin_beams) {
 
 FreeSpaceFan::FreeSpaceFan(const LaserScan& scan,
                            const Pose2& T_map_robot,
-                           const FreeSpaceOptions& options)
-    : p_map_laser_m_((T_map_robot * scan.geometry.T_robot_laser).translation_m()),
-      R_laser_map_((T_map_robot * scan.geometry.T_robot_laser).Rotation().transpose()) {
-  constexpr double kWidth = kQuarters / static_cast<double>(kDirections);
+                           const FreeSpaceOptions& options) {
+  static const std::vector<double> kBearings_rad = BearingsOf(kDirections);
+  const Pose2 T_map_laser = T_map_robot * scan.geometry.T_robot_laser;
+  p_map_laser_m_ = T_map_laser.translation_m();
+  R_laser_map_ = T_map_laser.Rotation().transpose();
   for (std::size_t i = 0; i < kDirections; ++i) {
-    const double bearing_rad = BearingOf((static_cast<double>(i) + 0.5) * kWidth);
-    free_m_[i] =
-        FreeTowards(scan, bearing_rad, options.margin_beams) - static_cast<float>(options.margin_m);
+    free_m_[i] = FreeTowards(scan, kBearings_rad[i], options.margin_beams) -
+                 static_cast<float>(options.margin_m);
   }
 }
 

@@ -84,8 +84,8 @@ MappingStep RobotTracker::Track(const ScanMap& map,
   }
   const bool has_moved_on = HasMovedOn(points, step);
   step.relevant = has_moved_on && (options_.extend_map || step.status == StepStatus::kFirst);
-  if (step.relevant) FindReturn(map, points, step);
   if (step.relevant) {
+    FindReturn(map, points, step);
     step.relevant_scan = seen_free_.WithoutMoving(observation.scan, points, step.map_robot.T_a_b);
   }
   if (has_moved_on) {

@@ -12,8 +12,4 @@ struct PosePrediction {
   UncertainPose2 learned;   ///< and as uncertain as odometry has proved to be so far.
 };
 
-inline PosePrediction operator*(const UncertainPose2& a_b, const PosePrediction& b_c) {
-  return {.cautious = a_b * b_c.cautious, .learned = a_b * b_c.learned};
-}
-
 }  // namespace qwsm
