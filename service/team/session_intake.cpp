@@ -43,6 +43,8 @@ bool SessionIntake<Kind>::Join() {
   const std::lock_guard lock(mutex_);
   if (IsHere()) return false;
   is_interrupted_ = true;
+  hears_odometry_ = false;
+  first_arrived_.reset();
   const bool goes_on = state_ == RobotState::kLost && counts_.answered > 0;
   state_ = goes_on ? RobotState::kTracked : RobotState::kUnplaced;
   return true;
@@ -95,7 +97,9 @@ bool SessionIntake<Kind>::TakeScan(Scan scan) {
     case StampVerdict::kInOrder:
       break;
   }
-  queue_.Push({.scan = std::move(scan), .arrived = steady_clock::now()});
+  const Lane::Time now = steady_clock::now();
+  if (!first_arrived_) first_arrived_ = now;
+  queue_.Push({.scan = std::move(scan), .arrived = now});
   counts_.dropped = queue_.dropped();
   return true;
 }
@@ -105,6 +109,7 @@ void SessionIntake<Kind>::TakeOdometry(Timestamp stamp, const Pose& T_odom_robot
   const std::lock_guard lock(mutex_);
   ++counts_.odometry_readings;
   expects_odometry_ = true;
+  hears_odometry_ = true;
   if (!odometry_.Add(stamp, T_odom_robot)) ++counts_.odometry_refused;
 }
 
@@ -127,15 +132,19 @@ std::optional<Lane::Time> SessionIntake<Kind>::ReadyAt() const {
   const std::lock_guard lock(mutex_);
   if (queue_.empty()) return std::nullopt;
   const Arrival& next = queue_.front();
-  if (!AwaitsOdometry(next.scan)) return next.arrived;
-  return next.arrived + std::chrono::duration_cast<steady_clock::duration>(
-                            std::chrono::duration<double>(options_.odometry_wait_s));
+  return std::max(next.arrived, AwaitsOdometryUntil(next));
 }
 
+// Without odometry nobody knows how far a robot has come since it was heard last, so its first
+// scans wait longer: they may have come just before who publishes odometry knew of this service.
 template <class Kind>
-bool SessionIntake<Kind>::AwaitsOdometry(const Scan& scan) const {
-  if (!expects_odometry_ || odometry_.Covers(scan.stamp)) return false;
-  return odometry_.empty() || odometry_.Covers(scan.stamp - kOdometryGone);
+Lane::Time SessionIntake<Kind>::AwaitsOdometryUntil(const Arrival& next) const {
+  const Timestamp stamp = next.scan.stamp;
+  if (!expects_odometry_ || odometry_.Covers(stamp)) return next.arrived;
+  const auto wait = std::chrono::duration_cast<std::chrono::nanoseconds>(
+      std::chrono::duration<double>(options_.odometry_wait_s));
+  if (!hears_odometry_) return *first_arrived_ + std::max(wait, kOdometryGone);
+  return next.arrived + (odometry_.Covers(stamp - kOdometryGone) ? wait : wait.zero());
 }
 
 template <class Kind>

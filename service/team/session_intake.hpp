@@ -86,7 +86,7 @@ class SessionIntake {
   };
 
   bool IsHere() const;
-  bool AwaitsOdometry(const Scan& scan) const;
+  Lane::Time AwaitsOdometryUntil(const Arrival& next) const;
   void DropScansBeforeOdometry();
   void WatchOdometry(Work& work);
 
@@ -98,6 +98,8 @@ class SessionIntake {
   StampGuard guard_;
   OdometryBuffer<Pose> odometry_;
   bool expects_odometry_ = false;
+  bool hears_odometry_ = false;              // Since the robot joined.
+  std::optional<Lane::Time> first_arrived_;  // Of its scans, since then.
   ScanQueue<Arrival> queue_;
   bool is_interrupted_ = false;
   bool was_elsewhere_ = false;

@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "qwsm/mapping/mapper.hpp"
@@ -177,6 +179,35 @@ TEST(TeamService, LeavesOutScansFromBeforeTheOdometryThatIsPublished) {
   ASSERT_EQ(sink.steps("robot1").size(), 5U);
   EXPECT_EQ(sink.steps("robot1").front().stamp, test::ObservationInRoom(1).scan.stamp);
   EXPECT_EQ(StatusOf(service, "robot1").counts.unplaced, 1U);
+}
+
+TEST(TeamService, FirstScanWaitsLongerForOdometryThanOthers) {
+  test::RecordingSink sink;
+  TeamServiceOptions options = LosslessOptions();
+  options.team.session.odometry_wait_s = 0.0;
+  TeamService service(options, sink);
+  service.Start();
+  service.ExpectOdometry("robot1", true);
+  EXPECT_TRUE(service.TakeScan("robot1", test::ObservationInRoom(0).scan));
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  Give(service, "robot1", 1, 5);
+  service.WaitUntilIdle();
+  EXPECT_EQ(sink.steps("robot1").size(), 5U);
+  EXPECT_EQ(StatusOf(service, "robot1").counts.without_odometry, 0U);
+}
+
+TEST(TeamService, AnswersWithoutOdometryWhereItsPublisherIsSilent) {
+  test::RecordingSink sink;
+  TeamServiceOptions options = LosslessOptions();
+  options.team.session.odometry_wait_s = 0.05;
+  TeamService service(options, sink);
+  service.Start();
+  service.ExpectOdometry("robot1", true);
+  for (int scan = 0; scan < 5; ++scan) {
+    EXPECT_TRUE(service.TakeScan("robot1", test::ObservationInRoom(scan).scan));
+  }
+  service.WaitUntilIdle();
+  EXPECT_EQ(StatusOf(service, "robot1").counts.without_odometry, 5U);
 }
 
 TEST(TeamService, GivesNoNumberTwiceThoughTheJournalForgotSome) {
