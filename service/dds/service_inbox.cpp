@@ -78,12 +78,7 @@ void ServiceInbox<Kind, Service, Outbox>::NoteMembers() {
   const RobotDiscovery::Changes changes = discovery_.Take();
   for (const std::string& name : changes.joined) {
     publishers_.insert(name);
-    const auto robot = robots_.find(name);
-    if (robot == robots_.end()) continue;
-    if (OnWire<Kind>::ScansIn(discovery_.IsReliable(name)) != robot->second.profile) {
-      Listen(name, robot->second);
-    }
-    service_.Join(name);
+    if (const auto robot = robots_.find(name); robot != robots_.end()) Attend(name, robot->second);
   }
   for (const std::string& name : changes.left) {
     publishers_.erase(name);
@@ -114,8 +109,7 @@ void ServiceInbox<Kind, Service, Outbox>::Join(const std::string& name, std::uin
   const Claim claim{.since_ns = since_ns, .service = participant_.guid()};
   Robot& robot = robots_[name];
   robot.claim = claim;
-  Listen(name, robot);
-  if (publishers_.contains(name)) service_.Join(name);
+  Attend(name, robot);
   // Last: who sees the topics of the answers may send scans.
   outbox_.AddRobot(name, claim);
 }
@@ -123,21 +117,35 @@ void ServiceInbox<Kind, Service, Outbox>::Join(const std::string& name, std::uin
 template <class Kind, class Service, class Outbox>
 void ServiceInbox<Kind, Service, Outbox>::Leave(const std::string& name) {
   const auto known = robots_.find(name);
-  for (const Entity::Handle handle : known->second.inbox->handles()) wait_set_.Remove(handle);
+  StopListening(known->second);
   robots_.erase(known);
   service_.HandOver(name);
   outbox_.RemoveRobot(name);
 }
 
+// The robot is listened to as its publishers send.
 template <class Kind, class Service, class Outbox>
-void ServiceInbox<Kind, Service, Outbox>::Listen(const std::string& name, Robot& robot) {
-  if (robot.inbox) {
-    for (const Entity::Handle handle : robot.inbox->handles()) wait_set_.Remove(handle);
-  }
-  robot.profile = OnWire<Kind>::ScansIn(discovery_.IsReliable(name));
-  robot.inbox = std::make_unique<BasicRobotInbox<Kind>>(
-      participant_, RobotNames(name), refusals_, robot.profile);
+void ServiceInbox<Kind, Service, Outbox>::Attend(const std::string& name, Robot& robot) {
+  const Profile profile = OnWire<Kind>::ScansIn(discovery_.IsReliable(name));
+  if (!robot.inbox || profile != robot.profile) Listen(name, profile, robot);
+  if (publishers_.contains(name)) service_.Join(name);
+}
+
+template <class Kind, class Service, class Outbox>
+void ServiceInbox<Kind, Service, Outbox>::Listen(const std::string& name,
+                                                 Profile profile,
+                                                 Robot& robot) {
+  if (robot.inbox) StopListening(robot);
+  robot.profile = profile;
+  robot.inbox =
+      std::make_unique<BasicRobotInbox<Kind>>(participant_, RobotNames(name), refusals_, profile);
   for (const Entity::Handle handle : robot.inbox->handles()) wait_set_.Add(handle);
+}
+
+template <class Kind, class Service, class Outbox>
+void ServiceInbox<Kind, Service, Outbox>::StopListening(Robot& robot) {
+  for (const Entity::Handle handle : robot.inbox->handles()) wait_set_.Remove(handle);
+  robot.inbox.reset();
 }
 
 template class ServiceInbox<team::Planar, team::TeamService, TeamOutbox>;

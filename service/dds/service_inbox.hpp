@@ -64,7 +64,9 @@ class ServiceInbox final : private BasicRobotListener<Kind> {
   void ShareRobots();
   void Join(const std::string& robot, std::uint64_t since_ns);
   void Leave(const std::string& robot);
-  void Listen(const std::string& name, Robot& robot);
+  void Attend(const std::string& name, Robot& robot);
+  void Listen(const std::string& name, Profile profile, Robot& robot);
+  void StopListening(Robot& robot);
 
   const Participant& participant_;
   Service& service_;
