@@ -6,7 +6,6 @@
 #include <cairo.h>
 
 #include <array>
-#include <cmath>
 #include <deque>
 #include <numbers>
 #include <stdexcept>
@@ -107,13 +106,6 @@ struct Canvas::Recording {
   Surface surface;
   Context context;
 };
-
-std::uint32_t ToPixel(const Color& color) {
-  const auto byte = [](double share) {
-    return static_cast<std::uint32_t>(std::lround(255 * share));
-  };
-  return byte(color.red) << 16U | byte(color.green) << 8U | byte(color.blue);
-}
 
 Canvas::Canvas(int width_px, int height_px)
     : width_px_(width_px),

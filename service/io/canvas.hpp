@@ -32,7 +32,11 @@ struct PixelImage {
   std::vector<std::uint32_t> pixels;
 };
 
-std::uint32_t ToPixel(const Color& color);
+/// The opaque pixel nearest to a colour.
+constexpr std::uint32_t ToPixel(const Color& color) {
+  const auto byte = [](double share) { return static_cast<std::uint32_t>(255.0 * share + 0.5); };
+  return byte(color.red) << 16U | byte(color.green) << 8U | byte(color.blue);
+}
 
 struct Rectangle {
   Eigen::Vector2d corner_px;  ///< Upper left.

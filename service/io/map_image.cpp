@@ -69,6 +69,8 @@ std::vector<CellState> MostTelling(const OccupancyGrid& grid,
 struct Place {
   bool is_odd = false;   // The square between lines that its middle is in.
   bool is_line = false;  // The first pixel of a square, but for the first square.
+
+  bool operator==(const Place&) const = default;
 };
 
 std::vector<Place> PlacesOf(int side_px, double first_m, double m_per_px, double square_m) {
@@ -82,19 +84,20 @@ std::vector<Place> PlacesOf(int side_px, double first_m, double m_per_px, double
   return places;
 }
 
+constexpr std::uint32_t kWallPixel = ToPixel(kWall);
+constexpr std::array kFreePixels{ToPixel(kFree), ToPixel(kGridLine)};
+constexpr std::array kUnknownPixels{ToPixel(kUnknownDark), ToPixel(kUnknownLight)};
+
 std::uint32_t PixelOf(CellState state, const Place& column, const Place& row) {
-  static const std::uint32_t wall = ToPixel(kWall);
-  static const std::array free{ToPixel(kFree), ToPixel(kGridLine)};
-  static const std::array unknown{ToPixel(kUnknownDark), ToPixel(kUnknownLight)};
   switch (state) {
     case CellState::kOccupied:
-      return wall;
+      return kWallPixel;
     case CellState::kFree:
-      return free[row.is_line || column.is_line ? 1 : 0];
+      return kFreePixels[row.is_line || column.is_line ? 1 : 0];
     case CellState::kUnknown:
       break;
   }
-  return unknown[row.is_odd != column.is_odd ? 1 : 0];
+  return kUnknownPixels[row.is_odd != column.is_odd ? 1 : 0];
 }
 
 }  // namespace
@@ -133,14 +136,20 @@ PixelImage RenderMap(const OccupancyGrid& grid, const MapView& view) {
   const auto cell_columns = CellsUnder(image.width_px, px_per_cell, offset_cells.x(), grid.width);
   const auto cell_rows = CellsUnder(image.height_px, px_per_cell, offset_cells.y(), grid.height);
 
-  image.pixels.reserve(columns.size() * rows.size());
+  image.pixels.resize(columns.size() * rows.size());
+  auto pixel = image.pixels.begin();
   std::vector<CellState> states;
   for (std::size_t y = rows.size(); y-- > 0;) {
     const bool shows_the_same = y + 1 < rows.size() && cell_rows[y] == cell_rows[y + 1];
-    if (!shows_the_same) states = MostTelling(grid, cell_columns, cell_rows[y]);
-    for (std::size_t x = 0; x < columns.size(); ++x) {
-      image.pixels.push_back(PixelOf(states[x], columns[x], rows[y]));
+    if (shows_the_same && rows[y] == rows[y + 1]) {
+      pixel = std::copy_n(pixel - image.width_px, image.width_px, pixel);
+      continue;
     }
+    if (!shows_the_same) states = MostTelling(grid, cell_columns, cell_rows[y]);
+    pixel =
+        std::ranges::transform(states, columns, pixel, [&](CellState state, const Place& column) {
+          return PixelOf(state, column, rows[y]);
+        }).out;
   }
   return image;
 }
