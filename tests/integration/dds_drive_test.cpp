@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Robots on the network, as processes on loopback: they are driven, and what they say is recorded.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "service/dds/reader.hpp"
+#include "service/dds/robot_names.hpp"
+#include "service/dds/writer.hpp"
+#include "tests/support/network.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace qwsm::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Somebody with a joystick, who sees where the simulated robot is.
+class Operator {
+ public:
+  Operator(const PrivateNetwork& network, const std::string& robot)
+      : participant_({.interface = "lo", .tag = network.tag()}),
+        commands_(participant_,
+                  dds::RobotNames(robot).Topic(dds::kCommandTopic),
+                  dds::Profile::kSensorOut),
+        truth_(
+            participant_, dds::RobotNames(robot).Topic(dds::kTruthTopic), dds::Profile::kSensorIn) {
+  }
+
+  /// Asks for that motion until the robot is where it is wanted. @returns false after 20 seconds.
+  bool Drive(double forward_mps,
+             double turn_rad_s,
+             const std::function<bool(const dds::wire::Pose&)>& is_there) {
+    for (int i = 0; i < 400; ++i) {
+      commands_.Write({.linear = {forward_mps, 0.0, 0.0}, .angular = {0.0, 0.0, turn_rad_s}});
+      std::this_thread::sleep_for(50ms);
+      truth_.TakeAll([this](const dds::wire::Odometry& sample) { pose_ = sample.pose.pose; });
+      if (pose_ && is_there(*pose_)) return true;
+    }
+    return false;
+  }
+
+ private:
+  dds::Participant participant_;
+  dds::Writer<dds::wire::Twist> commands_;
+  dds::Reader<dds::wire::Odometry> truth_;
+  std::optional<dds::wire::Pose> pose_;
+};
+
+class DdsDrive : public ::testing::Test {
+ protected:
+  std::filesystem::path Path(const char* name) const { return folder_.path() / name; }
+
+  TemporaryFolder folder_;
+  PrivateNetwork network_;
+};
+
+TEST_F(DdsDrive, SimulatedRobotGoesWhereItsOperatorWants) {
+  std::ofstream(Path("hall.yaml")) << "scenery:\n"
+                                      "  walls:\n"
+                                      "    - {from_x_m: 9, from_y_m: -9, to_x_m: 9, to_y_m: 9}\n"
+                                      "robots:\n"
+                                      "  - name: robot1\n"
+                                      "    driver: {kind: external}\n";
+  Daemon simulator({"sim",
+                    Path("hall.yaml"),
+                    "--duration",
+                    "3600",
+                    "--dds",
+                    "--network",
+                    "interface=lo",
+                    "--network",
+                    "tag=" + network_.tag(),
+                    "--output",
+                    Path("drive")});
+  Operator joystick(network_, "robot1");
+  const auto goes_ahead = [](const dds::wire::Pose& pose) { return pose.position.x > 0.3; };
+  const auto has_turned = [](const dds::wire::Pose& pose) { return pose.orientation.z > 0.2; };
+  EXPECT_TRUE(joystick.Drive(0.5, 0.0, goes_ahead)) << simulator.ErrorsSoFar();
+  EXPECT_TRUE(joystick.Drive(0.0, 0.5, has_turned));
+  // What is no number is passed over: the robot turns on.
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(joystick.Drive(
+      nan, nan, [](const dds::wire::Pose& pose) { return pose.orientation.z > 0.4; }));
+  simulator.End(SIGINT);
+}
+
+TEST_F(DdsDrive, RecordingIsTheDriveBitForBit) {
+  const std::string generator = ProgramPath().parent_path() / "generate_demo_log";
+  const std::string log = Path("drive.log");
+  ASSERT_EQ(std::system((generator + " two-rooms " + log + " 2>/dev/null").c_str()), 0);
+  Daemon recorder(network_.Join({"record", Path("recorded.log"), "--verbose"}));
+  ASSERT_TRUE(recorder.WaitUntilItSays("recording /scan"));
+  const Outcome replay = network_.Run({"replay", log, "--rate", "20"});
+  ASSERT_EQ(replay.exit_code, 0) << replay.errors;
+  std::this_thread::sleep_for(500ms);  // Nobody acknowledges: what was sent last may be on its way.
+  const Outcome recorded = recorder.End(SIGINT);
+  EXPECT_EQ(recorded.exit_code, 0) << recorded.errors;
+
+  ASSERT_EQ(RunProgram({"map", log, "--output", Path("driven")}).exit_code, 0);
+  ASSERT_EQ(RunProgram({"map", Path("recorded.log"), "--output", Path("mapped")}).exit_code, 0);
+  const std::string expected = ReadFile(Path("driven") / "trajectory.tum");
+  ASSERT_GT(expected.size(), 10'000U);
+  EXPECT_TRUE(ReadFile(Path("mapped") / "trajectory.tum") == expected);
+}
+
+}  // namespace
+}  // namespace qwsm::test
