@@ -24,7 +24,9 @@ void AddConfiguration(CLI::App& parser, config::OptionSources& sources) {
 }
 
 void AddVerbosity(CLI::App& parser, Verbosity& verbosity, const std::string& json_help) {
-  parser.add_flag("--json", verbosity.json, json_help)->group("Messages");
+  if (!json_help.empty()) {
+    parser.add_flag("--json", verbosity.json, json_help)->group("Messages");
+  }
   parser.add_flag("-q,--quiet", verbosity.quiet, "no progress and no summary; errors only")
       ->group("Messages");
   parser.add_flag("-v,--verbose", verbosity.verbose, "say more about what is done")

@@ -45,7 +45,7 @@ struct Verbosity {
 /// Adds --config and --set.
 void AddConfiguration(CLI::App& parser, config::OptionSources& sources);
 
-/// Adds --quiet, --verbose and, with its meaning, --json.
+/// Adds --quiet, --verbose and, where it has a meaning, --json.
 void AddVerbosity(CLI::App& parser, Verbosity& verbosity, const std::string& json_help);
 
 /// The matcher of a name given after --matcher. @throws UsageError.

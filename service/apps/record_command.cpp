@@ -62,7 +62,7 @@ Command AddRecordCommand(CLI::App& program) {
   parser->add_option("--robot", arguments->robot, "namespace of the robot; else none")
       ->type_name("NAME");
   parser->add_option("--count", arguments->count, "stop after so many scans")->type_name("N");
-  AddNetworkArguments(*parser, arguments->network, "not used");
+  AddNetworkArguments(*parser, arguments->network, {});
   return {.parser = parser, .run = [arguments] { return RunRecord(*arguments); }};
 }
 

@@ -44,7 +44,7 @@ Command AddReplayCommand(CLI::App& program) {
       ->required()
       ->type_name("");
   AddReplayArguments(*parser, arguments->replay);
-  AddNetworkArguments(*parser, arguments->network, "not used");
+  AddNetworkArguments(*parser, arguments->network, {});
   return {.parser = parser, .run = [arguments] { return RunReplay(*arguments); }};
 }
 

@@ -96,7 +96,7 @@ Command AddWatchCommand(CLI::App& program) {
       ->check(CLI::Range(0.1, 3600.0))
       ->type_name("S")
       ->capture_default_str();
-  AddNetworkArguments(*parser, arguments->network, "not used");
+  AddNetworkArguments(*parser, arguments->network, {});
   return {.parser = parser, .run = [arguments] { return RunWatch(*arguments); }};
 }
 

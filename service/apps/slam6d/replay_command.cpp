@@ -63,7 +63,7 @@ Command AddReplayCommand(CLI::App& program) {
       ->type_name("S")
       ->capture_default_str();
   qwsm::apps::AddReplayArguments(*parser, arguments->replay);
-  AddNetworkArguments(*parser, arguments->network, "not used");
+  AddNetworkArguments(*parser, arguments->network, {});
   return {.parser = parser, .run = [arguments] { return RunReplay(*arguments); }};
 }
 

@@ -98,7 +98,7 @@ Command AddSimCommand(CLI::App& program) {
   parser->add_flag("--force", arguments->force, "write into a folder that holds other things");
   qwsm::apps::AddScenarioSettings(*parser, arguments->scenario);
   qwsm::apps::AddConfiguration(*parser, arguments->sources);
-  qwsm::apps::AddVerbosity(*parser, arguments->verbosity, "not used");
+  qwsm::apps::AddVerbosity(*parser, arguments->verbosity, {});
   return {.parser = parser, .run = [arguments] { return RunSim(*arguments); }};
 }
 
