@@ -35,13 +35,16 @@ void Summarize(const team::TeamStatus& status) {
   };
   for (const team::RobotStatus& robot : status.robots) {
     fmt::print(
-        "{:<14} {} of {} scans answered, {} dead reckoned, {} dropped, {} relevant; "
+        "{:<14} {} of {} scans answered, {} dead reckoned, {} without odometry, {} dropped, "
+        "{} unplaced, {} relevant; "
         "latency {:.2f} ms, p99 {:.2f} ms\n",
         team::DisplayName(robot.name),
         robot.counts.answered,
         robot.counts.scans,
         robot.counts.dead_reckoned,
+        robot.counts.without_odometry,
         robot.counts.dropped,
+        robot.counts.unplaced,
         robot.counts.relevant,
         milliseconds(robot.latency.median),
         milliseconds(robot.latency.p99));

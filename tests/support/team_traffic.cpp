@@ -13,6 +13,7 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kPatience = 10s;
+constexpr auto kSilence = 2s;
 
 sim::ScenarioOptions Office(const TeamOptions& options) {
   sim::ScenarioOptions scenario;
@@ -97,7 +98,11 @@ TrafficResult TeamTraffic::Run(std::size_t scans, double speed) {
         {.scan = reading.scan, .T_odom_robot = reading.T_odom_robot});
     ++result.sent;
   }
-  for (const auto end = Clock::now() + 1s; Clock::now() < end;) Hear(100ms, result);
+  // Who is busy answers late; who has nothing more to answer is silent.
+  auto heard = Clock::now();
+  while (Clock::now() < heard + kSilence) {
+    if (Hear(100ms, result)) heard = Clock::now();
+  }
   for (const auto& robot : robots_) {
     result.counted += robot->counted;
     result.dropped += robot->dropped;
@@ -107,8 +112,9 @@ TrafficResult TeamTraffic::Run(std::size_t scans, double speed) {
   return result;
 }
 
-void TeamTraffic::Hear(std::chrono::nanoseconds timeout, TrafficResult& result) {
-  for (const dds::MatchReport& report : reports_->Take(timeout)) {
+bool TeamTraffic::Hear(std::chrono::nanoseconds timeout, TrafficResult& result) {
+  const std::vector<dds::MatchReport> reports = reports_->Take(timeout);
+  for (const dds::MatchReport& report : reports) {
     Robot& robot = *robots_[std::stoul(report.robot.substr(5)) - 1];
     if (report.stamp <= robot.last_answered) ++result.out_of_order;
     robot.last_answered = report.stamp;
@@ -118,6 +124,7 @@ void TeamTraffic::Hear(std::chrono::nanoseconds timeout, TrafficResult& result) 
     result.matching.push_back(report.duration);
     result.latency.push_back(report.latency);
   }
+  return !reports.empty();
 }
 
 std::chrono::nanoseconds Quantile(const std::vector<std::chrono::nanoseconds>& sorted,

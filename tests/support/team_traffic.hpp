@@ -45,14 +45,15 @@ class TeamTraffic {
   /// @returns false where there is none in ten seconds.
   bool Join(const dds::NetworkOptions& network);
   std::size_t scans_left() const { return readings_.size() - next_; }
-  /// Publishes the next so many scans at their rate times `speed`, and hears the answers until a
-  /// second after. @pre 0 < scans <= scans_left()
+  /// Publishes the next so many scans at their rate times `speed`, and hears the answers until none
+  /// came for two seconds. @pre 0 < scans <= scans_left()
   TrafficResult Run(std::size_t scans, double speed);
 
  private:
   struct Robot;
 
-  void Hear(std::chrono::nanoseconds timeout, TrafficResult& result);
+  /// @returns whether there was an answer.
+  bool Hear(std::chrono::nanoseconds timeout, TrafficResult& result);
 
   double period_s_;
   std::vector<sim::Reading> readings_;
