@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <string>
 #include <thread>
@@ -19,6 +20,7 @@
 #include "tests/support/hostile_peer.hpp"
 #include "tests/support/network.hpp"
 #include "tests/support/process_state.hpp"
+#include "tests/support/room_log.hpp"
 
 namespace qwsm::test {
 namespace {
@@ -55,20 +57,52 @@ class DdsFaults : public ::testing::Test {
   PrivateNetwork network_;
 };
 
-TEST_F(DdsFaults, ServiceOutlivesAPublisherThatDiesAndReturns) {
-  Daemon service(Serve());
+/// The log of a drive in a room without its scans before that one.
+std::filesystem::path LogFrom(const std::filesystem::path& log, int scan) {
+  std::filesystem::path rest = log;
+  rest.replace_extension(".rest.log");
+  std::ifstream in(log);
+  std::ofstream out(rest);
+  int scans = 0;
+  for (std::string line; std::getline(in, line);) {
+    if (scans >= scan || line.starts_with('#') || line.starts_with("PARAM")) out << line << '\n';
+    if (line.starts_with("FLASER")) ++scans;
+  }
+  return rest;
+}
+
+/// The position in the last line of a trajectory.
+Eigen::Vector2d EndOf(const std::string& trajectory) {
+  Eigen::Vector2d position_m(1e9, 1e9);
+  const std::size_t line = trajectory.rfind('\n', trajectory.size() - 2);
+  sscanf(trajectory.c_str() + line + 1, "%*f %lf %lf", &position_m.x(), &position_m.y());
+  return position_m;
+}
+
+TEST_F(DdsFaults, RobotThatDiesIsLostAndComesBackWhereItLeft) {
+  constexpr int kScans = 900;
+  WriteRoomLog(Path("room.log"), kScans);
+  Daemon service(Serve({"--output", Path("served")}));
   ASSERT_TRUE(service.WaitUntilItSays("serving as"));
   {
-    Daemon robot(network_.Join({"replay", Log(), "--robot", "robot1", "--rate", "100"}));
-    ASSERT_TRUE(service.WaitUntilItSays("robot1"));
-    std::this_thread::sleep_for(300ms);
+    Daemon robot(network_.Join({"replay", Path("room.log"), "--robot", "robot1", "--rate", "20"}));
+    ASSERT_TRUE(service.WaitUntilItSays("robot1: joined"));
+    std::this_thread::sleep_for(1500ms);
     robot.End(SIGKILL);
   }
-  const Outcome replay = Replay({"--rate", "max"});
+  // Nothing tells of the death but ten seconds of silence.
+  ASSERT_TRUE(service.WaitUntilItSays("robot1: is lost") ||
+              service.WaitUntilItSays("robot1: is lost"));
+  const Outcome replay = network_.Run(
+      {"replay", LogFrom(Path("room.log"), 600), "--robot", "robot1", "--rate", "max"});
   EXPECT_EQ(replay.exit_code, 0) << replay.errors;
   const Outcome served = service.End();
   EXPECT_EQ(served.exit_code, 0) << served.errors;
-  EXPECT_GT(RelevantScans(served), 10);
+  EXPECT_NE(served.output.find(" 0 dead reckoned"), std::string::npos) << served.output;
+
+  const Pose2 T_start_end = PoseInRoom(0).Inverse() * PoseInRoom(kScans - 1);
+  const Eigen::Vector2d end_m = EndOf(ReadFile(Path("served/robot1/trajectory.tum")));
+  EXPECT_LT((end_m - T_start_end.translation_m()).norm(), 0.05) << served.output;
 }
 
 TEST_F(DdsFaults, LateServiceHasTheMapOfTheFirstOneWhichMayDie) {
