@@ -168,6 +168,13 @@ bool BasicRobotPublisher<Kind>::WaitForAcknowledgments(std::chrono::nanoseconds 
 }
 
 template <class Kind>
+void BasicRobotPublisher<Kind>::Finish(std::chrono::nanoseconds timeout) {
+  constexpr auto kOnItsWay = std::chrono::milliseconds(200);
+  WaitForAcknowledgments(timeout);
+  std::this_thread::sleep_for(kOnItsWay);
+}
+
+template <class Kind>
 const RobotNames& BasicRobotPublisher<Kind>::names() const {
   return topics_->names();
 }

@@ -43,6 +43,9 @@ class BasicRobotPublisher {
 
   /// Waits until all that was published has arrived at every reliable listener.
   bool WaitForAcknowledgments(std::chrono::nanoseconds timeout);
+  /// Waits for that before this goes, and a moment longer: listeners that acknowledge nothing may
+  /// hear that their publisher is gone before they hear what it said last, which then is lost.
+  void Finish(std::chrono::nanoseconds timeout);
 
   const RobotNames& names() const;
 

@@ -70,7 +70,7 @@ class NetworkReplay {
       ShowProgress();
     }
     if (!pace_ && is_answered_) window_.WaitForAll(kPatience);
-    robot_.WaitForAcknowledgments(kPatience);
+    robot_.Finish(kPatience);
     progress_.Clear();
     return true;
   }

@@ -85,7 +85,7 @@ bool NetworkRobot::HasBegun(const sim::Reading& reading) {
 
 void NetworkRobot::Finish() {
   if (pace_ == NetworkPace::kAnswers) window_.WaitForAll(kPatience);
-  publisher_.WaitForAcknowledgments(kPatience);
+  publisher_.Finish(kPatience);
 }
 
 }  // namespace qwsm::pipeline
