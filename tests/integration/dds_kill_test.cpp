@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <random>
 #include <set>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "service/io/journal_file.hpp"
@@ -117,6 +119,27 @@ bool DriveUntilSharedBy(const std::string& service, RobotInRoom& robot) {
   return false;
 }
 
+/// Waits until two services have told for two seconds of equally many scans in their maps, without
+/// driving. @returns false after 30 seconds.
+bool HaveAgreed(RobotInRoom& robot) {
+  std::map<std::string, std::string> scans_of;
+  auto since = std::chrono::steady_clock::now();
+  for (int i = 0; i < 3000; ++i) {
+    robot.Hear(10ms);
+    const std::map<std::string, std::string> health = robot.HealthOf("qwsm: service");
+    if (!health.contains("map_scans")) continue;
+    std::string& scans = scans_of[health.at("message")];
+    const bool is_news = std::exchange(scans, health.at("map_scans")) != health.at("map_scans");
+    const bool agree = scans_of.size() >= 2 && std::ranges::all_of(scans_of, [&](const auto& one) {
+                         return one.second == scans;
+                       });
+    const auto now = std::chrono::steady_clock::now();
+    if (is_news || !agree) since = now;
+    if (now > since + 2s) return true;
+  }
+  return false;
+}
+
 TEST_F(DdsKill, SurvivorOfTwoServicesTakesOverTheRobotAndKeepsTheMapForTheOtherOne) {
   RobotInRoom robot(network_);
   const std::vector<std::string> serve_first =
@@ -134,7 +157,7 @@ TEST_F(DdsKill, SurvivorOfTwoServicesTakesOverTheRobotAndKeepsTheMapForTheOtherO
 
   Daemon first(serve_first);
   ASSERT_TRUE(DriveUntilSharedBy("first", robot)) << first.ErrorsSoFar();
-  std::this_thread::sleep_for(1s);  // Nothing tells that no more will come.
+  EXPECT_TRUE(HaveAgreed(robot)) << first.ErrorsSoFar() << second.ErrorsSoFar();
   const Outcome of_first = first.End();
   const Outcome of_second = second.End();
   EXPECT_NE(of_second.errors.find("robot1: is answered by another service"), std::string::npos);
