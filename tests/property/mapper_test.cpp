@@ -157,9 +157,9 @@ TEST(RecentScans, KeepsTheLastOnesOnePointPerCell) {
   recent.Add({}, point(1.0, 0.0));
   recent.Add({1.0, 0.0, 0.0}, point(1.0, 0.0));
   recent.Add({1.0, 0.0, 0.0}, point(1.05, 0.0));  // In the same cell; the first scan is forgotten.
-  const auto points_m = recent.PointsAround({1.0, 0.0, 0.0});
-  ASSERT_EQ(points_m.size(), 1U);
-  EXPECT_NEAR(points_m[0].x(), 1.05, 1e-12) << "the latest stays";
+  const auto points = recent.PointsAround({1.0, 0.0, 0.0});
+  ASSERT_EQ(points.size(), 1U);
+  EXPECT_NEAR(points[0].p_robot_m.x(), 1.05, 1e-12) << "the latest stays";
   recent.Clear();
   EXPECT_TRUE(recent.PointsAround({}).empty());
 }

@@ -33,6 +33,16 @@ bool IsFinite(const Pose2& pose) {
   return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.theta_rad);
 }
 
+double UncertainPose2::SigmaXY_m() const {
+  return std::sqrt(0.5 * (covariance(0, 0) + covariance(1, 1)));
+}
+
+double UncertainPose2::SigmaTheta_rad() const { return std::sqrt(covariance(2, 2)); }
+
+UncertainPose2 UncertainPose2::Widened(double factor) const {
+  return {.T_a_b = T_a_b, .covariance = factor * factor * covariance};
+}
+
 UncertainPose2 operator*(const UncertainPose2& a_b, const UncertainPose2& b_c) {
   const Eigen::Matrix2d R_a_b = a_b.T_a_b.Rotation();
   const Eigen::Vector2d arm_a = R_a_b * b_c.T_a_b.translation_m();

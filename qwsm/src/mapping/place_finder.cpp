@@ -28,7 +28,7 @@ SearchWindow WindowAround(std::span<const RelevantScan> scans) {
 std::optional<FoundPlace> FindPlace(const ScanMap& map,
                                     std::span<const ScanPoint> points,
                                     const PlaceFinderOptions& options) {
-  const std::vector<Eigen::Vector2d> thinned = ThinOut(points, options.spacing_m);
+  const std::vector<Eigen::Vector2d> thinned = PositionsOf(ThinOut(points, options.spacing_m));
   if (map.empty() || thinned.empty()) return std::nullopt;
   const LikelihoodPyramid& likelihood = map.surfaces().likelihood();
   SearchWindow window = WindowAround(map.scans());

@@ -58,6 +58,7 @@ RobotTracker::RobotTracker(const MapperOptions& options)
     : options_(options),
       motion_(options.motion),
       locator_(LocatorOptions(options)),
+      return_finder_(LocatorOptions(options)),
       recent_(options.surroundings),
       seen_free_(options.free_space) {}
 
@@ -176,7 +177,7 @@ void RobotTracker::FindReturn(const ScanMap& map,
   recent_.Add(step.map_robot.T_a_b, points);
   if (options_.matcher != MatcherKind::kQWsm) return;
   const auto back =
-      locator_.FindReturn(map, points, recent_.PointsAround(step.map_robot.T_a_b), step.map_robot);
+      return_finder_.Find(map, points, recent_.PointsAround(step.map_robot.T_a_b), step.map_robot);
   if (!back) return;
   step.match = *back;
   step.reason = "back at a known place";

@@ -72,11 +72,15 @@ bool ScanMap::IsNewSurface(const Eigen::Vector2d& p_map_m) const {
 void ScanMap::ForgetPoints() { surfaces_ = SurfaceMap(options_.surfaces); }
 
 FrameCovariance ScanMap::CovarianceUnder(std::span<const ScanPoint> points,
-                                         const Pose2& T_map_robot) const {
+                                         const Pose2& T_map_robot,
+                                         double max_drift_m2) const {
   std::vector<ScanId> under;
-  for (const Eigen::Vector2d& p_robot : ThinOut(points, kReferenceSpacing_m)) {
-    const auto nearest = surfaces_.quadtree().Nearest(T_map_robot * p_robot, kReferenceReach_m);
-    if (nearest) under.push_back(surfaces_.quadtree().Scan(nearest->id));
+  for (const ScanPoint& point : ThinOut(points, kReferenceSpacing_m)) {
+    const auto nearest =
+        surfaces_.quadtree().Nearest(T_map_robot * point.p_robot_m, kReferenceReach_m);
+    if (nearest && surfaces_.Drift_m2(nearest->id) <= max_drift_m2) {
+      under.push_back(surfaces_.quadtree().Scan(nearest->id));
+    }
   }
   if (under.empty() && !empty()) under.push_back(scans_.back().id);
   std::ranges::sort(under);

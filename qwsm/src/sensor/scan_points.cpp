@@ -155,17 +155,34 @@ std::vector<ScanPoint> ToPoints(const LaserScan& scan) {
   return points;
 }
 
-std::vector<Eigen::Vector2d> ThinOut(std::span<const ScanPoint> points, double spacing_m) {
-  std::vector<Eigen::Vector2d> thinned;
+ScanPoint operator*(const Pose2& T_other_robot, const ScanPoint& point) {
+  const Eigen::Matrix2d R_other_robot = T_other_robot.Rotation();
+  ScanPoint seen = point;
+  seen.p_robot_m = R_other_robot * point.p_robot_m + T_other_robot.translation_m();
+  seen.beam_robot = R_other_robot * point.beam_robot;
+  seen.normal_robot = R_other_robot * point.normal_robot;
+  seen.to_mean_robot_m = R_other_robot * point.to_mean_robot_m;
+  return seen;
+}
+
+std::vector<ScanPoint> ThinOut(std::span<const ScanPoint> points, double spacing_m) {
+  std::vector<ScanPoint> thinned;
   thinned.reserve(points.size());
   for (const ScanPoint& point : points) {
     if (!thinned.empty() &&
-        (point.p_robot_m - thinned.back()).squaredNorm() < spacing_m * spacing_m) {
+        (point.p_robot_m - thinned.back().p_robot_m).squaredNorm() < spacing_m * spacing_m) {
       continue;
     }
-    thinned.push_back(point.p_robot_m);
+    thinned.push_back(point);
   }
   return thinned;
+}
+
+std::vector<Eigen::Vector2d> PositionsOf(std::span<const ScanPoint> points) {
+  std::vector<Eigen::Vector2d> positions_robot_m;
+  positions_robot_m.reserve(points.size());
+  for (const ScanPoint& point : points) positions_robot_m.push_back(point.p_robot_m);
+  return positions_robot_m;
 }
 
 }  // namespace qwsm

@@ -38,6 +38,11 @@ bool IsFinite(const Pose2& pose);
 struct UncertainPose2 {
   Pose2 T_a_b;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+
+  double SigmaXY_m() const;  ///< Of both axes together: the root of their mean variance.
+  double SigmaTheta_rad() const;
+  /// The same pose with all sigmas multiplied.
+  UncertainPose2 Widened(double factor) const;
 };
 
 /// Composes two poses with independent errors, to first order (Smith & Cheeseman 1986).

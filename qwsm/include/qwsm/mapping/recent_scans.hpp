@@ -43,13 +43,13 @@ class RecentScans {
   void Add(const Pose2& T_map_robot, std::span<const ScanPoint> points);
   void Clear();
 
-  /// Their points in the robot's frame, at most one per cell.
-  std::vector<Eigen::Vector2d> PointsAround(const Pose2& T_map_robot) const;
+  /// Their points as the robot sees them now, at most one per cell.
+  std::vector<ScanPoint> PointsAround(const Pose2& T_map_robot) const;
 
  private:
   struct Scan {
     Pose2 T_map_robot;
-    std::vector<Eigen::Vector2d> points_robot_m;  // Thinned.
+    std::vector<ScanPoint> points;  // Thinned.
   };
 
   RecentScansOptions options_;

@@ -11,6 +11,7 @@
 #include "qwsm/mapping/motion_model.hpp"
 #include "qwsm/mapping/observation.hpp"
 #include "qwsm/mapping/recent_scans.hpp"
+#include "qwsm/mapping/return_finder.hpp"
 #include "qwsm/mapping/scan_locator.hpp"
 #include "qwsm/mapping/scan_map.hpp"
 
@@ -60,6 +61,7 @@ class RobotTracker {
   MapperOptions options_;
   MotionModel motion_;
   ScanLocator locator_;
+  ReturnFinder return_finder_;
   RecentScans recent_;
   FreeSpace seen_free_;
   UncertainPose2 map_last_;                // Pose at the last scan,

@@ -3,61 +3,16 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "qwsm/mapping/free_space.hpp"
+#include "qwsm/mapping/return_options.hpp"
 #include "qwsm/mapping/scan_map.hpp"
 #include "qwsm/matching/correlative_search.hpp"
 #include "qwsm/matching/weighted_scan_matcher.hpp"
 
 namespace qwsm {
-
-/// When a place counts as seen before, and where it is looked for.
-struct ReturnOptions {
-  CorrelativeSearchOptions search{.prior_points = 0.15, .lever_m = 8.0};
-  double caution = 6.0;
-  double min_drift_m = 0.5;
-  double max_drift_share = 0.5;
-  double min_known_share = 0.5;
-  double window_sigmas = 2.5;
-  double max_window_m = 4.0;
-  double max_window_rad = 0.35;
-  double min_score = 0.3;
-  double uniqueness = 0.06;
-  double min_overlap = 0.7;
-};
-
-template <class Visitor>
-void Describe(Visitor& visit, ReturnOptions& o) {
-  visit("search", o.search, {.help = "the search among surfaces seen long ago"});
-  visit(
-      "caution",
-      o.caution,
-      {.help = "the world may be this much less kind than the error model", .min = 1, .max = 100});
-  visit("min_drift_m",
-        o.min_drift_m,
-        {.help = "sigma of the drift since, from which on to look", .min = 0.01, .max = 100});
-  visit("max_drift_share",
-        o.max_drift_share,
-        {.help = "known is what has less than this share of today's variance", .min = 0, .max = 1});
-  visit("min_known_share",
-        o.min_known_share,
-        {.help = "share of the surroundings that ends near known surfaces", .min = 0, .max = 1});
-  visit("window_sigmas",
-        o.window_sigmas,
-        {.help = "half the window, in sigmas of the drift", .min = 0, .max = 10});
-  visit("max_window_m", o.max_window_m, {.help = "and at most this far", .min = 0, .max = 100});
-  visit("max_window_rad", o.max_window_rad, {.help = "and this turn", .min = 0, .max = 3.2});
-  visit("min_score", o.min_score, {.help = "score that proves a return", .min = 0, .max = 1});
-  visit("uniqueness",
-        o.uniqueness,
-        {.help = "by how much it must beat every other place", .min = 0, .max = 1});
-  visit("min_overlap",
-        o.min_overlap,
-        {.help = "share of the scan that then agrees with known surfaces", .min = 0, .max = 1});
-}
 
 struct ScanLocatorOptions {
   CorrelativeSearchOptions search;
@@ -124,25 +79,9 @@ class ScanLocator {
                      const UncertainPose2& predicted,
                      const FreeSpace& seen_free = FreeSpace{}) const;
 
-  /// Looks for the robot among the surfaces mapped long ago, with much less drift than `estimated`.
-  ///
-  /// A wrong jump is worse than drift: nothing is returned unless the surroundings fit there, fit
-  /// nowhere else within what the drift since can have been, and not where they are estimated.
-  /// @param surroundings_robot_m points of the last scans, thinned, in the robot's frame.
-  /// @param estimated pose of the robot in the map; covariance of all drift since the start.
-  std::optional<MatchResult> FindReturn(const ScanMap& map,
-                                        std::span<const ScanPoint> points,
-                                        std::span<const Eigen::Vector2d> surroundings_robot_m,
-                                        const UncertainPose2& estimated) const;
-
   const ScanLocatorOptions& options() const { return options_; }
 
  private:
-  bool IsHeldByPairs(const MatchResult& match) const;
-  std::optional<Pose2> OnlyPlace(const LikelihoodPyramid& map,
-                                 std::span<const Eigen::Vector2d> surroundings_robot_m,
-                                 SearchWindow window) const;
-
   ScanLocatorOptions options_;
   WeightedScanMatcher matcher_;
 };

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <limits>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -81,8 +82,11 @@ class ScanMap {
 
   /// How uncertain that part of the map is which a scan lies on: the mean error of the scans that
   /// stored the points nearest to its own. Those of the last scan if none is near.
-  FrameCovariance CovarianceUnder(std::span<const ScanPoint> points,
-                                  const Pose2& T_map_robot) const;
+  /// @param max_drift_m2 points that drifted more do not count.
+  FrameCovariance CovarianceUnder(
+      std::span<const ScanPoint> points,
+      const Pose2& T_map_robot,
+      double max_drift_m2 = std::numeric_limits<double>::infinity()) const;
 
  private:
   // Of a scan's frame, in two parts that are independent of each other.

@@ -32,8 +32,14 @@ struct ScanPoint {
 /// The points of all beams that hit something.
 std::vector<ScanPoint> ToPoints(const LaserScan& scan);
 
+/// The point as another robot pose sees it.
+ScanPoint operator*(const Pose2& T_other_robot, const ScanPoint& point);
+
 /// Points at least `spacing_m` apart, walking along the scan: near surfaces, on which beams crowd,
 /// count no more than far ones.
-std::vector<Eigen::Vector2d> ThinOut(std::span<const ScanPoint> points, double spacing_m);
+std::vector<ScanPoint> ThinOut(std::span<const ScanPoint> points, double spacing_m);
+
+/// Where they are in the robot's frame.
+std::vector<Eigen::Vector2d> PositionsOf(std::span<const ScanPoint> points);
 
 }  // namespace qwsm

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "qwsm/mapping/return_finder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/support/simulated_laser.hpp"
+
+namespace qwsm::test {
+namespace {
+
+/// A robot that was here long ago, when its pose was exact.
+class BackAtAKnownPlace : public testing::Test {
+ protected:
+  void See(const World& world, unsigned seed = 3) {
+    std::mt19937_64 random(seed);
+    const SimulatedLaser laser{.beams = 361, .range_max_m = 20.0};
+    map_ = ScanMap();
+    const LaserScan then = Measure(laser, world, {}, random);
+    map_.Insert(then, ToPoints(then), WithSigma({}, 0.01));
+    points_ = ToPoints(Measure(laser, world, truth_, random));
+  }
+
+  std::optional<MatchResult> Find(const Pose2& estimated, double sigma_m) const {
+    return ReturnFinder().Find(map_, points_, points_, WithSigma(estimated, sigma_m));
+  }
+
+  static UncertainPose2 WithSigma(const Pose2& pose, double sigma_m) {
+    const double sigma_rad = 0.05 * sigma_m;
+    UncertainPose2 uncertain{.T_a_b = pose};
+    uncertain.covariance.diagonal() = Eigen::Vector3d(sigma_m, sigma_m, sigma_rad).cwiseAbs2();
+    return uncertain;
+  }
+
+  double Error_m(const MatchResult& found) const {
+    return (found.T_ref_cur.translation_m() - truth_.translation_m()).norm();
+  }
+
+  const Pose2 truth_{0.2, 0.1, 0.02};
+  const Pose2 drifted_{0.5, 0.7, 0.025};
+  ScanMap map_;
+  std::vector<ScanPoint> points_;
+};
+
+/// Trunks around the robot.
+World Grove() {
+  return {.walls = {},
+          .columns = {{.center_m = {5.0, 4.0}, .radius_m = 0.3},
+                      {.center_m = {7.0, -3.0}, .radius_m = 0.2},
+                      {.center_m = {1.5, 6.0}, .radius_m = 0.4},
+                      {.center_m = {3.0, -5.5}, .radius_m = 0.3},
+                      {.center_m = {9.0, 1.0}, .radius_m = 0.3}}};
+}
+
+/// Trunks that stand close together.
+World ThicketAt(double x_m, double y_m) {
+  return {.walls = {},
+          .columns = {{.center_m = {x_m, y_m}, .radius_m = 0.4},
+                      {.center_m = {x_m + 0.8, y_m + 0.9}, .radius_m = 0.3},
+                      {.center_m = {x_m + 0.6, y_m - 1.0}, .radius_m = 0.35}}};
+}
+
+TEST_F(BackAtAKnownPlace, IsFoundAgain) {
+  See(Grove());
+  const auto found = Find(drifted_, 0.5);
+  ASSERT_TRUE(found);
+  EXPECT_LT(Error_m(*found), 0.03);
+}
+
+// It leaves open how the robot is turned: it fits all along an arc about the thicket.
+TEST_F(BackAtAKnownPlace, IsMostlyFoundByOneThicketWithTheHelpOfTheEstimate) {
+  constexpr unsigned kSeeds = 10;
+  int found = 0;
+  for (unsigned seed = 0; seed < kSeeds; ++seed) {
+    See(ThicketAt(7.0, 0.0), seed);
+    const auto there = Find(drifted_, 0.5);
+    if (!there) continue;
+    ++found;
+    EXPECT_LT(Error_m(*there), 0.15) << "drifted by 0.67 m";
+  }
+  EXPECT_GE(found, 8);
+}
+
+TEST_F(BackAtAKnownPlace, StaysWhereItIsBetweenTwoPlacesThatLookAlike) {
+  See(ThicketAt(9.0, 2.0));
+  const std::vector<ScanPoint> one_thicket = points_;
+  World twins = ThicketAt(9.0, 2.0);
+  const World other = ThicketAt(9.0, 4.5);
+  twins.columns.insert(twins.columns.end(), other.columns.begin(), other.columns.end());
+  See(twins);
+  points_ = one_thicket;
+  EXPECT_FALSE(Find({0.2, -1.15, 0.02}, 0.8));
+}
+
+TEST_F(BackAtAKnownPlace, StaysWhereTheMapDriftedAsMuch) {
+  See(Grove());
+  EXPECT_FALSE(Find(drifted_, 0.012));
+}
+
+TEST_F(BackAtAKnownPlace, HasTheErrorOfTheKnownSurfacesToo) {
+  See(Grove());
+  const auto found = Find(drifted_, 0.5);
+  ASSERT_TRUE(found);
+  EXPECT_GE(found->covariance(0, 0), 0.01 * 0.01);
+}
+
+}  // namespace
+}  // namespace qwsm::test
