@@ -143,7 +143,8 @@ Lane::Time SessionIntake<Kind>::AwaitsOdometryUntil(const Arrival& next) const {
   if (!expects_odometry_ || odometry_.Covers(stamp)) return next.arrived;
   const auto wait = std::chrono::duration_cast<std::chrono::nanoseconds>(
       std::chrono::duration<double>(options_.odometry_wait_s));
-  if (!hears_odometry_) return *first_arrived_ + std::max(wait, kOdometryGone);
+  if (!hears_odometry_)
+    return first_arrived_.value_or(next.arrived) + std::max(wait, kOdometryGone);
   return next.arrived + (odometry_.Covers(stamp - kOdometryGone) ? wait : wait.zero());
 }
 

@@ -210,6 +210,24 @@ TEST(TeamService, AnswersWithoutOdometryWhereItsPublisherIsSilent) {
   EXPECT_EQ(StatusOf(service, "robot1").counts.without_odometry, 5U);
 }
 
+TEST(TeamService, ScanThatWaitsOutlivesItsRobotsAbsence) {
+  test::RecordingSink sink;
+  TeamService service(LosslessOptions(), sink);
+  service.Start();
+  service.ExpectOdometry("robot1", true);
+  Give(service, "robot1", 0, 5);
+  service.WaitUntilIdle();
+  const Observation waiting = test::ObservationInRoom(5);
+  EXPECT_TRUE(service.TakeScan("robot1", waiting.scan));
+  service.Lose("robot1");
+  service.Join("robot1");
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  service.TakeOdometry("robot1", waiting.scan.stamp, *waiting.T_odom_robot);
+  service.WaitUntilIdle();
+  EXPECT_EQ(sink.steps("robot1").size(), 6U);
+  EXPECT_EQ(StatusOf(service, "robot1").counts.without_odometry, 0U);
+}
+
 TEST(TeamService, GivesNoNumberTwiceThoughTheJournalForgotSome) {
   const test::TemporaryFolder folder;
   const std::filesystem::path journal = folder.path() / "team.db";
