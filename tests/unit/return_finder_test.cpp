@@ -94,6 +94,13 @@ TEST_F(BackAtAKnownPlace, StaysWhereItIsBetweenTwoPlacesThatLookAlike) {
   EXPECT_FALSE(Find({0.2, -1.15, 0.02}, 0.8));
 }
 
+TEST_F(BackAtAKnownPlace, StaysWhereItIsBetweenWallsThatLookTheSameEverywhere) {
+  See({.walls = {{.from_m = {-40.0, 1.2}, .to_m = {60.0, 1.2}},
+                 {.from_m = {-40.0, -1.2}, .to_m = {60.0, -1.2}}},
+       .columns = {}});
+  EXPECT_FALSE(Find({2.0, 0.1, 0.02}, 0.5));
+}
+
 TEST_F(BackAtAKnownPlace, StaysWhereTheMapDriftedAsMuch) {
   See(Grove());
   EXPECT_FALSE(Find(drifted_, 0.012));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "qwsm/mapping/return_finder.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -14,7 +15,7 @@ constexpr std::size_t kMinPoints = 20;  // A return needs evidence.
 constexpr double kSamePlace_m = 0.3;    // Places this near to each other are no rivals.
 constexpr double kSamePose_m = 0.1;     // Matches that end this near to each other agree.
 constexpr double kNearlyAsGood = 0.8;   // A rival with less than this share of the overlap is none.
-constexpr double kWhole = 0.9;          // Of what is known, at least, must fit.
+constexpr double kMinHold = 0.1;        // Along walls alone it is a hundredth.
 constexpr double kDecided = 0.5;        // What a match leaves of the estimate's sigma, at most.
 
 double Distance_m(const Pose2& a, const Pose2& b) {
@@ -33,6 +34,14 @@ UncertainPose2 FoundAt(const Pose2& place) { return WithSigmas(place, kFoundSigm
 
 // How wrong recent scans lie to one another.
 Eigen::Matrix3d CovarianceOfSurroundings() { return WithSigmas({}, 0.05, 0.01).covariance; }
+
+// The least of what pairs say of the position in any direction, beside the most, were the heading
+// known.
+double HoldWithHeadingGiven(const Eigen::Matrix3d& information) {
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
+  axes.computeDirect(information.topLeftCorner<2, 2>(), Eigen::EigenvaluesOnly);
+  return axes.eigenvalues()(0) / std::max(axes.eigenvalues()(1), 1e-12);
+}
 
 // What of the map around a scan was mapped with little drift.
 struct KnownSurroundings {
@@ -143,13 +152,13 @@ struct Attempt {
 
   // Where the surroundings lead once the estimate has its say: a few trees far ahead leave open
   // how the robot is turned and with it where it stands, and only the estimate can tell. From all
-  // places it must be the same pose, unless they turn out not to fit there.
+  // places it must be the same pose, unless they turn out not to fit there. How far along a
+  // corridor it is, the estimate cannot tell.
   std::optional<UncertainPose2> AgreedFrom(std::span<const Pose2> places) const {
     const MatchResult best = Match(surroundings, estimated, places.front());
     UncertainPose2 agreed{.T_a_b = best.T_ref_cur, .covariance = best.covariance};
-    const double known_share =
-        SurroundingsOf(map.likelihood(), surroundings, agreed.T_a_b, 0.0, max_drift_m2).share;
-    if (best.status != MatchStatus::kConverged || best.overlap < kWhole * known_share ||
+    if (best.status != MatchStatus::kConverged ||
+        HoldWithHeadingGiven(best.information) < kMinHold ||
         agreed.SigmaXY_m() > kDecided * estimated.SigmaXY_m() ||
         Distance_m(agreed.T_a_b, estimated.T_a_b) < kSamePose_m) {
       return std::nullopt;
