@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "qwsm/mapping/return_finder.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -38,9 +37,9 @@ Eigen::Matrix3d CovarianceOfSurroundings() { return WithSigmas({}, 0.05, 0.01).c
 // The least of what pairs say of the position in any direction, beside the most, were the heading
 // known.
 double HoldWithHeadingGiven(const Eigen::Matrix3d& information) {
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
-  axes.computeDirect(information.topLeftCorner<2, 2>(), Eigen::EigenvaluesOnly);
-  return axes.eigenvalues()(0) / std::max(axes.eigenvalues()(1), 1e-12);
+  Eigen::Matrix3d of_position = information;
+  of_position.topRightCorner<2, 1>().setZero();
+  return HoldOf(of_position).share();
 }
 
 // What of the map around a scan was mapped with little drift.

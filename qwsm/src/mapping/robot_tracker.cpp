@@ -58,7 +58,7 @@ RobotTracker::RobotTracker(const MapperOptions& options)
     : options_(options),
       motion_(options.motion),
       locator_(LocatorOptions(options)),
-      return_finder_(LocatorOptions(options)),
+      return_finder_(locator_.options()),
       recent_(options.surroundings),
       seen_free_(options.free_space) {}
 
