@@ -107,6 +107,10 @@ inline void ExpectRegionsExact(const PointQuadtree& tree,
       truth.Where([&](const auto& p) { return (p - center_m).norm() < size_m + slack_m; });
   EXPECT_TRUE(std::ranges::includes(found, inner));
   EXPECT_TRUE(std::ranges::includes(outer, found));
+  for (const int at_most : {0, 1, 5, 1000000}) {
+    EXPECT_EQ(tree.CountInRadius(center_m, size_m, at_most),
+              std::min(at_most, static_cast<int>(found.size())));
+  }
 
   found.clear();
   const Eigen::Vector2d half_m(size_m, size_m / 3);

@@ -41,7 +41,8 @@ MapAddition ScanMap::Prepare(const LaserScan& scan,
   const FrameCovariance covariance = FrameCovariance::Of(map_robot);
   const Eigen::Matrix2d R_map_robot = map_robot.T_a_b.Rotation();
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector2d p_map = map_robot.T_a_b * points[i].p_robot_m;
+    const Eigen::Vector2d p_map =
+        R_map_robot * points[i].p_robot_m + map_robot.T_a_b.translation_m();
     if (options_.insertion == InsertionRule::kNewSurface && !IsNewSurface(p_map)) continue;
     addition.points.push_back({.p_map_m = p_map,
                                .normal_map = R_map_robot * points[i].normal_robot,
@@ -63,10 +64,8 @@ ScanId ScanMap::Add(MapAddition addition) {
 }
 
 bool ScanMap::IsNewSurface(const Eigen::Vector2d& p_map_m) const {
-  int crowd = 0;
-  surfaces_.quadtree().ForEachInRadius(
-      p_map_m, options_.crowd_radius_m, [&crowd](PointId, const Eigen::Vector2d&) { ++crowd; });
-  return crowd < options_.crowd_points;
+  return surfaces_.quadtree().CountInRadius(
+             p_map_m, options_.crowd_radius_m, options_.crowd_points) < options_.crowd_points;
 }
 
 void ScanMap::ForgetPoints() { surfaces_ = SurfaceMap(options_.surfaces); }
@@ -74,10 +73,11 @@ void ScanMap::ForgetPoints() { surfaces_ = SurfaceMap(options_.surfaces); }
 FrameCovariance ScanMap::CovarianceUnder(std::span<const ScanPoint> points,
                                          const Pose2& T_map_robot,
                                          double max_drift_m2) const {
+  const Eigen::Matrix2d R_map_robot = T_map_robot.Rotation();
   std::vector<ScanId> under;
   for (const ScanPoint& point : ThinOut(points, kReferenceSpacing_m)) {
-    const auto nearest =
-        surfaces_.quadtree().Nearest(T_map_robot * point.p_robot_m, kReferenceReach_m);
+    const auto nearest = surfaces_.quadtree().Nearest(
+        R_map_robot * point.p_robot_m + T_map_robot.translation_m(), kReferenceReach_m);
     if (nearest && surfaces_.Drift_m2(nearest->id) <= max_drift_m2) {
       under.push_back(surfaces_.quadtree().Scan(nearest->id));
     }

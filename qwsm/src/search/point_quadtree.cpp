@@ -14,7 +14,6 @@ namespace qwsm {
 using quadtree::FixedPoint;
 using quadtree::kNoIndex;
 using quadtree::kUnitsPerCell;
-using quadtree::UnitPoint;
 
 namespace {
 
@@ -25,10 +24,6 @@ constexpr double kFirstCell = 0x55555555;
 constexpr double kCellsPerAxis = 4294967296.0;
 /// Above, doubles no longer tell a thousandth of a cell.
 constexpr double kMaxCells = 1e12;
-
-UnitPoint ToUnitPoint(const FixedPoint& p) {
-  return {p.cell.x * kUnitsPerCell + p.fraction_x, p.cell.y * kUnitsPerCell + p.fraction_y};
-}
 
 std::uint16_t ToFraction(double share_of_cell) {
   return static_cast<std::uint16_t>(
@@ -130,11 +125,6 @@ bool PointQuadtree::Contains(PointId id) const {
   return id < points_.end() && points_[id].account != kNotStored;
 }
 
-Eigen::Vector2d PointQuadtree::Position(PointId id) const {
-  assert(Contains(id));
-  return ToMetres(ToUnitPoint(points_[id].position));
-}
-
 std::uint32_t PointQuadtree::Count(PointId id) const {
   assert(Contains(id));
   return points_[id].account == kNoIndex ? 1 : ledger_.count(points_[id].account);
@@ -152,20 +142,6 @@ PointQuadtreeStatistics PointQuadtree::Statistics() const {
           .leaves = tree_.leaf_count(),
           .depth = tree_.Depth(),
           .bytes = sizeof(*this) + tree_.bytes() + points_.bytes() + ledger_.bytes()};
-}
-
-UnitPoint PointQuadtree::ToUnits(const Eigen::Vector2d& p_m) const {
-  return {(p_m.x() * cells_per_metre_ - origin_x_cells_) * kUnitsPerCell,
-          (p_m.y() * cells_per_metre_ - origin_y_cells_) * kUnitsPerCell};
-}
-
-double PointQuadtree::ToUnits(double distance_m) const {
-  return distance_m * cells_per_metre_ * kUnitsPerCell;
-}
-
-Eigen::Vector2d PointQuadtree::ToMetres(const UnitPoint& p) const {
-  return {(origin_x_cells_ + p.x / kUnitsPerCell) / cells_per_metre_,
-          (origin_y_cells_ + p.y / kUnitsPerCell) / cells_per_metre_};
 }
 
 std::optional<FixedPoint> PointQuadtree::Locate(const Eigen::Vector2d& p_m) const {

@@ -25,6 +25,12 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+// So that what is exactly as far counts, too.
+double JustAbove(double distance2) {
+  return distance2 * (1.0 + std::numeric_limits<double>::epsilon()) +
+         std::numeric_limits<double>::min();
+}
+
 double Distance2(const UnitPoint& a, const UnitPoint& b) {
   const double dx = a.x - b.x;
   const double dy = a.y - b.y;
@@ -109,7 +115,7 @@ class NearestInLeaf {
 class NearestBall {
  public:
   NearestBall(const CellQuadtree& tree, const UnitPoint& center, double radius)
-      : tree_(tree), center_(center), radius2_(std::nextafter(radius * radius, kInfinity)) {}
+      : tree_(tree), center_(center), radius2_(JustAbove(radius * radius)) {}
 
   bool Reaches(double distance2) {
     if (distance2 < radius2_) return true;
@@ -161,11 +167,7 @@ class KNearestBall {
                double radius,
                std::size_t k,
                std::vector<Neighbor>& heap)
-      : tree_(tree),
-        center_(center),
-        radius2_(std::nextafter(radius * radius, kInfinity)),
-        k_(k),
-        heap_(heap) {}
+      : tree_(tree), center_(center), radius2_(JustAbove(radius * radius)), k_(k), heap_(heap) {}
 
   bool Reaches(double distance2) const { return distance2 < radius2_; }
 
@@ -224,16 +226,18 @@ double DistanceToBorder(const Square& square, const UnitPoint& p) {
 
 /// Bottom-up search: `leaf` makes the ball small, then the smallest node around it is searched.
 void SearchUpFrom(const CellQuadtree& tree, std::uint32_t leaf, NearestBall& ball) {
-  CellQuadtree::Subtree around = tree.root();
+  CellQuadtree::Subtree around;
   if (leaf != kNoIndex) {
     ball.Visit(leaf);
     const double to_border = DistanceToBorder(tree.leaf(leaf).square(), ball.center());
     if (to_border * to_border >= ball.radius2()) return ball.NoteOtherLeafAt(to_border * to_border);
     around = SmallestAround(tree, leaf, ball);
-    if (around.square.level < tree.root().square.level) {
-      const double border = DistanceToBorder(around.square, ball.center());
-      ball.NoteOtherLeafAt(border * border);
-    }
+  } else {
+    around = quadtree::SmallestAround(tree, ball.center(), std::sqrt(ball.radius2()));
+  }
+  if (around.square.level < tree.root().square.level) {
+    const double border = DistanceToBorder(around.square, ball.center());
+    ball.NoteOtherLeafAt(border * border);
   }
   Traversal(tree, ball.center(), ball).Run(around);
 }
@@ -275,7 +279,12 @@ std::optional<Neighbor> PointQuadtree::Nearest(const Eigen::Vector2d& query_m,
     }
   }
   NearestBall ball(tree_, query, max_distance);
-  SearchUpFrom(tree_, cursor.leaf != kNoIndex ? cursor.leaf : tree_.LeafAt(CellAt(query)), ball);
+  std::uint32_t start = cursor.leaf;
+  if (start == kNoIndex || !tree_.leaf(start).square().Contains(CellAt(query))) {
+    const std::uint32_t at = tree_.LeafAt(CellAt(query));
+    if (at != kNoIndex) start = at;
+  }
+  SearchUpFrom(tree_, start, ball);
   cursor.revision = revision_.value();
   cursor.leaf = ball.leaf();
   cursor.query = query;
@@ -302,11 +311,23 @@ void PointQuadtree::KNearest(const Eigen::Vector2d& query_m,
   }
 }
 
-Neighbor PointQuadtree::ToNeighbor(PointId id, double distance2, const UnitPoint& p) const {
-  const double metres_per_unit = options_.cell_size_m / kUnitsPerCell;
-  return {.id = id,
-          .distance_m2 = distance2 * metres_per_unit * metres_per_unit,
-          .position_m = ToMetres(p)};
+int PointQuadtree::CountInRadius(const Eigen::Vector2d& center_m,
+                                 double radius_m,
+                                 int at_most) const {
+  const UnitPoint center = ToUnits(center_m);
+  const double radius = ToUnits(radius_m);
+  if (!(radius >= 0.0) || !quadtree::IsFinite(center)) return 0;
+  quadtree::CountingDisk disk(tree_, center, radius, at_most);
+  Traversal(tree_, center, disk).Run(quadtree::SmallestAround(tree_, center, radius));
+  return disk.count();
+}
+
+SearchCursor PointQuadtree::CursorAt(const Eigen::Vector2d& p_m) const {
+  const UnitPoint p = ToUnits(p_m);
+  if (!quadtree::IsFinite(p)) return {};
+  const std::uint32_t leaf = tree_.LeafAt(CellAt(p));
+  if (leaf != kNoIndex) tree_.Prefetch(leaf);
+  return {.revision = revision_.value(), .leaf = leaf};
 }
 
 }  // namespace qwsm

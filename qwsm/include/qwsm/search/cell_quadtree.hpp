@@ -40,6 +40,12 @@ class CellQuadtree {
   const Leaf& leaf(std::uint32_t index) const { return leaves_[index]; }
   const InnerNode& inner(std::uint32_t index) const { return inner_[index]; }
 
+  /// Has the memory of a leaf fetched.
+  void Prefetch(std::uint32_t leaf) const {
+    const auto* lines = reinterpret_cast<const char*>(&leaves_[leaf]);
+    for (int line = 0; line < 4; ++line) __builtin_prefetch(lines + 64 * line);
+  }
+
   /// The leaf whose square holds the cell; kNoIndex where there is none.
   std::uint32_t LeafAt(Cell cell) const;
   /// The smallest node whose square holds both cells; the root where none does.

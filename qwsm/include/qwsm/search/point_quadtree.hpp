@@ -77,7 +77,11 @@ class PointQuadtree {
 
   bool Contains(PointId id) const;
   /// The mean of the merged points. @pre Contains(id), here and below.
-  Eigen::Vector2d Position(PointId id) const;
+  Eigen::Vector2d Position(PointId id) const {
+    return ToMetres(quadtree::ToUnitPoint(points_[id].position));
+  }
+  /// Has the memory fetched that Position() needs.
+  void Prefetch(PointId id) const { __builtin_prefetch(&points_[id]); }
   /// How many points were merged.
   std::uint32_t Count(PointId id) const;
   /// The oldest contributor.
@@ -92,11 +96,18 @@ class PointQuadtree {
                                   double max_distance_m,
                                   SearchCursor& cursor) const;
 
+  /// A cursor for a first search at a place. Making those of many places before the searches is
+  /// quicker, for meanwhile the memory they need is fetched.
+  SearchCursor CursorAt(const Eigen::Vector2d& p_m) const;
+
   /// The `k` nearest points not farther than `max_distance_m`, nearest first, replacing `out`.
   void KNearest(const Eigen::Vector2d& query_m,
                 std::size_t k,
                 double max_distance_m,
                 std::vector<Neighbor>& out) const;
+
+  /// How many points are not farther than `radius_m`, or `at_most` if there are more.
+  int CountInRadius(const Eigen::Vector2d& center_m, double radius_m, int at_most) const;
 
   /// Calls visit(PointId, Eigen::Vector2d position_m) for the points not farther than `radius_m`,
   /// in no particular order.
@@ -126,12 +137,25 @@ class PointQuadtree {
   static constexpr std::uint32_t kNotStored = quadtree::kNoIndex - 1;
 
   // Positions: metres outside, units from the corner of the largest square inside.
-  quadtree::UnitPoint ToUnits(const Eigen::Vector2d& p_m) const;
-  double ToUnits(double distance_m) const;
-  Eigen::Vector2d ToMetres(const quadtree::UnitPoint& p) const;
+  quadtree::UnitPoint ToUnits(const Eigen::Vector2d& p_m) const {
+    return {(p_m.x() * cells_per_metre_ - origin_x_cells_) * quadtree::kUnitsPerCell,
+            (p_m.y() * cells_per_metre_ - origin_y_cells_) * quadtree::kUnitsPerCell};
+  }
+  double ToUnits(double distance_m) const {
+    return distance_m * cells_per_metre_ * quadtree::kUnitsPerCell;
+  }
+  Eigen::Vector2d ToMetres(const quadtree::UnitPoint& p) const {
+    return {(origin_x_cells_ + p.x / quadtree::kUnitsPerCell) * options_.cell_size_m,
+            (origin_y_cells_ + p.y / quadtree::kUnitsPerCell) * options_.cell_size_m};
+  }
   std::optional<quadtree::FixedPoint> Locate(const Eigen::Vector2d& p_m) const;
   bool CenterOn(const Eigen::Vector2d& p_m);
-  Neighbor ToNeighbor(PointId id, double distance2, const quadtree::UnitPoint& p) const;
+  Neighbor ToNeighbor(PointId id, double distance2, const quadtree::UnitPoint& p) const {
+    const double metres_per_unit = options_.cell_size_m / quadtree::kUnitsPerCell;
+    return {.id = id,
+            .distance_m2 = distance2 * metres_per_unit * metres_per_unit,
+            .position_m = ToMetres(p)};
+  }
 
   void Merge(PointId id, const quadtree::FixedPoint& p, ScanId scan);
   void MoveToMean(Record& record);

@@ -44,6 +44,10 @@ struct UnitPoint {
   double y = 0.0;
 };
 
+inline UnitPoint ToUnitPoint(const FixedPoint& p) {
+  return {p.cell.x * kUnitsPerCell + p.fraction_x, p.cell.y * kUnitsPerCell + p.fraction_y};
+}
+
 /// Square of 2^level by 2^level smallest cells, its corner a multiple of its side.
 struct Square {
   Cell corner;

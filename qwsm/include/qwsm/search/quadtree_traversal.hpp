@@ -122,6 +122,34 @@ class Disk {
   const Visitor& visit_;
 };
 
+/// How many points are not farther than a radius, for Traversal. Counts no further than wanted.
+class CountingDisk {
+ public:
+  CountingDisk(const CellQuadtree& tree, const UnitPoint& center, double radius, int at_most)
+      : tree_(tree), center_(center), radius2_(radius * radius), at_most_(at_most) {}
+
+  bool Reaches(double distance2) const { return distance2 <= radius2_ && count_ < at_most_; }
+
+  void Visit(std::uint32_t leaf_index) {
+    const Leaf& leaf = tree_.leaf(leaf_index);
+    for (int i = 0; i < leaf.count; ++i) {
+      const UnitPoint p = PositionAt(leaf, i);
+      const double dx = p.x - center_.x;
+      const double dy = p.y - center_.y;
+      count_ += dx * dx + dy * dy <= radius2_ ? 1 : 0;
+    }
+  }
+
+  int count() const { return std::min(count_, at_most_); }
+
+ private:
+  const CellQuadtree& tree_;
+  const UnitPoint center_;
+  const double radius2_;
+  const int at_most_;
+  int count_ = 0;
+};
+
 /// Calls visit(id, UnitPoint) for the points of a subtree in a box, border included.
 template <class Visit>
 void VisitBox(const CellQuadtree& tree,

@@ -17,8 +17,8 @@ struct SearchCursor {
   std::uint64_t revision = 0;               ///< Of the tree that was searched; 0 is none.
   std::uint32_t leaf = quadtree::kNoIndex;  ///< Leaf of the neighbour; kNoIndex if none was found.
   PointId id = 0;                           ///< The neighbour,
-  quadtree::UnitPoint neighbor;             ///< and where it is.
-  quadtree::UnitPoint query;                ///< Where the query was.
+  quadtree::UnitPoint neighbor{};           ///< and where it is.
+  quadtree::UnitPoint query{};              ///< Where the query was.
   double clearance_of_point = 0.0;          ///< No other point was nearer than this, in units.
 };
 
