@@ -44,7 +44,7 @@ double ScoreAt(const LikelihoodPyramid& map,
   for (const Eigen::Vector2d& p_robot : points_robot_m) {
     const Eigen::Vector2d p_map = T_map_turned * p_robot;
     const GridCell cell{map.CellIndex(p_map.x()) + x, map.CellIndex(p_map.y()) + y};
-    const int drift_code = map.DriftCodeAt(LikelihoodTile::kFirstDriftLevel, cell.x, cell.y);
+    const int drift_code = map.DriftCodeAt(0, cell.x, cell.y);
     if (max_drift_code == LikelihoodPyramid::kUnmapped || drift_code <= max_drift_code) {
       sum += map.LikelihoodAt(0, cell.x, cell.y);
     }

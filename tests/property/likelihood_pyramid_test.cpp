@@ -61,8 +61,9 @@ TEST(LikelihoodPyramid, HigherLevelsBoundWhatABeamMovedWithinThemMeets) {
       const int y = any_cell(random);
       for (int level = 1; level < LikelihoodPyramid::kLevels; ++level) {
         const int bound = pyramid.LikelihoodAt(level, x, y);
-        for (int dy = 0; dy < 1 << level; ++dy) {
-          for (int dx = 0; dx < 1 << level; ++dx) {
+        const int side = 1 << LikelihoodTile::ShiftOf(level);
+        for (int dy = 0; dy < side; ++dy) {
+          for (int dx = 0; dx < side; ++dx) {
             ASSERT_LE(pyramid.LikelihoodAt(0, x + dx, y + dy), bound);
           }
         }
@@ -71,13 +72,13 @@ TEST(LikelihoodPyramid, HigherLevelsBoundWhatABeamMovedWithinThemMeets) {
   }
 }
 
-TEST(LikelihoodPyramid, CoarserLevelsHoldTheSmallestDrift) {
+TEST(LikelihoodPyramid, HoldsTheSmallestDrift) {
   LikelihoodPyramid pyramid;
   pyramid.Insert({1.0, 1.0}, 0.04);
   pyramid.Insert({1.05, 1.0}, 0.01);
   pyramid.Insert({1.1, 1.0}, 0.09);
   const int cell = pyramid.CellIndex(1.05);
-  for (int level = LikelihoodTile::kFirstDriftLevel; level < LikelihoodPyramid::kLevels; ++level) {
+  for (int level = 0; level < LikelihoodPyramid::kLevels; ++level) {
     EXPECT_EQ(pyramid.DriftCodeAt(level, cell, pyramid.CellIndex(1.0)),
               LikelihoodPyramid::DriftCode(0.01));
   }
@@ -101,7 +102,7 @@ TEST(LikelihoodPyramid, IsEmptyWhereNothingWasStoredAndAfterClearing) {
   pyramid.Insert({1.0, -2.0}, 1e-4);
   EXPECT_GT(pyramid.LikelihoodAt(0, pyramid.CellIndex(1.0), pyramid.CellIndex(-2.0)), 200);
   EXPECT_EQ(pyramid.LikelihoodAt(0, 2'000'000'000, -2'000'000'000), 0);
-  EXPECT_EQ(pyramid.DriftCodeAt(1, 0, 0), LikelihoodPyramid::kUnmapped);
+  EXPECT_EQ(pyramid.DriftCodeAt(0, 0, 0), LikelihoodPyramid::kUnmapped);
   pyramid.Clear();
   EXPECT_EQ(pyramid.LikelihoodAt(0, pyramid.CellIndex(1.0), pyramid.CellIndex(-2.0)), 0);
 }

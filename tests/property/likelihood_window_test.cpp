@@ -26,12 +26,18 @@ class AnyWindow : public testing::TestWithParam<unsigned> {
     }
   }
 
+  // Blocks that begin at any cell are in it.
+  LikelihoodWindow Window(std::uint8_t max_drift_code) const {
+    constexpr int kMargin = LikelihoodWindow::kBlockSide - 1;
+    return {pyramid_, kLow, {kHigh.x + kMargin, kHigh.y + kMargin}, max_drift_code};
+  }
   GridCell AnyCell() {
     return {std::uniform_int_distribution<int>(kLow.x, kHigh.x)(random_),
             std::uniform_int_distribution<int>(kLow.y, kHigh.y)(random_)};
   }
   static int At(const LikelihoodWindow& window, int level, GridCell cell) {
-    return window.Sum(level, std::span(&cell, 1), {0, 0});
+    return level == 0 ? window.SumsOfBlock(std::span(&cell, 1), {0, 0}, 1).front()
+                      : window.Bound(level, std::span(&cell, 1), {0, 0});
   }
 
   std::mt19937_64 random_;
@@ -39,7 +45,7 @@ class AnyWindow : public testing::TestWithParam<unsigned> {
 };
 
 TEST_P(AnyWindow, ReadsWhatThePyramidHolds) {
-  const LikelihoodWindow window(pyramid_, kLow, kHigh, LikelihoodPyramid::kUnmapped);
+  const LikelihoodWindow window = Window(LikelihoodPyramid::kUnmapped);
   for (int level = 0; level < LikelihoodPyramid::kLevels; ++level) {
     for (int trial = 0; trial < 500; ++trial) {
       const GridCell cell = AnyCell();
@@ -48,27 +54,36 @@ TEST_P(AnyWindow, ReadsWhatThePyramidHolds) {
   }
 }
 
-TEST_P(AnyWindow, SumsTheCellsMovedByAnOffset) {
-  const LikelihoodWindow window(pyramid_, kLow, kHigh, LikelihoodPyramid::kUnmapped);
-  const std::vector<GridCell> cells = {{0, 0}, {5, -7}, {13, 22}};
-  for (int level = 0; level < LikelihoodPyramid::kLevels; ++level) {
-    const GridCell offset{-(1 << level), 2 << level};
-    int expected = 0;
-    for (const GridCell& cell : cells) {
-      expected += pyramid_.LikelihoodAt(level, cell.x + offset.x, cell.y + offset.y);
+TEST_P(AnyWindow, SumsTheCellsMovedByEachOffsetOfABlock) {
+  const LikelihoodWindow window = Window(LikelihoodPyramid::kUnmapped);
+  std::vector<GridCell> cells;  // More than a sum of 16 bits would hold.
+  for (int i = 0; i < 700; ++i) cells.push_back({(i * 7) % 50 - 25, (i * 11) % 40 - 20});
+  const GridCell first{-3, 5};
+  constexpr int kSide = LikelihoodWindow::kBlockSide;
+  const auto sums = window.SumsOfBlock(cells, first, kSide);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      int expected = 0;
+      for (const GridCell& cell : cells) {
+        expected += pyramid_.LikelihoodAt(0, cell.x + first.x + x, cell.y + first.y + y);
+      }
+      EXPECT_EQ(sums[static_cast<std::size_t>(y * kSide + x)], expected);
+      for (int level = 1; level < LikelihoodPyramid::kLevels; ++level) {
+        EXPECT_LE(expected, window.Bound(level, cells, first));
+      }
     }
-    EXPECT_EQ(window.Sum(level, cells, offset), expected);
   }
 }
 
 TEST_P(AnyWindow, BoundsWhatABeamMovedWithinACellMeetsAmongSurfacesOfLittleDrift) {
-  const LikelihoodWindow window(pyramid_, kLow, kHigh, LikelihoodPyramid::DriftCode(0.2));
+  const LikelihoodWindow window = Window(LikelihoodPyramid::DriftCode(0.2));
   for (int trial = 0; trial < 500; ++trial) {
     const GridCell cell = AnyCell();
     for (int level = 1; level < LikelihoodPyramid::kLevels; ++level) {
       const int bound = At(window, level, cell);
-      for (int y = cell.y; y < std::min(kHigh.y, cell.y + (1 << level)); ++y) {
-        for (int x = cell.x; x < std::min(kHigh.x, cell.x + (1 << level)); ++x) {
+      const int side = 1 << LikelihoodTile::ShiftOf(level);
+      for (int y = cell.y; y < std::min(kHigh.y, cell.y + side); ++y) {
+        for (int x = cell.x; x < std::min(kHigh.x, cell.x + side); ++x) {
           ASSERT_LE(At(window, 0, {x, y}), bound);
         }
       }

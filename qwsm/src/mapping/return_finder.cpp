@@ -53,7 +53,7 @@ std::uint8_t SmallestDriftAround(const LikelihoodPyramid& map,
                                  const Eigen::Vector2d& p_map,
                                  double reach_m) {
   constexpr int kLevel = LikelihoodPyramid::kLevels - 1;
-  constexpr int kStride = 1 << kLevel;
+  constexpr int kStride = 1 << LikelihoodTile::DriftShiftOf(kLevel);
   const double cells = reach_m / (kStride * map.cell_size_m());
   const int reach = kStride * std::max(1, static_cast<int>(std::lround(cells)));
   std::uint8_t smallest = LikelihoodPyramid::kUnmapped;
@@ -74,10 +74,12 @@ KnownSurroundings SurroundingsOf(const LikelihoodPyramid& map,
                                  double reach_m,
                                  double max_drift_m2) {
   const std::uint8_t max_code = LikelihoodPyramid::DriftCode(max_drift_m2);
+  const Eigen::Matrix2d R_map_robot = T_map_robot.Rotation();
   KnownSurroundings known;
   int count = 0;
   for (const ScanPoint& point : points) {
-    const std::uint8_t code = SmallestDriftAround(map, T_map_robot * point.p_robot_m, reach_m);
+    const Eigen::Vector2d p_map = R_map_robot * point.p_robot_m + T_map_robot.translation_m();
+    const std::uint8_t code = SmallestDriftAround(map, p_map, reach_m);
     if (code > max_code) continue;
     ++count;
     known.mean_drift_m2 += LikelihoodPyramid::DriftOf(code);

@@ -17,15 +17,18 @@ namespace {
 
 constexpr int kFullLikelihood = std::numeric_limits<std::uint8_t>::max();
 constexpr int kCoarsestLevel = LikelihoodPyramid::kLevels - 1;
+constexpr int kFinestLevel = LikelihoodWindow::kBlockLevel;  // Of these all offsets are tried.
 constexpr double kFarthest_m = 100.0;  // Points beyond would make a search cost memory for nothing.
 
-// A square block of 2^level x 2^level cell offsets at one heading.
+int SideOf(int level) { return 1 << LikelihoodTile::ShiftOf(level); }
+
+// A square block of cell offsets at one heading, as wide as a cell of its level.
 struct Block {
   double bound = 0.0;
   int heading = 0;
   int x = 0;
   int y = 0;
-  int level = 0;
+  int level = kFinestLevel;
 
   bool operator<(const Block& other) const { return bound < other.bound; }
 };
@@ -126,19 +129,20 @@ class BeamEnds {
   std::vector<GridCell> cells_;  // One heading after the other.
 };
 
-// Offsets -reach .. reach in x and y, and the blocks the search of them begins with. Blocks begin
-// at multiples of their side.
+// Offsets -reach .. reach in x and y, and the blocks the search of them begins with.
 struct OffsetRange {
   explicit OffsetRange(int reach_cells) : reach(reach_cells) {
     while (level < kCoarsestLevel && side() < 2 * reach + 1) ++level;
   }
 
-  int side() const { return 1 << level; }
-  int first() const { return -reach & -side(); }
-  int last() const { return reach | (side() - 1); }
+  bool IsOneBlock() const { return level == kFinestLevel && side() > 2 * reach; }
+
+  int side() const { return SideOf(level); }
+  int first() const { return -reach; }
+  int last() const { return first() + (2 * reach / side() + 1) * side() - 1; }
 
   int reach;
-  int level = 0;
+  int level = kFinestLevel;
 };
 
 class BranchAndBound {
@@ -156,22 +160,23 @@ class BranchAndBound {
         floor_(window.min_score) {}
 
   std::optional<FoundPose> Run() {
-    Push({0.0, 0, 0, 0, 0});  // The prediction itself is often hard to beat.
-    for (int heading = -ends_.last_heading(); heading <= ends_.last_heading(); ++heading) {
-      for (int x = offsets_.first(); x <= offsets_.reach; x += offsets_.side()) {
-        for (int y = offsets_.first(); y <= offsets_.reach; y += offsets_.side()) {
-          Push({0.0, heading, x, y, offsets_.level});
-        }
-      }
+    // From the prediction to either side: it is often hard to beat.
+    for (int turn = 0; turn <= ends_.last_heading(); ++turn) {
+      PushAll(turn);
+      if (turn > 0) PushAll(-turn);
     }
     while (!queue_.empty()) {
       std::pop_heap(queue_.begin(), queue_.end());
       const Block best = queue_.back();
       queue_.pop_back();
-      if (best.level == 0) return FoundPose{PoseOf(best), best.bound};
-      PushChildren(best);
+      if (best.bound <= floor_) break;
+      if (best.level == kFinestLevel) {
+        TryAll(best);
+      } else {
+        PushChildren(best);
+      }
     }
-    return std::nullopt;
+    return best_;
   }
 
  private:
@@ -185,47 +190,78 @@ class BranchAndBound {
     while (!ends.empty()) {
       const auto next = ends.first(std::min(ends.size(), kStride));
       ends = ends.subspan(next.size());
-      sum += likelihoods_.Sum(block.level, next, {block.x, block.y});
+      sum += likelihoods_.Bound(block.level, next, {block.x, block.y});
       if (sum + kFullLikelihood * static_cast<int>(ends.size()) < needed_sum) break;
     }
     return sum / full;
   }
 
-  double Price(const Block& block) const {
+  double LeastPrice(const Block& block) const {
     const Eigen::Vector2d way_m = cell_m_ * Eigen::Vector2d(block.x, block.y);
-    const double turn_rad = ends_.TurnOf(block.heading);
-    if (block.level == 0) return prices_.Of({way_m.x(), way_m.y(), turn_rad});
-    return prices_.AtLeast(way_m, cell_m_ * ((1 << block.level) - 1), turn_rad);
+    return prices_.AtLeast(way_m, cell_m_ * (SideOf(block.level) - 1), ends_.TurnOf(block.heading));
+  }
+
+  // The blocks of a heading. A window of one block needs no bounds.
+  void PushAll(int heading) {
+    if (offsets_.IsOneBlock()) {
+      return TryAll({1.0, heading, offsets_.first(), offsets_.first(), kFinestLevel});
+    }
+    for (int x = offsets_.first(); x <= offsets_.reach; x += offsets_.side()) {
+      for (int y = offsets_.first(); y <= offsets_.reach; y += offsets_.side()) {
+        Push({0.0, heading, x, y, offsets_.level});
+      }
+    }
   }
 
   void Push(Block block) {
-    if (IsExcluded(block)) return;
-    const double price = Price(block);
-    if (1.0 - price < floor_) return;
+    const double price = LeastPrice(block);
+    if (1.0 - price <= floor_) return;
     block.bound = Score(block, floor_ + price) - price;
-    if (block.bound <= window_.min_score || block.bound < floor_) return;
-    if (block.level == 0) floor_ = block.bound;  // No worse pose will be the best.
+    if (block.bound <= floor_) return;
     queue_.push_back(block);
     std::push_heap(queue_.begin(), queue_.end());
   }
 
-  bool IsExcluded(const Block& block) const {
-    if (!window_.exclude || block.level > 0) return false;
-    const Eigen::Vector2d way_m = PoseOf(block).translation_m() - window_.exclude->translation_m();
-    return way_m.norm() <= window_.exclude_m;
-  }
-
   void PushChildren(const Block& block) {
     const int level = block.level - 1;
-    const int side = 1 << level;
-    const auto is_inside = [&](int first) {
-      return first <= offsets_.reach && first + side > -offsets_.reach;
-    };
-    for (const int x : {block.x, block.x + side}) {
-      for (const int y : {block.y, block.y + side}) {
-        if (is_inside(x) && is_inside(y)) Push({0.0, block.heading, x, y, level});
+    const int end_x = std::min(block.x + SideOf(block.level), offsets_.reach + 1);
+    const int end_y = std::min(block.y + SideOf(block.level), offsets_.reach + 1);
+    for (int x = block.x; x < end_x; x += SideOf(level)) {
+      for (int y = block.y; y < end_y; y += SideOf(level)) {
+        Push({0.0, block.heading, x, y, level});
       }
     }
+  }
+
+  // Tries every offset of a block.
+  void TryAll(const Block& block) {
+    if (1.0 - LeastPrice(block) <= floor_) return;
+    constexpr int kSide = LikelihoodWindow::kBlockSide;
+    const std::span<const GridCell> ends = ends_.At(block.heading);
+    const int rows = std::min(kSide, offsets_.reach - block.y + 1);
+    const int columns = std::min(kSide, offsets_.reach - block.x + 1);
+    const auto sums = likelihoods_.SumsOfBlock(ends, {block.x, block.y}, rows);
+    const double full = kFullLikelihood * static_cast<double>(ends.size());
+    for (int y = 0; y < rows; ++y) {
+      for (int x = 0; x < columns; ++x) {
+        const double likelihood = sums[static_cast<std::size_t>(y * kSide + x)] / full;
+        if (likelihood > floor_) Try(likelihood, {1.0, block.heading, block.x + x, block.y + y, 0});
+      }
+    }
+  }
+
+  void Try(double likelihood, const Block& pose) {
+    const double turn_rad = ends_.TurnOf(pose.heading);
+    const double score = likelihood - prices_.Of({cell_m_ * pose.x, cell_m_ * pose.y, turn_rad});
+    if (score <= floor_ || IsExcluded(pose)) return;
+    floor_ = score;  // No worse pose will be the best.
+    best_ = FoundPose{PoseOf(pose), score};
+  }
+
+  bool IsExcluded(const Block& pose) const {
+    if (!window_.exclude) return false;
+    const Eigen::Vector2d way_m = PoseOf(pose).translation_m() - window_.exclude->translation_m();
+    return way_m.norm() <= window_.exclude_m;
   }
 
   Pose2 PoseOf(const Block& block) const {
@@ -241,7 +277,8 @@ class BranchAndBound {
   BeamEnds ends_;
   LikelihoodWindow likelihoods_;
   PriceList prices_;
-  double floor_;              // The best single pose met so far.
+  double floor_;  // Score of the best pose met so far.
+  std::optional<FoundPose> best_;
   std::vector<Block> queue_;  // A heap, the highest bound first.
 };
 

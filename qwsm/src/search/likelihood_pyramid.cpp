@@ -15,10 +15,11 @@ constexpr std::uint8_t kOnPoint = 60;  // A cell counts as mapped by a point fro
 constexpr double kSmallestDrift_m2 = 1e-6;
 constexpr double kDriftStepsPerOctave = 5.0;
 
-int OffsetInTile(int level, int x, int y) {
-  const int column = (x & (Tile::kSide - 1)) >> level;
-  const int row = (y & (Tile::kSide - 1)) >> level;
-  return row * Tile::SideAt(level) + column;
+// Of the cell, 2^shift level-0 cells wide, that holds a level-0 cell.
+int OffsetInTile(int shift, int x, int y) {
+  const int column = (x & (Tile::kSide - 1)) >> shift;
+  const int row = (y & (Tile::kSide - 1)) >> shift;
+  return row * (Tile::kSide >> shift) + column;
 }
 
 }  // namespace
@@ -28,15 +29,15 @@ void LikelihoodPyramid::Insert(const Eigen::Vector2d& p_m, double drift_m2) {
   Fill(p_m.x(), columns_);
   Fill(p_m.y(), rows_);
   const std::uint8_t drift_code = DriftCode(drift_m2);
-  constexpr int kBits =
-      Tile::kBits - (kLevels - 1);  // Of the coarsest cells, which reach farthest.
+  // In bits, so many of the coarsest cells, which reach farthest, are in a tile.
+  constexpr int kBits = Tile::kBits - Tile::ShiftOf(kLevels - 1);
   const Profile& columns = columns_.back();
   const Profile& rows = rows_.back();
   for (int row = rows.first >> kBits; row <= rows.last() >> kBits; ++row) {
     for (int column = columns.first >> kBits; column <= columns.last() >> kBits; ++column) {
       Tile& tile = TileAt(column, row);
       for (int level = 0; level < kLevels; ++level) {
-        const int side = Tile::SideAt(level);
+        const int side = Tile::kSide >> Tile::ShiftOf(level);
         Raise(tile, level, {column * side, row * side}, drift_code);
       }
     }
@@ -54,17 +55,23 @@ void LikelihoodPyramid::Fill(double center_m, Profiles& profiles) const {
     const double sigmas = (options_.cell_size_m * (cell + 0.5) - center_m) / options_.sigma_m;
     finest.values.push_back(std::exp(-0.5 * sigmas * sigmas));
   }
-  for (std::size_t level = 1; level < profiles.size(); ++level) {
-    profiles[level].Coarsen(profiles[level - 1]);
+  for (int level = 1; level < kLevels; ++level) {
+    const auto i = static_cast<std::size_t>(level);
+    profiles[i].Coarsen(profiles[i - 1], Tile::ShiftOf(level) - Tile::ShiftOf(level - 1));
   }
 }
 
-// From the cells of a level to those of the next: c holds the maximum over 2c, 2c + 1 and 2c + 2.
-void LikelihoodPyramid::Profile::Coarsen(const Profile& fine) {
-  first = (fine.first - 1) >> 1;
+// From the cells of a level to those of the next, s = 2^shift times as wide: c holds the maximum
+// over s c .. s c + 2 (s - 1).
+void LikelihoodPyramid::Profile::Coarsen(const Profile& fine, int shift) {
+  const int wide = 1 << shift;
+  const int reach = 2 * (wide - 1);
+  first = (fine.first - (wide - 1)) >> shift;
   values.clear();
-  for (int c = first; c <= fine.last() >> 1; ++c) {
-    values.push_back(std::max({fine.At(2 * c), fine.At(2 * c + 1), fine.At(2 * c + 2)}));
+  for (int c = first; c <= fine.last() >> shift; ++c) {
+    const int from = std::max(fine.first, c << shift);
+    const int to = std::min(fine.last(), (c << shift) + reach);
+    values.push_back(*std::max_element(fine.At(from), fine.At(to) + 1));
   }
 }
 
@@ -74,45 +81,70 @@ void LikelihoodPyramid::Raise(Tile& tile,
                               int level,
                               GridCell first,
                               std::uint8_t drift_code) const {
-  const int side = Tile::SideAt(level);
+  const int side = Tile::kSide >> Tile::ShiftOf(level);
+  const int drift_shift = Tile::DriftShiftOf(level) - Tile::ShiftOf(level);
   const Profile& columns = columns_[static_cast<std::size_t>(level)];
   const Profile& rows = rows_[static_cast<std::size_t>(level)];
   const int last_x = std::min(first.x + side - 1, columns.last());
   const int last_y = std::min(first.y + side - 1, rows.last());
   for (int y = std::max(first.y, rows.first); y <= last_y; ++y) {
-    const double of_row = 255.0 * rows.At(y);
+    const double of_row = 255.0 * *rows.At(y);
     for (int x = std::max(first.x, columns.first); x <= last_x; ++x) {
-      const auto likelihood = static_cast<std::uint8_t>(
-          of_row * columns.values[static_cast<std::size_t>(x - columns.first)]);
-      const int cell = (y - first.y) * side + (x - first.x);
-      std::uint8_t& stored = tile.likelihoods(level)[cell];
+      const auto likelihood = static_cast<std::uint8_t>(of_row * *columns.At(x));
+      std::uint8_t& stored = tile.likelihoods(level)[(y - first.y) * side + (x - first.x)];
       stored = std::max(stored, likelihood);
-      if (level < Tile::kFirstDriftLevel || likelihood < kOnPoint) continue;
-      std::uint8_t& smallest = tile.drift_codes(level)[cell];
+      if (likelihood < kOnPoint) continue;
+      const int drift_row = ((y - first.y) >> drift_shift) * (side >> drift_shift);
+      std::uint8_t& smallest = tile.drift_codes(level)[drift_row + ((x - first.x) >> drift_shift)];
       smallest = std::min(smallest, drift_code);
     }
   }
 }
 
 LikelihoodTile& LikelihoodPyramid::TileAt(int column, int row) {
-  const auto [entry, is_new] = directory_.try_emplace(Key(column, row), tiles_.next());
-  if (is_new) tiles_.Add({});
-  return tiles_[entry->second];
+  std::uint32_t& tile = directory_[Key(column, row)].At(column, row);
+  if (tile == Block::kNone) tile = tiles_.Add({});
+  return tiles_[tile];
 }
 
-const LikelihoodTile* LikelihoodPyramid::FindTile(int column, int row) const {
+const LikelihoodTile& LikelihoodPyramid::FindTile(int column, int row) const {
   const auto entry = directory_.find(Key(column, row));
-  return entry == directory_.end() ? nullptr : &tiles_[entry->second];
+  return TileOf(entry == directory_.end() ? nullptr : &entry->second, column, row);
+}
+
+// @param block that of the tile, if there is one.
+const LikelihoodTile& LikelihoodPyramid::TileOf(const Block* block, int column, int row) const {
+  static const Tile kEmpty;
+  const std::uint32_t tile = block == nullptr ? Block::kNone : block->At(column, row);
+  return tile == Block::kNone ? kEmpty : tiles_[tile];
+}
+
+std::vector<const LikelihoodTile*> LikelihoodPyramid::FindTiles(GridCell first,
+                                                                GridCell count) const {
+  std::vector<const Tile*> tiles;
+  tiles.reserve(static_cast<std::size_t>(count.x * count.y));
+  for (int row = first.y; row < first.y + count.y; ++row) {
+    const Block* block = nullptr;
+    for (int column = first.x; column < first.x + count.x; ++column) {
+      const bool is_first_of_block = column == first.x || column % Block::kSide == 0;
+      if (is_first_of_block) {
+        const auto entry = directory_.find(Key(column, row));
+        block = entry == directory_.end() ? nullptr : &entry->second;
+      }
+      tiles.push_back(&TileOf(block, column, row));
+    }
+  }
+  return tiles;
 }
 
 std::uint8_t LikelihoodPyramid::LikelihoodAt(int level, int x, int y) const {
-  const Tile* tile = FindTile(x >> Tile::kBits, y >> Tile::kBits);
-  return tile == nullptr ? 0 : tile->likelihoods(level)[OffsetInTile(level, x, y)];
+  return FindTile(x >> Tile::kBits, y >> Tile::kBits)
+      .likelihoods(level)[OffsetInTile(Tile::ShiftOf(level), x, y)];
 }
 
 std::uint8_t LikelihoodPyramid::DriftCodeAt(int level, int x, int y) const {
-  const Tile* tile = FindTile(x >> Tile::kBits, y >> Tile::kBits);
-  return tile == nullptr ? kUnmapped : tile->drift_codes(level)[OffsetInTile(level, x, y)];
+  return FindTile(x >> Tile::kBits, y >> Tile::kBits)
+      .drift_codes(level)[OffsetInTile(Tile::DriftShiftOf(level), x, y)];
 }
 
 std::uint8_t LikelihoodPyramid::DriftCode(double drift_m2) {

@@ -16,44 +16,60 @@ LikelihoodWindow::LikelihoodWindow(const LikelihoodPyramid& pyramid,
                                    GridCell high,
                                    std::uint8_t max_drift_code)
     : first_tile_{low.x >> Tile::kBits, low.y >> Tile::kBits},
-      tiles_{(high.x >> Tile::kBits) - first_tile_.x + 1,
-             (high.y >> Tile::kBits) - first_tile_.y + 1} {
-  for (int level = 0; level < LikelihoodPyramid::kLevels; ++level) {
-    planes_.emplace_back(Tile::SideAt(level), tiles_);
+      size_{(high.x >> Tile::kBits) - first_tile_.x + 1,
+            (high.y >> Tile::kBits) - first_tile_.y + 1},
+      tiles_(pyramid.FindTiles(first_tile_, size_)) {
+  for (int level = 0; level < Tile::kLevels; ++level) {
+    planes_.emplace_back(Tile::kSide >> Tile::ShiftOf(level), size_);
+    ForEachTile(
+        [&](const Tile& tile, GridCell at) { planes_.back().Place(tile.likelihoods(level), at); });
   }
-  ForEachTile(pyramid, [&](const Tile* tile, GridCell at) {
-    for (int level = 0; level < LikelihoodPyramid::kLevels; ++level) {
-      planes_[static_cast<std::size_t>(level)].Place(
-          tile == nullptr ? nullptr : tile->likelihoods(level), 0, at);
+  if (max_drift_code != LikelihoodPyramid::kUnmapped) ForgetDrifted(max_drift_code);
+}
+
+LikelihoodWindow::BlockSums LikelihoodWindow::SumsOfBlock(std::span<const GridCell> cells,
+                                                          GridCell offset,
+                                                          int rows) const {
+  constexpr std::size_t kAtATime = 256;  // So many likelihoods fit a sum of 16 bits.
+  const Plane& plane = planes_.front();
+  const int x = offset.x - first_tile_.x * Tile::kSide;
+  const int y = offset.y - first_tile_.y * Tile::kSide;
+  BlockSums sums{};
+  while (!cells.empty()) {
+    const auto next = cells.first(std::min(cells.size(), kAtATime));
+    cells = cells.subspan(next.size());
+    std::array<std::uint16_t, std::tuple_size_v<BlockSums>> of_next{};
+    for (const GridCell& cell : next) {
+      const std::uint8_t* from = plane.RowAt(cell.x + x, cell.y + y);
+      for (int row = 0; row < rows; ++row, from += plane.width) {
+        std::uint16_t* const to = &of_next[static_cast<std::size_t>(row * kBlockSide)];
+        for (int column = 0; column < kBlockSide; ++column) to[column] += from[column];
+      }
     }
-  });
-  if (max_drift_code != LikelihoodPyramid::kUnmapped) ForgetDrifted(pyramid, max_drift_code);
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += of_next[i];
+  }
+  return sums;
 }
 
 template <class Visit>
-void LikelihoodWindow::ForEachTile(const LikelihoodPyramid& pyramid, Visit visit) const {
-  for (int row = 0; row < tiles_.y; ++row) {
-    for (int column = 0; column < tiles_.x; ++column) {
-      visit(pyramid.FindTile(first_tile_.x + column, first_tile_.y + row), GridCell{column, row});
-    }
+void LikelihoodWindow::ForEachTile(Visit visit) const {
+  auto tile = tiles_.begin();
+  for (int row = 0; row < size_.y; ++row) {
+    for (int column = 0; column < size_.x; ++column, ++tile) visit(**tile, GridCell{column, row});
   }
 }
 
 // Sets the likelihood of cells to 0 that no surface with little drift is in.
-void LikelihoodWindow::ForgetDrifted(const LikelihoodPyramid& pyramid,
-                                     std::uint8_t max_drift_code) {
-  for (int level = 0; level < LikelihoodPyramid::kLevels; ++level) {
-    const int drift_level = std::max(level, Tile::kFirstDriftLevel);
-    Plane drift(Tile::SideAt(drift_level), tiles_);
-    ForEachTile(pyramid, [&](const Tile* tile, GridCell at) {
-      drift.Place(tile == nullptr ? nullptr : tile->drift_codes(drift_level),
-                  LikelihoodPyramid::kUnmapped,
-                  at);
-    });
+void LikelihoodWindow::ForgetDrifted(std::uint8_t max_drift_code) {
+  for (int level = 0; level < Tile::kLevels; ++level) {
+    const int shift = Tile::ShiftOf(level);
+    const int drift_shift = Tile::DriftShiftOf(level);
+    Plane drift(Tile::kSide >> drift_shift, size_);
+    ForEachTile([&](const Tile& tile, GridCell at) { drift.Place(tile.drift_codes(level), at); });
     // Drift cells that hold the level-0 cells a cell is the maximum over.
-    const auto first_of = [&](int cell) { return (cell << level) >> drift_level; };
+    const auto first_of = [&](int cell) { return (cell << shift) >> drift_shift; };
     const auto last_of = [&](int cell) {
-      return ((cell << level) + (2 << level) - 2) >> drift_level;
+      return ((cell << shift) + (2 << shift) - 2) >> drift_shift;
     };
     Plane& plane = planes_[static_cast<std::size_t>(level)];
     for (int y = 0; y < plane.height; ++y) {
@@ -67,15 +83,10 @@ void LikelihoodWindow::ForgetDrifted(const LikelihoodPyramid& pyramid,
   }
 }
 
-// Puts the rows of a tile in their place, or one value where there is no tile.
-void LikelihoodWindow::Plane::Place(const std::uint8_t* tile, std::uint8_t otherwise, GridCell at) {
+// Puts the rows of a tile in their place.
+void LikelihoodWindow::Plane::Place(const std::uint8_t* tile, GridCell at) {
   for (int y = 0; y < side; ++y) {
-    std::uint8_t* const row = &At(at.x * side, at.y * side + y);
-    if (tile != nullptr) {
-      std::copy_n(tile + y * side, side, row);
-    } else {
-      std::fill_n(row, side, otherwise);
-    }
+    std::copy_n(tile + y * side, side, &At(at.x * side, at.y * side + y));
   }
 }
 

@@ -35,10 +35,11 @@ void Describe(Visitor& visit, LikelihoodPyramidOptions& o) {
 /// How likely a beam ends in each cell, at the levels a coarse-to-fine search visits.
 ///
 /// Level 0 holds the maximum over the stored points of exp(-d^2 / 2 sigma^2), scaled to 0..255. A
-/// cell c of level l holds the maximum over the level-0 cells c 2^l .. c 2^l + 2^(l+1) - 2 in each
-/// axis: an upper bound for a beam that ends anywhere in c and is then moved by 0 .. 2^l - 1 cells
-/// (Olson 2009; Hess et al. 2016). The coarser levels hold the smallest drift of the points in the
-/// same cells as well, so that a search can be restricted to what was mapped with little drift.
+/// cell c of a coarser level, s level-0 cells wide, holds the maximum over the level-0 cells
+/// c s .. c s + 2 (s - 1) in each axis: an upper bound for a beam that ends anywhere in c and is
+/// then moved by 0 .. s - 1 cells (Olson 2009; Hess et al. 2016). The smallest drift of the points
+/// in the same cells is held as well, so that a search can be restricted to what was mapped with
+/// little drift.
 ///
 /// Stored in square tiles that exist only where points are. Searches read a LikelihoodWindow.
 class LikelihoodPyramid {
@@ -50,24 +51,25 @@ class LikelihoodPyramid {
   explicit LikelihoodPyramid(const LikelihoodPyramidOptions& options = {}) : options_(options) {}
 
   double cell_size_m() const { return options_.cell_size_m; }
-  /// Raises the cells around a point. @pre |coordinate| < 2^31 cells
+  /// Raises the cells around a point. @pre |coordinate| < 2^30 cells
   void Insert(const Eigen::Vector2d& p_m, double drift_m2);
   /// Forgets everything.
   void Clear() { *this = LikelihoodPyramid(options_); }
 
   /// Index of the level-0 cell that holds a coordinate.
   int CellIndex(double coordinate_m) const {
-    const double cells = coordinate_m / options_.cell_size_m;
-    const int truncated = static_cast<int>(cells);  // std::floor() is a call on plain x86-64.
-    return truncated - static_cast<int>(cells < truncated);
+    constexpr int kShift = 1 << 30;  // What is positive is truncated downwards.
+    return static_cast<int>(coordinate_m / options_.cell_size_m + kShift) - kShift;
   }
   /// The cell of `level` around the level-0 cell (x, y); 0 where nothing is stored.
   std::uint8_t LikelihoodAt(int level, int x, int y) const;
-  /// The same; kUnmapped where nothing is stored. @pre level >= Tile::kFirstDriftLevel
+  /// The same of the drift; kUnmapped where nothing is stored.
   std::uint8_t DriftCodeAt(int level, int x, int y) const;
   /// The tile of the level-0 cells column * kSide .. column * kSide + kSide - 1, and so for rows;
-  /// null where nothing is stored. Valid until the next insertion.
-  const Tile* FindTile(int column, int row) const;
+  /// an empty one where nothing is stored. Valid until the next insertion.
+  const Tile& FindTile(int column, int row) const;
+  /// The same for the tiles of so many columns and rows from one on, row by row.
+  std::vector<const Tile*> FindTiles(GridCell first, GridCell count) const;
 
   /// Drift variance on a logarithmic scale of 8 bits: monotone, a fifth of an octave per step.
   static std::uint8_t DriftCode(double drift_m2);
@@ -82,23 +84,43 @@ class LikelihoodPyramid {
     std::vector<double> values;
 
     int last() const { return first + static_cast<int>(values.size()) - 1; }
-    double At(int cell) const {
-      return cell < first || cell > last() ? 0.0 : values[static_cast<std::size_t>(cell - first)];
-    }
-    void Coarsen(const Profile& fine);
+    // @pre first <= cell <= last()
+    const double* At(int cell) const { return &values[static_cast<std::size_t>(cell - first)]; }
+    void Coarsen(const Profile& fine, int shift);
   };
   using Profiles = std::array<Profile, Tile::kLevels>;  // By level.
 
+  // Where the tiles of a square of kSide x kSide tiles are.
+  class Block {
+   public:
+    static constexpr int kBits = 4;
+    static constexpr int kSide = 1 << kBits;
+    static constexpr std::uint32_t kNone = ~0U;
+
+    Block() { tiles_.fill(kNone); }
+    std::uint32_t& At(int column, int row) { return tiles_[Index(column, row)]; }
+    std::uint32_t At(int column, int row) const { return tiles_[Index(column, row)]; }
+
+   private:
+    static std::size_t Index(int column, int row) {
+      return static_cast<std::size_t>((row & (kSide - 1)) * kSide + (column & (kSide - 1)));
+    }
+
+    std::array<std::uint32_t, std::size_t{kSide} * kSide> tiles_;
+  };
+
+  // Of the block that holds a tile.
   static std::uint64_t Key(int column, int row) {
-    return std::uint64_t{static_cast<std::uint32_t>(column)} << 32 |
-           static_cast<std::uint32_t>(row);
+    return std::uint64_t{static_cast<std::uint32_t>(column >> Block::kBits)} << 32 |
+           static_cast<std::uint32_t>(row >> Block::kBits);
   }
   void Fill(double center_m, Profiles& profiles) const;
   Tile& TileAt(int column, int row);
+  const Tile& TileOf(const Block* block, int column, int row) const;
   void Raise(Tile& tile, int level, GridCell first, std::uint8_t drift_code) const;
 
   LikelihoodPyramidOptions options_;
-  std::unordered_map<std::uint64_t, std::uint32_t> directory_;  // Tiles by Key().
+  std::unordered_map<std::uint64_t, Block> directory_;  // By Key().
   PagedPool<Tile, 4> tiles_;
   Profiles columns_;  // Of the point being inserted; kept for their memory.
   Profiles rows_;

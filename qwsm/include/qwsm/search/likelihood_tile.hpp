@@ -18,37 +18,35 @@ struct GridCell {
 /// A square of a LikelihoodPyramid: its cells at every level.
 class LikelihoodTile {
  public:
-  static constexpr int kLevels = 5;
-  static constexpr int kFirstDriftLevel = 1;  ///< Drift need not be known more finely.
+  static constexpr int kLevels = 3;
   static constexpr std::uint8_t kUnmapped = std::numeric_limits<std::uint8_t>::max();
   static constexpr int kBits = 5;
   static constexpr int kSide = 1 << kBits;  ///< In cells of level 0.
-  static constexpr int SideAt(int level) { return kSide >> level; }
+  /// A cell of a level is 2^ShiftOf(level) cells of level 0 wide.
+  static constexpr int ShiftOf(int level) { return level == 0 ? 0 : level + 2; }
+  /// The same for drift, which need not be known as finely.
+  static constexpr int DriftShiftOf(int level) { return level == 0 ? 1 : level + 2; }
 
   LikelihoodTile() { drift_codes_.fill(kUnmapped); }
 
-  /// Cells of a level, SideAt(level) to a row, one row after the other. Empty ones hold 0.
-  const std::uint8_t* likelihoods(int level) const { return &likelihoods_[CellsBelow(level)]; }
-  std::uint8_t* likelihoods(int level) { return &likelihoods_[CellsBelow(level)]; }
-  /// The same of drift codes. Empty ones hold kUnmapped. @pre level >= kFirstDriftLevel
-  const std::uint8_t* drift_codes(int level) const {
-    return &drift_codes_[CellsBelow(level) - kCellsWithoutDrift];
-  }
-  std::uint8_t* drift_codes(int level) {
-    return &drift_codes_[CellsBelow(level) - kCellsWithoutDrift];
-  }
+  /// Cells of a level, one row after the other. Empty ones hold 0.
+  const std::uint8_t* likelihoods(int level) const { return &likelihoods_[FirstOf(level)]; }
+  std::uint8_t* likelihoods(int level) { return &likelihoods_[FirstOf(level)]; }
+  /// The same of drift codes. Empty ones hold kUnmapped.
+  const std::uint8_t* drift_codes(int level) const { return &drift_codes_[FirstDriftOf(level)]; }
+  std::uint8_t* drift_codes(int level) { return &drift_codes_[FirstDriftOf(level)]; }
 
  private:
-  static constexpr std::size_t kCellsWithoutDrift = 1024;
-  static constexpr std::size_t kCells = 1024 + 256 + 64 + 16 + 4;
-  // Cells of the levels finer than this one: each level has a quarter of the one before.
-  static constexpr std::size_t CellsBelow(int level) {
-    constexpr std::size_t kFinest = std::size_t{kSide} * kSide;
-    return (4 * kFinest - (4 * kFinest >> (2 * level))) / 3;
+  // Of each level, and of all.
+  static constexpr std::array<std::size_t, kLevels + 1> kFirst = {0, 1024, 1040, 1044};
+  static constexpr std::array<std::size_t, kLevels + 1> kFirstDrift = {0, 256, 272, 276};
+  static std::size_t FirstOf(int level) { return kFirst[static_cast<std::size_t>(level)]; }
+  static std::size_t FirstDriftOf(int level) {
+    return kFirstDrift[static_cast<std::size_t>(level)];
   }
 
-  std::array<std::uint8_t, kCells> likelihoods_{};
-  std::array<std::uint8_t, kCells - kCellsWithoutDrift> drift_codes_;
+  std::array<std::uint8_t, kFirst.back()> likelihoods_{};
+  std::array<std::uint8_t, kFirstDrift.back()> drift_codes_;
 };
 
 }  // namespace qwsm

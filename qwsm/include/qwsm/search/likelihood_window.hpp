@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -23,18 +24,29 @@ class LikelihoodWindow {
                    GridCell high,
                    std::uint8_t max_drift_code);
 
-  /// Sum of the likelihoods of cells that are moved by an offset, at a level.
-  /// @pre the offset is a multiple of 2^level; the moved cells are in the window.
-  int Sum(int level, std::span<const GridCell> cells, GridCell offset) const {
+  /// Of blocks of this level all offsets are summed at once.
+  static constexpr int kBlockLevel = 1;
+  static constexpr int kBlockSide = 1 << LikelihoodTile::ShiftOf(kBlockLevel);
+  using BlockSums = std::array<int, std::size_t{kBlockSide} * kBlockSide>;
+
+  /// Upper bound of the sums of the likelihoods of cells moved by any offset of a block that begins
+  /// at one and is as wide as a cell of the level. @pre the moved cells are in the window, here and
+  /// below
+  int Bound(int level, std::span<const GridCell> cells, GridCell offset) const {
     const Plane& plane = planes_[static_cast<std::size_t>(level)];
+    const int shift = LikelihoodTile::ShiftOf(level);
     const int x = offset.x - first_tile_.x * LikelihoodTile::kSide;
     const int y = offset.y - first_tile_.y * LikelihoodTile::kSide;
     int sum = 0;
     for (const GridCell& cell : cells) {
-      sum += plane.At((cell.x + x) >> level, (cell.y + y) >> level);
+      sum += plane.At((cell.x + x) >> shift, (cell.y + y) >> shift);
     }
     return sum;
   }
+
+  /// Sums of the likelihoods of cells moved by each offset of a block that begins at one, row by
+  /// row. @param rows so many of the block's rows are wanted.
+  BlockSums SumsOfBlock(std::span<const GridCell> cells, GridCell offset, int rows) const;
 
  private:
   // All cells of one level, row after row.
@@ -47,9 +59,12 @@ class LikelihoodWindow {
           cells(std::make_unique_for_overwrite<std::uint8_t[]>(static_cast<std::size_t>(width) *
                                                                static_cast<std::size_t>(height))) {}
 
+    const std::uint8_t* RowAt(int x, int y) const {
+      return &cells[static_cast<std::size_t>(y * width + x)];
+    }
     std::uint8_t At(int x, int y) const { return cells[static_cast<std::size_t>(y * width + x)]; }
     std::uint8_t& At(int x, int y) { return cells[static_cast<std::size_t>(y * width + x)]; }
-    void Place(const std::uint8_t* tile, std::uint8_t otherwise, GridCell at);
+    void Place(const std::uint8_t* tile, GridCell at);
     std::uint8_t Smallest(GridCell low, GridCell high) const;
 
     int side;  // Of a tile.
@@ -59,12 +74,13 @@ class LikelihoodWindow {
   };
 
   template <class Visit>
-  void ForEachTile(const LikelihoodPyramid& pyramid, Visit visit) const;
-  void ForgetDrifted(const LikelihoodPyramid& pyramid, std::uint8_t max_drift_code);
+  void ForEachTile(Visit visit) const;
+  void ForgetDrifted(std::uint8_t max_drift_code);
 
-  GridCell first_tile_;        // Column and row,
-  GridCell tiles_;             // and how many columns and rows.
-  std::vector<Plane> planes_;  // By level.
+  GridCell first_tile_;                       // Column and row,
+  GridCell size_;                             // and how many columns and rows.
+  std::vector<const LikelihoodTile*> tiles_;  // Row after row.
+  std::vector<Plane> planes_;                 // By level.
 };
 
 }  // namespace qwsm
