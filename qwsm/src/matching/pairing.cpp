@@ -17,13 +17,6 @@ constexpr double kSmallestDoubt_rad = 0.0002;  // the same ten metres away.
 constexpr double kInlierSigmas = 3.0;
 constexpr double kFirstCircle_m = 0.1;  // Beyond a point that cannot be paired: the next surface.
 
-// Derivative of R u + t by (x, y, theta), [ I | J R u ], for arm = R u.
-Eigen::Matrix<double, 2, 3> DerivativeByPose(const Eigen::Vector2d& arm) {
-  Eigen::Matrix<double, 2, 3> H;
-  H << 1.0, 0.0, -arm.y(), 0.0, 1.0, arm.x();
-  return H;
-}
-
 // Geman-McClure: falls from 1 to a quarter at the outlier limit, and on towards 0.
 double RobustWeight(double mahalanobis2, double outlier_sigmas) {
   const double w = 1.0 / (1.0 + mahalanobis2 / (outlier_sigmas * outlier_sigmas));
@@ -44,13 +37,28 @@ void Doubt::Shrink(double factor) {
   if (sigma.rotation_rad < kSmallestDoubt_rad) sigma.rotation_rad = 0.0;
 }
 
-void NormalEquations::Add(const Eigen::Matrix2d& weight,
-                          const Eigen::Vector2d& error,
-                          const Eigen::Vector2d& arm) {
-  const Eigen::Matrix<double, 2, 3> H = DerivativeByPose(arm);
-  const Eigen::Matrix<double, 3, 2> HtW = H.transpose() * weight;
-  A.noalias() += HtW * H;
-  b.noalias() += HtW * error;
+void NormalEquations::AddPoint(const Eigen::Matrix2d& information,
+                               const Eigen::Vector2d& error,
+                               const Eigen::Vector2d& arm) {
+  // By H = [ I | J R u ], the derivative of R u + t by (x, y, theta).
+  const Eigen::Vector2d by_theta(-arm.y(), arm.x());
+  const Eigen::Vector2d cross = information * by_theta;
+  A.topLeftCorner<2, 2>() += information;
+  A.topRightCorner<2, 1>() += cross;
+  A.bottomLeftCorner<1, 2>() += cross.transpose();
+  A(2, 2) += by_theta.dot(cross);
+  b.head<2>() += information * error;
+  b(2) += cross.dot(error);
+}
+
+void NormalEquations::AddLine(double information,
+                              const Eigen::Vector2d& normal,
+                              double error_m,
+                              const Eigen::Vector2d& arm) {
+  const Eigen::Vector3d h(normal.x(), normal.y(), arm.x() * normal.y() - arm.y() * normal.x());
+  const Eigen::Vector3d weighted = information * h;
+  A.noalias() += weighted * h.transpose();
+  b += weighted * error_m;
 }
 
 Pairing::Pairing(const SurfaceMap& map,
@@ -64,53 +72,112 @@ Pairing::Pairing(const SurfaceMap& map,
       pairs_(points.size()) {}
 
 NormalEquations Pairing::Linearize(const Pose2& T_map_cur, const Doubt& doubt) {
+  FindNearest(T_map_cur, doubt);
   NormalEquations equations;
   const Eigen::Matrix2d R = T_map_cur.Rotation();
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const ScanPoint& point = points_[i];
-    const Eigen::Vector2d arm = R * point.p_robot_m;
-    const Eigen::Vector2d p_map = arm + T_map_cur.translation_m();
-    const double doubt_m2 = doubt.At_m2(point.range_m);
     Pair& pair = pairs_[i];
-    // The neighbouring beam ended near here.
-    if (i > 0 && pair.cursor.revision == 0) pair.cursor = pairs_[i - 1].cursor;
-    const Query query{
-        .p_map = p_map, .normal_map = R * point.normal_robot, .reach_m = Reach(doubt_m2)};
-    if (!FindPair(query, pair)) continue;
+    if (!IsPaired(R * point.normal_robot, pair)) continue;
     ++equations.pairs;
-    equations.sum_of_distances_m += std::sqrt(pair.distance_m2);
+    equations.sum_of_distances_m += std::sqrt(pair.nearest->distance_m2);
     if (options_.weighting == PairWeighting::kIdentity) {
-      equations.Add(Eigen::Matrix2d::Identity(), pair.nearest_m - p_map, arm);
+      equations.AddPoint(
+          Eigen::Matrix2d::Identity(), pair.nearest->position_m - pair.p_map, pair.arm);
       ++equations.inliers;
-      continue;
+    } else if (pair.surface.is_line) {
+      AddLine(R, point, pair, equations);
+    } else {
+      AddObject(R, point, pair, equations);
     }
-    const Eigen::Vector2d error = pair.surface.mean_m - p_map;
-    const Eigen::Matrix2d information =
-        PairInformation(pair.surface, NoiseInMap(R, point), Extent_m2(point), doubt_m2);
-    const double mahalanobis2 = error.dot(information * error);
-    if (mahalanobis2 < kInlierSigmas * kInlierSigmas) ++equations.inliers;
-    pair.weight = RobustWeight(mahalanobis2, options_.outlier_sigmas);
-    equations.sum_of_weights += pair.weight;
-    equations.sum_of_misfits += pair.weight * mahalanobis2;
-    // Where a surface curves, a mean lies behind the points: means are compared with means.
-    const bool is_mean = pair.surface.is_line && !pair.surface.is_sample;
-    const Eigen::Vector2d of_means = error - (is_mean ? 1.0 : 0.0) * (R * point.to_mean_robot_m);
-    equations.Add(pair.weight * information, of_means, arm);
   }
   return equations;
 }
 
+// Where all points lie in the map, and what lies nearest to them there. One loop for all, and what
+// it finds is fetched meanwhile: the searches wait for memory more than they compute.
+void Pairing::FindNearest(const Pose2& T_map_cur, const Doubt& doubt) {
+  const PointQuadtree& quadtree = map_.quadtree();
+  const Eigen::Matrix2d R = T_map_cur.Rotation();
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    Pair& pair = pairs_[i];
+    pair.arm = R * points_[i].p_robot_m;
+    pair.p_map = pair.arm + T_map_cur.translation_m();
+    pair.doubt_m2 = doubt.At_m2(points_[i].range_m);
+    if (pair.cursor.revision == 0) pair.cursor = quadtree.CursorAt(pair.p_map);
+  }
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    Pair& pair = pairs_[i];
+    // The neighbouring beam ended near here.
+    if (i > 0 && pair.cursor.leaf == quadtree::kNoIndex) pair.cursor = pairs_[i - 1].cursor;
+    pair.nearest = quadtree.Nearest(pair.p_map, Reach(pair.doubt_m2), pair.cursor);
+    if (pair.nearest) map_.Prefetch(pair.nearest->id);
+  }
+}
+
+// Whether there is a surface to pair a point with, which then is known.
+bool Pairing::IsPaired(const Eigen::Vector2d& normal_map, Pair& pair) const {
+  if (pair.nearest && pair.nearest->id == pair.id) return true;
+  if (pair.nearest && !MayPair(pair.nearest->id, normal_map)) {
+    pair.nearest = NearestThatMayPair(normal_map, pair);
+  }
+  if (!pair.nearest) {
+    pair.id.reset();
+    return false;
+  }
+  if (pair.id != pair.nearest->id) pair.surface = map_.SurfaceAt(pair.nearest->id);
+  pair.id = pair.nearest->id;
+  return true;
+}
+
+void Pairing::AddLine(const Eigen::Matrix2d& R_map_cur,
+                      const ScanPoint& point,
+                      Pair& pair,
+                      NormalEquations& equations) const {
+  const Surface& surface = pair.surface;
+  const Eigen::Vector2d& normal = surface.normal;
+  const double noise_m2 =
+      NoiseAlong(normal, R_map_cur * point.beam_robot, point.range_m, options_.noise);
+  const double variance_m2 = DistanceVariance(surface, noise_m2, pair.doubt_m2);
+  const double error_m = normal.dot(surface.mean_m - pair.p_map);
+  Weigh(error_m * error_m / variance_m2, pair, equations);
+  // Where a surface curves, a mean lies behind the points: means are compared with means.
+  const double to_mean_m = surface.is_sample ? 0.0 : normal.dot(R_map_cur * point.to_mean_robot_m);
+  equations.AddLine(pair.weight / variance_m2, normal, error_m - to_mean_m, pair.arm);
+}
+
+void Pairing::AddObject(const Eigen::Matrix2d& R_map_cur,
+                        const ScanPoint& point,
+                        Pair& pair,
+                        NormalEquations& equations) const {
+  // A beam hits it anywhere.
+  const double extent_m2 =
+      options_.small_object_m * options_.small_object_m + UniformVariance(point.spacing_m);
+  const Eigen::Matrix2d information =
+      PositionInformation(pair.surface, NoiseInMap(R_map_cur, point), extent_m2 + pair.doubt_m2);
+  const Eigen::Vector2d error = pair.surface.mean_m - pair.p_map;
+  Weigh(error.dot(information * error), pair, equations);
+  equations.AddPoint(pair.weight * information, error, pair.arm);
+}
+
+void Pairing::Weigh(double mahalanobis2, Pair& pair, NormalEquations& equations) const {
+  pair.weight = RobustWeight(mahalanobis2, options_.outlier_sigmas);
+  if (mahalanobis2 < kInlierSigmas * kInlierSigmas) ++equations.inliers;
+  equations.sum_of_weights += pair.weight;
+  equations.sum_of_misfits += pair.weight * mahalanobis2;
+}
+
 Eigen::Matrix3d Pairing::NearestSampleInformation(const Pose2& T_map_cur) const {
-  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  NormalEquations equations;
   const Eigen::Matrix2d R = T_map_cur.Rotation();
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const Pair& pair = pairs_[i];
     if (!pair.id) continue;
-    const auto H = DerivativeByPose(R * points_[i].p_robot_m);
     const Eigen::Matrix2d S = NearestSampleError(pair.surface, NoiseInMap(R, points_[i]));
-    A += pair.weight * H.transpose() * S.inverse() * H;
+    equations.AddPoint(
+        pair.weight * S.inverse(), Eigen::Vector2d::Zero(), R * points_[i].p_robot_m);
   }
-  return A;
+  return equations.A;
 }
 
 double Pairing::Reach(double doubt_m2) const {
@@ -122,49 +189,31 @@ Eigen::Matrix2d Pairing::NoiseInMap(const Eigen::Matrix2d& R_map_cur,
   return PointCovariance(R_map_cur * point.beam_robot, point.range_m, options_.noise);
 }
 
-// Of what is no line: a beam hits it anywhere.
-double Pairing::Extent_m2(const ScanPoint& point) const {
-  return options_.small_object_m * options_.small_object_m + UniformVariance(point.spacing_m);
+bool Pairing::MayPair(PointId id, const Eigen::Vector2d& normal_map) const {
+  return map_.Drift_m2(id) <= max_drift_m2_ && !map_.IsOnOtherSide(id, normal_map);
 }
 
-bool Pairing::FindPair(const Query& query, Pair& pair) const {
-  const std::optional<Neighbor> nearest = NearestThatMayPair(query, pair.cursor);
-  if (!nearest) {
-    pair.id.reset();
-    return false;
-  }
-  if (pair.id != nearest->id) pair.surface = map_.SurfaceAt(nearest->id);
-  pair.id = nearest->id;
-  pair.distance_m2 = nearest->distance_m2;
-  pair.nearest_m = nearest->position_m;
-  return true;
-}
-
-bool Pairing::MayPair(const Query& query, PointId id) const {
-  return map_.Drift_m2(id) <= max_drift_m2_ && !map_.IsOnOtherSide(id, query.normal_map);
-}
-
-std::optional<Neighbor> Pairing::NearestThatMayPair(const Query& query,
-                                                    SearchCursor& cursor) const {
-  const auto nearest = map_.quadtree().Nearest(query.p_map, query.reach_m, cursor);
-  if (!nearest || MayPair(query, nearest->id)) return nearest;
-  // Seldom: look around in widening circles.
-  double radius_m = std::min(query.reach_m, std::sqrt(nearest->distance_m2) + kFirstCircle_m);
+// Seldom: looks around in widening circles. @pre the nearest one of all may not pair
+std::optional<Neighbor> Pairing::NearestThatMayPair(const Eigen::Vector2d& normal_map,
+                                                    const Pair& pair) const {
+  const double reach_m = Reach(pair.doubt_m2);
+  double radius_m = std::min(reach_m, std::sqrt(pair.nearest->distance_m2) + kFirstCircle_m);
   while (true) {
-    const std::optional<Neighbor> found = NearestThatMayPairWithin(radius_m, query);
-    if (found || radius_m >= query.reach_m) return found;
-    radius_m = std::min(2.0 * radius_m, query.reach_m);
+    const auto found = NearestThatMayPairWithin(radius_m, normal_map, pair.p_map);
+    if (found || radius_m >= reach_m) return found;
+    radius_m = std::min(2.0 * radius_m, reach_m);
   }
 }
 
 std::optional<Neighbor> Pairing::NearestThatMayPairWithin(double radius_m,
-                                                          const Query& query) const {
+                                                          const Eigen::Vector2d& normal_map,
+                                                          const Eigen::Vector2d& p_map) const {
   std::optional<Neighbor> nearest;
   map_.quadtree().ForEachInRadius(
-      query.p_map, radius_m, [&](PointId id, const Eigen::Vector2d& position_m) {
-        const double distance_m2 = (position_m - query.p_map).squaredNorm();
+      p_map, radius_m, [&](PointId id, const Eigen::Vector2d& position_m) {
+        const double distance_m2 = (position_m - p_map).squaredNorm();
         if (nearest && nearest->distance_m2 <= distance_m2) return;
-        if (MayPair(query, id)) {
+        if (MayPair(id, normal_map)) {
           nearest = {.id = id, .distance_m2 = distance_m2, .position_m = position_m};
         }
       });

@@ -35,7 +35,16 @@ struct NormalEquations {
   double sum_of_misfits = 0.0;  // Squared, weighted, in units of the modelled errors.
 
   // @param arm the point in map axes, from the robot: R u.
-  void Add(const Eigen::Matrix2d& weight, const Eigen::Vector2d& error, const Eigen::Vector2d& arm);
+  // A pair that tells the position of its point. @param information inverse of its error;
+  // @param arm the point in map axes, from the robot: R u.
+  void AddPoint(const Eigen::Matrix2d& information,
+                const Eigen::Vector2d& error,
+                const Eigen::Vector2d& arm);
+  // One that tells its distance from a line.
+  void AddLine(double information,
+               const Eigen::Vector2d& normal,
+               double error_m,
+               const Eigen::Vector2d& arm);
 };
 
 // The pairs of one scan with a map, kept from iteration to iteration.
@@ -55,27 +64,35 @@ class Pairing {
 
  private:
   struct Pair {
+    Eigen::Vector2d arm;    // The scan's point in map axes, from the robot,
+    Eigen::Vector2d p_map;  // and where it lies.
+    double doubt_m2 = 0.0;
     SearchCursor cursor;
-    std::optional<PointId> id;
-    double distance_m2 = 0.0;
-    double weight = 1.0;  // Of the robust estimate.
-    Eigen::Vector2d nearest_m = Eigen::Vector2d::Zero();
-    Surface surface;
+    std::optional<Neighbor> nearest;
+    std::optional<PointId> id;  // What it is paired with,
+    Surface surface;            // and the surface there.
+    double weight = 1.0;        // Of the robust estimate.
   };
 
+  void FindNearest(const Pose2& T_map_cur, const Doubt& doubt);
+  bool IsPaired(const Eigen::Vector2d& normal_map, Pair& pair) const;
+  void AddLine(const Eigen::Matrix2d& R_map_cur,
+               const ScanPoint& point,
+               Pair& pair,
+               NormalEquations& equations) const;
+  void AddObject(const Eigen::Matrix2d& R_map_cur,
+                 const ScanPoint& point,
+                 Pair& pair,
+                 NormalEquations& equations) const;
+  void Weigh(double mahalanobis2, Pair& pair, NormalEquations& equations) const;
   double Reach(double doubt_m2) const;
   Eigen::Matrix2d NoiseInMap(const Eigen::Matrix2d& R_map_cur, const ScanPoint& point) const;
-  double Extent_m2(const ScanPoint& point) const;
-  // What a pair is sought for: a point of the scan as it lies in the map.
-  struct Query {
-    Eigen::Vector2d p_map;
-    Eigen::Vector2d normal_map;
-    double reach_m = 0.0;
-  };
-  bool FindPair(const Query& query, Pair& pair) const;
-  bool MayPair(const Query& query, PointId id) const;
-  std::optional<Neighbor> NearestThatMayPair(const Query& query, SearchCursor& cursor) const;
-  std::optional<Neighbor> NearestThatMayPairWithin(double radius_m, const Query& query) const;
+  bool MayPair(PointId id, const Eigen::Vector2d& normal_map) const;
+  std::optional<Neighbor> NearestThatMayPair(const Eigen::Vector2d& normal_map,
+                                             const Pair& pair) const;
+  std::optional<Neighbor> NearestThatMayPairWithin(double radius_m,
+                                                   const Eigen::Vector2d& normal_map,
+                                                   const Eigen::Vector2d& p_map) const;
 
   const SurfaceMap& map_;
   std::span<const ScanPoint> points_;

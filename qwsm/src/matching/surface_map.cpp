@@ -10,10 +10,6 @@
 namespace qwsm {
 namespace {
 
-constexpr double kNormalScale = 32767.0;
-// Normals with such a cosine between them are of opposite sides; around a corner they are not.
-constexpr double kOpposite = -0.5;
-
 // Variance across a surface, from that of a few samples and what is expected before any. Fitting
 // the line has used up two samples, and the expectation counts as two.
 double Spread(double sample_m2, double count, double expected_m) {
@@ -84,15 +80,6 @@ std::size_t SurfaceMap::bytes() const {
   return quadtree_.Statistics().bytes + likelihood_.bytes() + neighborhoods_.bytes();
 }
 
-Eigen::Vector2d SurfaceMap::OwnNormal(PointId id) const {
-  const Neighborhood& own = neighborhoods_[id];
-  return Eigen::Vector2d(own.own_normal_x, own.own_normal_y) / kNormalScale;
-}
-
-bool SurfaceMap::IsOnOtherSide(PointId id, const Eigen::Vector2d& normal_map) const {
-  return OwnNormal(id).dot(normal_map) < kOpposite;
-}
-
 // A scan puts about so many points into a neighbourhood as its beams are spaced.
 double SurfaceMap::Looks(const Neighborhood& n) const {
   const double samples_of_a_scan =
@@ -116,7 +103,7 @@ Surface SurfaceMap::SurfaceAt(PointId id) const {
     return {.mean_m = p_m + mean,
             .normal = axes.minor_axis,
             .across_m2 = Spread(axes.minor_m2, count, options_.roughness_m),
-            .spacing_m = UniformLength(axes.major_m2) * scale,
+            .sampling_m2 = axes.major_m2 * scale * scale,
             .looks = Looks(n),
             .is_line = true};
   }
@@ -126,15 +113,15 @@ Surface SurfaceMap::SurfaceAt(PointId id) const {
     return {.mean_m = p_m,
             .normal = own_normal,
             .across_m2 = 0.0,
-            .spacing_m = static_cast<double>(n.spacing_m),
+            .sampling_m2 = UniformVariance(static_cast<double>(n.spacing_m)),
             .is_line = true,
             .is_sample = true};
   }
   return {.mean_m = p_m + mean,
           .normal = axes.minor_axis,
           .across_m2 = 0.5 * (axes.minor_m2 + axes.major_m2),
-          .spacing_m = is_crowded ? UniformLength((axes.minor_m2 + axes.major_m2) * scale)
-                                  : static_cast<double>(n.spacing_m),
+          .sampling_m2 = is_crowded ? (axes.minor_m2 + axes.major_m2) * scale
+                                    : UniformVariance(static_cast<double>(n.spacing_m)),
           .looks = Looks(n),
           .is_line = false};
 }

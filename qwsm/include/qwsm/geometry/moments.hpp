@@ -27,7 +27,7 @@ inline PrincipalAxes PrincipalAxesOf(double xx, double xy, double yy) {
   const Eigen::Vector2d a = half_difference > 0.0 ? Eigen::Vector2d(-xy, half_difference + radius)
                                                   : Eigen::Vector2d(half_difference - radius, xy);
   const double norm = a.norm();
-  if (norm > 0.0) axes.minor_axis = a / norm;
+  if (norm > 0.0) axes.minor_axis = a * (1.0 / norm);
   return axes;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 
 #include "qwsm/matching/surface_map.hpp"
 
@@ -20,15 +21,22 @@ Eigen::Matrix2d CorrespondenceError(const Surface& surface);
 ///   measured as well as this one, and as often as the surface was looked at.
 Eigen::Matrix2d NearestSampleError(const Surface& surface, const Eigen::Matrix2d& N_map);
 
-/// What a pair tells of the position of its scan point, in 1/m^2 and map axes: the inverse of its
-/// error. Departing from the papers, a line tells nothing of the position along it.
+/// Variance of the distance of a scan's point from a surface that is a line, along its normal.
+/// Departing from the papers, such a pair tells nothing of the position along the line.
 ///
-/// @param extent_m2 variance of the position of an object that is no line, by its size and by the
-///   spacing of the beams.
+/// @param noise_m2 of the scan's point along the normal.
 /// @param doubt_m2 variance owing to the pose not being known yet.
-Eigen::Matrix2d PairInformation(const Surface& surface,
-                                const Eigen::Matrix2d& N_map,
-                                double extent_m2,
-                                double doubt_m2);
+inline double DistanceVariance(const Surface& surface, double noise_m2, double doubt_m2) {
+  return std::max(noise_m2, surface.across_m2) + noise_m2 / surface.looks + doubt_m2;
+}
+
+/// What a pair tells of the position of its scan point where the surface is no line, in 1/m^2 and
+/// map axes: the inverse of its error.
+///
+/// @param isotropic_m2 variance of the position by the object's size, by the spacing of the beams,
+///   and owing to the pose not being known yet.
+Eigen::Matrix2d PositionInformation(const Surface& surface,
+                                    const Eigen::Matrix2d& N_map,
+                                    double isotropic_m2);
 
 }  // namespace qwsm

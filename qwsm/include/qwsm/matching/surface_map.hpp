@@ -65,16 +65,14 @@ struct Surface {
   Eigen::Vector2d mean_m = Eigen::Vector2d::Zero();
   Eigen::Vector2d normal = Eigen::Vector2d::Zero();  ///< Unit vector; meaningful for a line only.
   double across_m2 = 0.0;  ///< Variance along the normal; for no line, the mean of both variances.
-  double spacing_m = 0.0;  ///< Between stored samples of the surface.
-  double looks = 1.0;      ///< Scans that the mean is of. Readings of one scan share their errors.
+  double sampling_m2 = 0.0;  ///< Variance along the surface of the sample nearest to a place.
+  double looks = 1.0;  ///< Scans that the mean is of. Readings of one scan share their errors.
   bool is_line = false;
   bool is_sample = false;  ///< What there is of it is one sample rather than a mean.
 };
 
 /// Variance of what is uniform over a length.
 inline double UniformVariance(double length_m) { return length_m * length_m / 12.0; }
-/// Length over which a distribution of this variance is uniform.
-inline double UniformLength(double variance_m2) { return std::sqrt(12.0 * variance_m2); }
 
 /// What scans are matched against: points in a quadtree, each with the moments of its
 /// neighbourhood, kept up to date as points come and go. A thin wall has two surfaces, one on each
@@ -98,14 +96,28 @@ class SurfaceMap {
   std::size_t bytes() const;
   /// @pre quadtree().Contains(id), here and below.
   Surface SurfaceAt(PointId id) const;
+  /// Has the memory fetched that the calls below need.
+  void Prefetch(PointId id) const {
+    __builtin_prefetch(&neighborhoods_[id]);
+    quadtree_.Prefetch(id);
+  }
   double Drift_m2(PointId id) const { return static_cast<double>(neighborhoods_[id].drift_m2); }
   /// The normal a point was stored with; zero if none.
-  Eigen::Vector2d OwnNormal(PointId id) const;
+  Eigen::Vector2d OwnNormal(PointId id) const {
+    const Neighborhood& own = neighborhoods_[id];
+    return Eigen::Vector2d(own.own_normal_x, own.own_normal_y) * (1.0 / kNormalScale);
+  }
   /// Whether a point lies on the other side of a thin wall than what has this normal. What has no
   /// normal has no side.
-  bool IsOnOtherSide(PointId id, const Eigen::Vector2d& normal_map) const;
+  bool IsOnOtherSide(PointId id, const Eigen::Vector2d& normal_map) const {
+    return OwnNormal(id).dot(normal_map) < kOpposite;
+  }
 
  private:
+  static constexpr double kNormalScale = 32767.0;
+  // Normals with such a cosine between them are of opposite sides; around a corner they are not.
+  static constexpr double kOpposite = -0.5;
+
   // Moments of the stored points within the neighbourhood radius, relative to the point itself.
   struct Neighborhood {
     float sum_x = 0.0F;

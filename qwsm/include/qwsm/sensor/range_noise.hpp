@@ -35,4 +35,15 @@ inline Eigen::Matrix2d PointCovariance(const Eigen::Vector2d& beam,
   return along_m2 * beam * beam.transpose() + across_m * across_m * across * across.transpose();
 }
 
+/// Its variance along a direction, n^T N n. @param direction unit vector.
+inline double NoiseAlong(const Eigen::Vector2d& direction,
+                         const Eigen::Vector2d& beam,
+                         double range_m,
+                         const RangeNoise& noise) {
+  const double sine = beam.x() * direction.y() - beam.y() * direction.x();
+  const double along_m = noise.range_sigma_m * beam.dot(direction);
+  const double across_m = range_m * noise.bearing_sigma_rad * sine;
+  return along_m * along_m + across_m * across_m;
+}
+
 }  // namespace qwsm
