@@ -26,60 +26,98 @@ constexpr double kMaxAspect = 0.25;  // Across over along, as standard deviation
 
 // How far a surface is followed from one of its points.
 struct SurfaceLimits {
-  double reach_m;  // From the point;
-  double gap_m;    // and between two neighbours.
+  double reach_m2;  // From the point;
+  double gap_m2;    // and between two neighbours; both squared.
+
+  bool Hold(double distance_m2, double to_last_m2) const {
+    return distance_m2 <= reach_m2 && to_last_m2 <= gap_m2;
+  }
 };
 
-// Walks from points[center] along its surface in one direction and returns the last point within
-// the limits.
-std::size_t EndOfSurface(std::span<const ScanPoint> points,
-                         std::size_t center,
-                         const SurfaceLimits& limits,
-                         bool forward) {
-  const Eigen::Vector2d& p_center = points[center].p_robot_m;
-  std::size_t last = center;
-  while (forward ? last + 1 < points.size() : last > 0) {
-    const std::size_t next = forward ? last + 1 : last - 1;
-    const Eigen::Vector2d& p = points[next].p_robot_m;
-    if ((p - points[last].p_robot_m).squaredNorm() > limits.gap_m * limits.gap_m) break;
-    if ((p - p_center).squaredNorm() > limits.reach_m * limits.reach_m) break;
-    last = next;
+double Squared(double value) { return value * value; }
+
+// Where points of one surface lie about one of them.
+class PointsAround {
+ public:
+  void Add(const Eigen::Vector2d& offset_m) {
+    ++count_;
+    sum_m_ += offset_m;
+    xx_m2_ += offset_m.x() * offset_m.x();
+    xy_m2_ += offset_m.x() * offset_m.y();
+    yy_m2_ += offset_m.y() * offset_m.y();
   }
-  return last;
-}
 
-std::span<const ScanPoint> SurfaceAround(std::span<const ScanPoint> points,
-                                         std::size_t center,
-                                         const SurfaceLimits& limits) {
-  const std::size_t first = EndOfSurface(points, center, limits, false);
-  const std::size_t last = EndOfSurface(points, center, limits, true);
-  return points.subspan(first, last - first + 1);
-}
-
-// A reading half on an edge and half on what is behind it must not draw its neighbours' means
-// along, so these are of what lies close together.
-Eigen::Vector2d MeanAround(std::span<const ScanPoint> points, std::size_t i) {
-  const double gap_m = std::max(kGapOfMean_m, kGapOfMeanSpacings * points[i].arc_m);
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  const auto around = SurfaceAround(points, i, {.reach_m = kSurfaceReach_m, .gap_m = gap_m});
-  for (const ScanPoint& p : around) sum += p.p_robot_m;
-  return sum / static_cast<double>(around.size());
-}
-
-Eigen::Vector2d NormalOf(std::span<const ScanPoint> neighbors) {
-  const Eigen::Vector2d origin = neighbors.front().p_robot_m;
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  Eigen::Vector3d sum_of_squares = Eigen::Vector3d::Zero();  // xx, xy, yy.
-  for (const ScanPoint& p : neighbors) {
-    const Eigen::Vector2d d = p.p_robot_m - origin;
-    sum += d;
-    sum_of_squares += Eigen::Vector3d(d.x() * d.x(), d.x() * d.y(), d.y() * d.y());
+  int count() const { return count_; }
+  Eigen::Vector2d mean_m() const { return sum_m_ / count_; }
+  PrincipalAxes axes() const {
+    const double scale = 1.0 / count_;
+    const Eigen::Vector2d mean = scale * sum_m_;
+    return PrincipalAxesOf(scale * xx_m2_ - mean.x() * mean.x(),
+                           scale * xy_m2_ - mean.x() * mean.y(),
+                           scale * yy_m2_ - mean.y() * mean.y());
   }
-  const double scale = 1.0 / static_cast<double>(neighbors.size());
-  const Eigen::Vector2d mean = scale * sum;
-  const PrincipalAxes axes = PrincipalAxesOf(scale * sum_of_squares(0) - mean.x() * mean.x(),
-                                             scale * sum_of_squares(1) - mean.x() * mean.y(),
-                                             scale * sum_of_squares(2) - mean.y() * mean.y());
+
+ private:
+  int count_ = 1;  // The one itself.
+  Eigen::Vector2d sum_m_ = Eigen::Vector2d::Zero();
+  double xx_m2_ = 0.0;
+  double xy_m2_ = 0.0;
+  double yy_m2_ = 0.0;
+};
+
+// What lies about a point of a scan: its surface, of which the normal is wanted, and what of it
+// lies close together, of which the mean is. For a reading half on an edge and half on what is
+// behind it must not draw its neighbours' means along.
+class SurfaceAround {
+ public:
+  // @param gaps_m2 from each point to the next one, squared.
+  SurfaceAround(std::span<const ScanPoint> points,
+                std::span<const double> gaps_m2,
+                std::size_t center)
+      : p_center_(points[center].p_robot_m),
+        limits_{.reach_m2 =
+                    Squared(std::max(kSurfaceReach_m, kNormalReachSpacings * points[center].arc_m)),
+                .gap_m2 = Squared(std::max(kGap_m, kGapSpacings * points[center].arc_m))},
+        close_limits_{
+            .reach_m2 = Squared(kSurfaceReach_m),
+            .gap_m2 = Squared(std::max(kGapOfMean_m, kGapOfMeanSpacings * points[center].arc_m))} {
+    bool goes_on = true;
+    is_close_ = true;
+    for (std::size_t i = center; goes_on && i > 0; --i) {
+      goes_on = Take(points[i - 1].p_robot_m, gaps_m2[i - 1]);
+    }
+    goes_on = true;
+    is_close_ = true;
+    for (std::size_t i = center + 1; goes_on && i < points.size(); ++i) {
+      goes_on = Take(points[i].p_robot_m, gaps_m2[i - 1]);
+    }
+  }
+
+  const PointsAround& surface() const { return surface_; }
+  const PointsAround& close() const { return close_; }
+
+ private:
+  // The next point on the way outwards. @return whether the surface goes on there.
+  bool Take(const Eigen::Vector2d& p, double gap_m2) {
+    const Eigen::Vector2d offset = p - p_center_;
+    const double distance_m2 = offset.squaredNorm();
+    if (!limits_.Hold(distance_m2, gap_m2)) return false;
+    surface_.Add(offset);
+    is_close_ = is_close_ && close_limits_.Hold(distance_m2, gap_m2);
+    if (is_close_) close_.Add(offset);
+    return true;
+  }
+
+  Eigen::Vector2d p_center_;
+  SurfaceLimits limits_;
+  SurfaceLimits close_limits_;
+  bool is_close_ = true;  // All the way so far.
+  PointsAround surface_;
+  PointsAround close_;
+};
+
+Eigen::Vector2d NormalOf(const PointsAround& neighbors) {
+  const PrincipalAxes axes = neighbors.axes();
   const bool is_line = axes.minor_m2 < kMaxRoughness_m * kMaxRoughness_m &&
                        axes.minor_m2 < kMaxAspect * kMaxAspect * axes.major_m2;
   return is_line ? axes.minor_axis : Eigen::Vector2d::Zero();
@@ -115,42 +153,49 @@ Eigen::Vector2d NormalOfSparse(std::span<const ScanPoint> points, std::size_t i)
   return {-tangent.y(), tangent.x()};
 }
 
-Eigen::Vector2d NormalTowardsLaser(std::span<const ScanPoint> points, std::size_t i) {
-  const double arc_m = points[i].arc_m;
-  const auto around =
-      SurfaceAround(points,
-                    i,
-                    {.reach_m = std::max(kSurfaceReach_m, kNormalReachSpacings * arc_m),
-                     .gap_m = std::max(kGap_m, kGapSpacings * arc_m)});
-  const Eigen::Vector2d normal = around.size() >= 3 ? NormalOf(around) : NormalOfSparse(points, i);
-  return normal.dot(points[i].beam_robot) > 0.0 ? Eigen::Vector2d(-normal) : normal;
+Eigen::Vector2d TowardsLaser(const Eigen::Vector2d& normal, const Eigen::Vector2d& beam) {
+  return normal.dot(beam) > 0.0 ? Eigen::Vector2d(-normal) : normal;
+}
+
+std::vector<double> GapsBetween(std::span<const ScanPoint> points) {
+  std::vector<double> gaps_m2;
+  gaps_m2.reserve(points.size());
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    gaps_m2.push_back((points[i].p_robot_m - points[i - 1].p_robot_m).squaredNorm());
+  }
+  return gaps_m2;
 }
 
 }  // namespace
 
 std::vector<ScanPoint> ToPoints(const LaserScan& scan) {
   const Pose2& T_robot_laser = scan.geometry.T_robot_laser;
-  const double step_rad = std::abs(static_cast<double>(scan.geometry.bearing_step_rad));
+  const double step_rad = static_cast<double>(scan.geometry.bearing_step_rad);
+  const double first_rad = T_robot_laser.theta_rad + scan.geometry.Bearing(0);
+  const Eigen::Matrix2d step = Pose2{.theta_rad = step_rad}.Rotation();
+  Eigen::Vector2d beam_robot(std::cos(first_rad), std::sin(first_rad));
   std::vector<ScanPoint> points;
   points.reserve(scan.size());
-  for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+  for (std::size_t beam = 0; beam < scan.size(); ++beam, beam_robot = step * beam_robot) {
     if (StateOf(scan.ranges_m[beam], scan.geometry) != BeamState::kHit) continue;
     const double range_m = static_cast<double>(scan.ranges_m[beam]);
-    const double bearing_robot_rad = T_robot_laser.theta_rad + scan.geometry.Bearing(beam);
-    const Eigen::Vector2d beam_robot(std::cos(bearing_robot_rad), std::sin(bearing_robot_rad));
     points.push_back({.p_robot_m = T_robot_laser.translation_m() + range_m * beam_robot,
                       .beam_robot = beam_robot,
                       .normal_robot = Eigen::Vector2d::Zero(),
                       .to_mean_robot_m = Eigen::Vector2d::Zero(),
                       .range_m = range_m,
-                      .arc_m = range_m * step_rad,
+                      .arc_m = range_m * std::abs(step_rad),
                       .spacing_m = 0.0,
                       .beam = beam});
   }
+  const std::vector<double> gaps_m2 = GapsBetween(points);
   for (std::size_t i = 0; i < points.size(); ++i) {
+    const SurfaceAround around(points, gaps_m2, i);
     points[i].spacing_m = SurfaceSpacing(points, i);
-    points[i].normal_robot = NormalTowardsLaser(points, i);
-    points[i].to_mean_robot_m = MeanAround(points, i) - points[i].p_robot_m;
+    points[i].normal_robot = TowardsLaser(
+        around.surface().count() >= 3 ? NormalOf(around.surface()) : NormalOfSparse(points, i),
+        points[i].beam_robot);
+    points[i].to_mean_robot_m = around.close().mean_m();
   }
   return points;
 }
