@@ -14,11 +14,9 @@ namespace {
 constexpr double kQuarters = 4.0;
 
 // Grows with the bearing from 0 to 4 quarters of a turn, without trigonometry.
-double QuartersTo(const Eigen::Vector2d& p) {
-  const double sum = std::abs(p.x()) + std::abs(p.y());
-  const double slope = sum > 0.0 ? p.y() / sum : 0.0;
-  if (p.x() < 0.0) return 2.0 - slope;
-  return slope < 0.0 ? kQuarters + slope : slope;
+inline float QuartersTo(float x, float y) {
+  const float slope = y / (std::abs(x) + std::abs(y) + std::numeric_limits<float>::min());
+  return 3.0F + std::copysign(1.0F, x) * (1.0F + slope);
 }
 
 // The inverse.
@@ -38,23 +36,31 @@ std::vector<double> BearingsOf(std::size_t directions) {
   return bearings_rad;
 }
 
-// How far all beams near a bearing went; 0 if one of them is missing or brought no echo.
-float FreeTowards(const LaserScan& scan, double bearing_rad, int margin_beams) {
-  const LaserGeometry& laser = scan.geometry;
-  const double step_rad = static_cast<double>(laser.bearing_step_rad);
-  // The middle of the scan is no jump of the angle.
-  const double middle_rad = laser.Bearing(0) + 0.5 * step_rad * static_cast<double>(scan.size());
-  const double from_first_rad =
-      middle_rad + NormalizeAngle(bearing_rad - middle_rad) - laser.Bearing(0);
-  const auto nearest = std::lround(from_first_rad / step_rad);
-  if (nearest < margin_beams || nearest + margin_beams >= std::ssize(scan.ranges_m)) return 0.0F;
-  float free_m = laser.range_max_m;
-  for (auto beam = nearest - margin_beams; beam <= nearest + margin_beams; ++beam) {
-    const float range_m = scan.ranges_m[static_cast<std::size_t>(beam)];
-    if (StateOf(range_m, laser) != BeamState::kHit) return 0.0F;
-    free_m = std::min(free_m, range_m);
+// For each beam how far it and all beams near it went; 0 if one of them is missing or brought no
+// echo.
+std::vector<float> FreeAlongBeams(const LaserScan& scan, int margin_beams) {
+  const auto beams = std::ssize(scan.ranges_m);
+  std::vector<float> hits_m(scan.ranges_m);
+  for (float& range_m : hits_m) {
+    if (StateOf(range_m, scan.geometry) != BeamState::kHit) range_m = 0.0F;
+  }
+  std::vector<float> free_m(hits_m.size(), 0.0F);
+  for (std::ptrdiff_t beam = margin_beams; beam + margin_beams < beams; ++beam) {
+    const auto around = hits_m.begin() + beam;
+    free_m[static_cast<std::size_t>(beam)] =
+        *std::min_element(around - margin_beams, around + margin_beams + 1);
   }
   return free_m;
+}
+
+// The beam nearest to a bearing, which may lie beside all of them.
+std::ptrdiff_t NearestBeam(const LaserScan& scan, double bearing_rad) {
+  const double step_rad = static_cast<double>(scan.geometry.bearing_step_rad);
+  const double first_rad = scan.geometry.Bearing(0);
+  // The middle of the scan is no jump of the angle.
+  const double middle_rad = first_rad + 0.5 * step_rad * static_cast<double>(scan.size());
+  return std::lround((middle_rad + NormalizeAngle(bearing_rad - middle_rad) - first_rad) /
+                     step_rad);
 }
 
 }  // namespace
@@ -64,20 +70,44 @@ FreeSpaceFan::FreeSpaceFan(const LaserScan& scan,
                            const FreeSpaceOptions& options) {
   static const std::vector<double> kBearings_rad = BearingsOf(kDirections);
   const Pose2 T_map_laser = T_map_robot * scan.geometry.T_robot_laser;
-  p_map_laser_m_ = T_map_laser.translation_m();
-  R_laser_map_ = T_map_laser.Rotation().transpose();
+  T_laser_map_ = T_map_laser.Inverse();
+  const std::vector<float> free_m = FreeAlongBeams(scan, options.margin_beams);
   for (std::size_t i = 0; i < kDirections; ++i) {
-    free_m_[i] = FreeTowards(scan, kBearings_rad[i], options.margin_beams) -
-                 static_cast<float>(options.margin_m);
+    const std::ptrdiff_t beam = NearestBeam(scan, kBearings_rad[i]);
+    if (beam < 0 || beam >= std::ssize(free_m)) continue;
+    const float seen_m =
+        free_m[static_cast<std::size_t>(beam)] - static_cast<float>(options.margin_m);
+    if (seen_m > 0.0F) free_m2_[i] = seen_m * seen_m;
   }
 }
 
-bool FreeSpaceFan::SawThrough(const Eigen::Vector2d& p_map_m) const {
-  const Eigen::Vector2d p_laser = R_laser_map_ * (p_map_m - p_map_laser_m_);
-  const double direction = QuartersTo(p_laser) / kQuarters * static_cast<double>(kDirections);
-  const double free_m =
-      static_cast<double>(free_m_[static_cast<std::size_t>(direction) % kDirections]);
-  return free_m > 0.0 && p_laser.squaredNorm() < free_m * free_m;
+// A few points at a time, so that the compiler computes them side by side.
+void FreeSpaceFan::MarkSeenThrough(std::span<const ScanPoint> points,
+                                   const Pose2& T_map_robot,
+                                   std::span<std::uint8_t> seen_through) const {
+  constexpr std::size_t kAtATime = 32;
+  const Pose2 T_laser_robot = T_laser_map_ * T_map_robot;
+  const Eigen::Matrix2f R = T_laser_robot.Rotation().cast<float>();
+  const Eigen::Vector2f t = T_laser_robot.translation_m().cast<float>();
+  std::array<float, kAtATime> x{}, y{}, distance_m2;
+  std::array<std::int32_t, kAtATime> direction;
+  for (std::size_t first = 0; first < points.size(); first += kAtATime) {
+    const std::size_t count = std::min(kAtATime, points.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      x[i] = static_cast<float>(points[first + i].p_robot_m.x());
+      y[i] = static_cast<float>(points[first + i].p_robot_m.y());
+    }
+    for (std::size_t i = 0; i < kAtATime; ++i) {
+      const float lx = R(0, 0) * x[i] + R(0, 1) * y[i] + t.x();
+      const float ly = R(1, 0) * x[i] + R(1, 1) * y[i] + t.y();
+      distance_m2[i] = lx * lx + ly * ly;
+      direction[i] = static_cast<std::int32_t>(QuartersTo(lx, ly) * (kDirections / 4));
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      if (distance_m2[i] < free_m2_[static_cast<std::size_t>(direction[i]) % kDirections])
+        seen_through[first + i] = 1;
+    }
+  }
 }
 
 void FreeSpace::Add(const LaserScan& scan, const Pose2& T_map_robot) {
@@ -85,19 +115,14 @@ void FreeSpace::Add(const LaserScan& scan, const Pose2& T_map_robot) {
   if (fans_.size() > static_cast<std::size_t>(options_.scans)) fans_.pop_front();
 }
 
-bool FreeSpace::SawThrough(const Eigen::Vector2d& p_map_m) const {
-  return std::ranges::any_of(
-      fans_, [&p_map_m](const FreeSpaceFan& fan) { return fan.SawThrough(p_map_m); });
-}
-
 std::vector<ScanPoint> FreeSpace::WithoutMoving(std::span<const ScanPoint> points,
                                                 const Pose2& T_map_robot) const {
+  std::vector<std::uint8_t> seen_through(points.size());
+  for (const FreeSpaceFan& fan : fans_) fan.MarkSeenThrough(points, T_map_robot, seen_through);
   std::vector<ScanPoint> still;
   still.reserve(points.size());
-  const Eigen::Matrix2d R_map_robot = T_map_robot.Rotation();
-  for (const ScanPoint& point : points) {
-    const Eigen::Vector2d p_map = R_map_robot * point.p_robot_m + T_map_robot.translation_m();
-    if (!SawThrough(p_map)) still.push_back(point);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!seen_through[i]) still.push_back(points[i]);
   }
   const auto moving = static_cast<double>(points.size() - still.size());
   if (moving > options_.max_moving_share * static_cast<double>(points.size())) {

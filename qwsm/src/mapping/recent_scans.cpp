@@ -8,6 +8,17 @@
 #include <utility>
 
 namespace qwsm {
+namespace {
+
+// Row and column in one number.
+std::uint64_t CellOf(const Eigen::Vector2d& p_m, double side_m) {
+  const auto index = [side_m](double coordinate_m) {
+    return static_cast<std::uint32_t>(std::lround(coordinate_m / side_m));
+  };
+  return std::uint64_t{index(p_m.y())} << 32 | index(p_m.x());
+}
+
+}  // namespace
 
 void RecentScans::Add(const Pose2& T_map_robot, std::span<const ScanPoint> points) {
   if (points.empty()) return;
@@ -27,26 +38,33 @@ void RecentScans::Clear() {
 }
 
 std::vector<ScanPoint> RecentScans::PointsAround(const Pose2& T_map_robot) const {
-  using CellAndPoint = std::pair<std::pair<std::int64_t, std::int64_t>, ScanPoint>;
-  std::vector<CellAndPoint> cells;
+  struct Seen {
+    std::uint64_t cell;
+    std::size_t number;  // The latest scan's points come first.
+    const Pose2* T_robot_then;
+    const ScanPoint* point;
+  };
+  std::vector<Pose2> T_robot_then;
+  T_robot_then.reserve(scans_.size());
+  std::vector<Seen> seen;
+  seen.reserve(points_);
   for (auto scan = scans_.rbegin(); scan != scans_.rend(); ++scan) {
-    const Pose2 T_robot_then = T_map_robot.Inverse() * scan->T_map_robot;
+    T_robot_then.push_back(T_map_robot.Inverse() * scan->T_map_robot);
+    const Eigen::Matrix2d R = T_robot_then.back().Rotation();
     for (const ScanPoint& point : scan->points) {
-      const ScanPoint now = T_robot_then * point;
-      cells.push_back({{std::llround(now.p_robot_m.x() / options_.spacing_m),
-                        std::llround(now.p_robot_m.y() / options_.spacing_m)},
-                       now});
+      const Eigen::Vector2d now = R * point.p_robot_m + T_robot_then.back().translation_m();
+      seen.push_back({.cell = CellOf(now, options_.spacing_m),
+                      .number = seen.size(),
+                      .T_robot_then = &T_robot_then.back(),
+                      .point = &point});
     }
   }
-  // Stable: of the points in one cell the latest stays.
-  const auto by_cell = [](const CellAndPoint& a, const CellAndPoint& b) {
-    return a.first < b.first;
-  };
-  std::ranges::stable_sort(cells, by_cell);
+  std::ranges::sort(seen, {}, [](const Seen& s) { return std::pair(s.cell, s.number); });
+  const auto [first, last] = std::ranges::unique(seen, {}, &Seen::cell);
+  seen.erase(first, last);
   std::vector<ScanPoint> points;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (i == 0 || cells[i].first != cells[i - 1].first) points.push_back(cells[i].second);
-  }
+  points.reserve(seen.size());
+  for (const Seen& one : seen) points.push_back(*one.T_robot_then * *one.point);
   return points;
 }
 

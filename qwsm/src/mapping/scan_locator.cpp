@@ -58,8 +58,8 @@ MatchResult ScanLocator::Locate(const ScanMap& map,
                   .matcher = matcher_,
                   .map = map.surfaces(),
                   .points = points,
-                  .thinned = PositionsOf(ThinOut(seen_free.WithoutMoving(points, predicted.T_a_b),
-                                                 options_.search_spacing_m)),
+                  .thinned = PositionsOf(seen_free.WithoutMoving(
+                      ThinOut(points, options_.search_spacing_m), predicted.T_a_b)),
                   .seen_free = seen_free};
   const double sigmas = options_.window_sigmas;
 

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <span>
 #include <vector>
@@ -50,15 +51,17 @@ class FreeSpaceFan {
  public:
   FreeSpaceFan(const LaserScan& scan, const Pose2& T_map_robot, const FreeSpaceOptions& options);
 
-  /// Whether the scan saw through the place, with the margins of the options.
-  bool SawThrough(const Eigen::Vector2d& p_map_m) const;
+  /// Marks the points that the scan saw through, with the margins of the options.
+  /// @param seen_through of each point; those not seen through are left as they are.
+  void MarkSeenThrough(std::span<const ScanPoint> points,
+                       const Pose2& T_map_robot,
+                       std::span<std::uint8_t> seen_through) const;
 
  private:
   static constexpr std::size_t kDirections = 1024;  // Of nearly equal width.
 
-  Eigen::Vector2d p_map_laser_m_;
-  Eigen::Matrix2d R_laser_map_;
-  std::array<float, kDirections> free_m_;  // By direction in the laser's frame.
+  Pose2 T_laser_map_;
+  std::array<float, kDirections> free_m2_{};  // Squared, by direction in the laser's frame.
 };
 
 /// The free space that the last few relevant scans of a robot saw. Points of a new scan that end
@@ -80,8 +83,6 @@ class FreeSpace {
                           const Pose2& T_map_robot) const;
 
  private:
-  bool SawThrough(const Eigen::Vector2d& p_map_m) const;
-
   FreeSpaceOptions options_;
   std::deque<FreeSpaceFan> fans_;  // The latest last.
 };
