@@ -24,8 +24,8 @@ struct WeightedScanMatcherOptions {
   RangeNoise noise;
   PairWeighting weighting = PairWeighting::kModelled;
   int max_iterations = 30;
-  double translation_tolerance_m = 0.001;
-  double rotation_tolerance_rad = 0.00035;
+  double translation_tolerance_m = 0.002;
+  double rotation_tolerance_rad = 0.0007;
   double pair_distance_m = 0.15;
   double annealing_factor = 0.3;
   double outlier_sigmas = 5.0;
