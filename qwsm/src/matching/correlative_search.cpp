@@ -88,15 +88,14 @@ class BeamEnds {
     for (const Eigen::Vector2d& p : points_robot_m) lever_m = std::max(lever_m, p.norm());
     step_rad_ = map.cell_size_m() / std::min(lever_m, max_lever_m);
     headings_ = static_cast<int>(std::ceil(window.rotation_rad / step_rad_));
-    cells_.reserve(points_ * static_cast<std::size_t>(2 * headings_ + 1));
+    cells_.resize(points_ * static_cast<std::size_t>(2 * headings_ + 1));
+    auto cell = cells_.begin();
     const Pose2& center = window.predicted.T_a_b;
     for (int heading = -headings_; heading <= headings_; ++heading) {
       const Pose2 turned{center.x_m, center.y_m, center.theta_rad + TurnOf(heading)};
       const Eigen::Matrix2d R = turned.Rotation();
-      for (const Eigen::Vector2d& p_robot : points_robot_m) {
-        const Eigen::Vector2d p_map = R * p_robot + turned.translation_m();
-        cells_.push_back({map.CellIndex(p_map.x()), map.CellIndex(p_map.y())});
-      }
+      const Eigen::Vector2d t = turned.translation_m();
+      for (const Eigen::Vector2d& p_robot : points_robot_m) *cell++ = map.CellAt(R * p_robot + t);
     }
   }
 

@@ -48,7 +48,8 @@ class LikelihoodPyramid {
   static constexpr int kLevels = Tile::kLevels;
   static constexpr std::uint8_t kUnmapped = Tile::kUnmapped;
 
-  explicit LikelihoodPyramid(const LikelihoodPyramidOptions& options = {}) : options_(options) {}
+  explicit LikelihoodPyramid(const LikelihoodPyramidOptions& options = {})
+      : options_(options), cells_per_metre_(1.0 / options.cell_size_m) {}
 
   double cell_size_m() const { return options_.cell_size_m; }
   /// Raises the cells around a point. @pre |coordinate| < 2^30 cells
@@ -59,7 +60,10 @@ class LikelihoodPyramid {
   /// Index of the level-0 cell that holds a coordinate.
   int CellIndex(double coordinate_m) const {
     constexpr int kShift = 1 << 30;  // What is positive is truncated downwards.
-    return static_cast<int>(coordinate_m / options_.cell_size_m + kShift) - kShift;
+    return static_cast<int>(coordinate_m * cells_per_metre_ + kShift) - kShift;
+  }
+  GridCell CellAt(const Eigen::Vector2d& p_m) const {
+    return {CellIndex(p_m.x()), CellIndex(p_m.y())};
   }
   /// The cell of `level` around the level-0 cell (x, y); 0 where nothing is stored.
   std::uint8_t LikelihoodAt(int level, int x, int y) const;
@@ -120,6 +124,7 @@ class LikelihoodPyramid {
   void Raise(Tile& tile, int level, GridCell first, std::uint8_t drift_code) const;
 
   LikelihoodPyramidOptions options_;
+  double cells_per_metre_;
   std::unordered_map<std::uint64_t, Block> directory_;  // By Key().
   PagedPool<Tile, 4> tiles_;
   Profiles columns_;  // Of the point being inserted; kept for their memory.
