@@ -128,6 +128,32 @@ TEST(CorrelativeSearch, FindsTheBestOfAllPosesOfTheWindow) {
   }
 }
 
+TEST(CorrelativeSearch, InterpolatesBetweenTheCells) {
+  LikelihoodPyramid map;
+  Points room_m;
+  for (double s_m = -2.0; s_m <= 2.0; s_m += 0.05) {
+    room_m.insert(room_m.end(), {{s_m, -2.0}, {s_m, 2.0}, {-2.0, s_m}, {2.0, s_m}});
+  }
+  for (const Eigen::Vector2d& p_m : room_m) map.Insert(p_m, 1e-6);
+  const double cell_m = map.cell_size_m();
+  double sum_of_errors_m2 = 0.0;
+  constexpr int kTrials = 100;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    Random random(static_cast<unsigned>(trial));
+    const Pose2 T_map_robot{Uniform(random, -0.3, 0.3), Uniform(random, -0.3, 0.3), 0.0};
+    Points scan_m;
+    for (const Eigen::Vector2d& p_m : room_m) scan_m.push_back(T_map_robot.Inverse() * p_m);
+    const SearchWindow window{
+        .predicted = {{}, Eigen::Matrix3d::Identity()}, .translation_m = 0.4, .rotation_rad = 0.01};
+    const auto found = SearchPose(map, scan_m, window, {});
+    ASSERT_TRUE(found);
+    sum_of_errors_m2 +=
+        (found->T_map_robot.translation_m() - T_map_robot.translation_m()).squaredNorm();
+  }
+  // What is uniform over a cell has a variance of a twelfth along each axis.
+  EXPECT_LT(sum_of_errors_m2 / kTrials, 0.25 * cell_m * cell_m / 6.0);
+}
+
 TEST(CorrelativeSearch, FindsNothingThatScoresTooLittle) {
   LikelihoodPyramid map;
   map.Insert({0.0, 0.0}, 1e-6);

@@ -37,6 +37,12 @@ double DistanceToInterval(double value, double low, double high) {
   return std::max({0.0, low - value, value - high});
 }
 
+// Where the parabola through three values, one apart, is highest, seen from the middle one.
+double PeakOf(int before, int middle, int after) {
+  const int curvature = 2 * middle - before - after;
+  return curvature > 0 ? std::clamp(0.5 * (after - before) / curvature, -0.5, 0.5) : 0.0;
+}
+
 // In units of the score, which is a mean over the points.
 double PriceOfSquaredSigma(std::size_t points, const CorrelativeSearchOptions& options) {
   const auto independent = static_cast<std::size_t>(options.independent_points);
@@ -154,7 +160,8 @@ class BranchAndBound {
         window_(window),
         offsets_(static_cast<int>(std::ceil(window.translation_m / cell_m_))),
         ends_(map, points_robot_m, window, options.lever_m),
-        likelihoods_(ends_.WindowOf(map, offsets_.first(), offsets_.last(), window.max_drift_code)),
+        likelihoods_(
+            ends_.WindowOf(map, offsets_.first() - 1, offsets_.last() + 1, window.max_drift_code)),
         prices_(window.predicted.covariance, PriceOfSquaredSigma(points_robot_m.size(), options)),
         floor_(window.min_score) {}
 
@@ -175,7 +182,8 @@ class BranchAndBound {
         PushChildren(best);
       }
     }
-    return best_;
+    if (!best_) return std::nullopt;
+    return FoundPose{Refined(*best_), floor_};
   }
 
  private:
@@ -254,13 +262,25 @@ class BranchAndBound {
     const double score = likelihood - prices_.Of({cell_m_ * pose.x, cell_m_ * pose.y, turn_rad});
     if (score <= floor_ || IsExcluded(pose)) return;
     floor_ = score;  // No worse pose will be the best.
-    best_ = FoundPose{PoseOf(pose), score};
+    best_ = pose;
   }
 
   bool IsExcluded(const Block& pose) const {
     if (!window_.exclude) return false;
     const Eigen::Vector2d way_m = PoseOf(pose).translation_m() - window_.exclude->translation_m();
     return way_m.norm() <= window_.exclude_m;
+  }
+
+  // Between the cells, by parabolas through the best one and its neighbours along x and y.
+  Pose2 Refined(const Block& best) const {
+    const auto sums = likelihoods_.SumsOfBlock(ends_.At(best.heading), {best.x - 1, best.y - 1}, 3);
+    const auto sum_beside = [&sums](int x, int y) {
+      return sums[static_cast<std::size_t>((y + 1) * LikelihoodWindow::kBlockSide + x + 1)];
+    };
+    Pose2 refined = PoseOf(best);
+    refined.x_m += cell_m_ * PeakOf(sum_beside(-1, 0), sum_beside(0, 0), sum_beside(1, 0));
+    refined.y_m += cell_m_ * PeakOf(sum_beside(0, -1), sum_beside(0, 0), sum_beside(0, 1));
+    return refined;
   }
 
   Pose2 PoseOf(const Block& block) const {
@@ -277,7 +297,7 @@ class BranchAndBound {
   LikelihoodWindow likelihoods_;
   PriceList prices_;
   double floor_;  // Score of the best pose met so far.
-  std::optional<FoundPose> best_;
+  std::optional<Block> best_;
   std::vector<Block> queue_;  // A heap, the highest bound first.
 };
 

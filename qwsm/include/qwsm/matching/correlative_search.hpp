@@ -54,7 +54,8 @@ struct FoundPose {
 };
 
 /// The best pose of a window, by branch and bound over the pyramid's levels (Olson 2009; Hess et
-/// al. 2016): exhaustive, to within a cell and the heading that moves a far point by a cell.
+/// al. 2016): exhaustive in steps of a cell and of the heading that moves a far point by a cell. The
+/// position is then interpolated between the cells.
 ///
 /// @param points_robot_m the scan's points in the robot's frame, thinned out: cost is linear in
 /// them, and crowded near surfaces would outvote the rest.
