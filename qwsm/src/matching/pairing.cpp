@@ -150,11 +150,8 @@ void Pairing::AddObject(const Eigen::Matrix2d& R_map_cur,
                         const ScanPoint& point,
                         Pair& pair,
                         NormalEquations& equations) const {
-  // A beam hits it anywhere.
-  const double extent_m2 =
-      options_.small_object_m * options_.small_object_m + UniformVariance(point.spacing_m);
-  const Eigen::Matrix2d information =
-      PositionInformation(pair.surface, NoiseInMap(R_map_cur, point), extent_m2 + pair.doubt_m2);
+  const Eigen::Matrix2d information = PositionInformation(
+      pair.surface, NoiseInMap(R_map_cur, point), Extent_m2(point) + pair.doubt_m2);
   const Eigen::Vector2d error = pair.surface.mean_m - pair.p_map;
   Weigh(error.dot(information * error), pair, equations);
   equations.AddPoint(pair.weight * information, error, pair.arm);
@@ -187,6 +184,11 @@ double Pairing::Reach(double doubt_m2) const {
 Eigen::Matrix2d Pairing::NoiseInMap(const Eigen::Matrix2d& R_map_cur,
                                     const ScanPoint& point) const {
   return PointCovariance(R_map_cur * point.beam_robot, point.range_m, options_.noise);
+}
+
+// Of what is no line: a beam hits it anywhere.
+double Pairing::Extent_m2(const ScanPoint& point) const {
+  return options_.small_object_m * options_.small_object_m + UniformVariance(point.spacing_m);
 }
 
 bool Pairing::MayPair(PointId id, const Eigen::Vector2d& normal_map) const {

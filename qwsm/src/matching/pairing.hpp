@@ -59,6 +59,10 @@ class Pairing {
   // Pairs every point, seen from the pose, with the surface nearest to it.
   NormalEquations Linearize(const Pose2& T_map_cur, const Doubt& doubt);
 
+  // A of the pairs found last, of the normals that both the map and the scan show: the noise of one
+  // is not that of the other, so that it does not pass for a hold.
+  Eigen::Matrix3d ConfirmedInformation(const Pose2& T_map_cur) const;
+
   // A of the pairs found last, were each the nearest sample of the papers.
   Eigen::Matrix3d NearestSampleInformation(const Pose2& T_map_cur) const;
 
@@ -85,8 +89,12 @@ class Pairing {
                  Pair& pair,
                  NormalEquations& equations) const;
   void Weigh(double mahalanobis2, Pair& pair, NormalEquations& equations) const;
+  struct CountedPair;
+  template <class Visit>
+  void ForEachPair(const Pose2& T_map_cur, Visit visit) const;
   double Reach(double doubt_m2) const;
   Eigen::Matrix2d NoiseInMap(const Eigen::Matrix2d& R_map_cur, const ScanPoint& point) const;
+  double Extent_m2(const ScanPoint& point) const;
   bool MayPair(PointId id, const Eigen::Vector2d& normal_map) const;
   std::optional<Neighbor> NearestThatMayPair(const Eigen::Vector2d& normal_map,
                                              const Pair& pair) const;

@@ -14,14 +14,24 @@ namespace qwsm {
 namespace {
 
 constexpr double kPairsOfExpectation = 20.0;  // What the error model is worth beside the pairs.
+constexpr int kPairsOfWalls = 40;             // Fewer are no corridor.
+constexpr double kMostOfNoise = 4.0;  // Noise of normals passes for up to so many least shares.
 
 // Takes back what pairs seem to say about a direction of which they say next to nothing: normals of
 // noisy walls are never quite parallel, and their errors would pass for a hold along a corridor
-// (Zhang, Kaess & Singh 2016).
-void DropFalseHold(double min_share, NormalEquations& equations) {
+// (Zhang, Kaess & Singh 2016). Where they may say little, map and scan must agree upon it.
+void DropFalseHold(const Pairing& pairing,
+                   const Pose2& T_ref_cur,
+                   double min_share,
+                   NormalEquations& equations) {
   Eigen::Matrix3d& A = equations.A;
   const PositionHold hold = HoldOf(A);
-  if (hold.share() >= min_share) return;
+  const bool may_be_noise =
+      equations.pairs >= kPairsOfWalls && hold.share() < kMostOfNoise * min_share;
+  const bool is_held =
+      hold.share() >= min_share &&
+      (!may_be_noise || HoldOf(pairing.ConfirmedInformation(T_ref_cur)).share() >= min_share);
+  if (is_held) return;
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
   direction.head<2>() = hold.weakest;
   const Eigen::Matrix3d others = Eigen::Matrix3d::Identity() - direction * direction.transpose();
@@ -87,7 +97,7 @@ MatchResult WeightedScanMatcher::Match(const SurfaceMap& reference,
   while (result.iterations < options_.max_iterations) {
     ++result.iterations;
     NormalEquations pairs = pairing.Linearize(result.T_ref_cur, doubt);
-    DropFalseHold(options_.min_information_share, pairs);
+    DropFalseHold(pairing, result.T_ref_cur, options_.min_information_share, pairs);
     result.pairs = pairs.pairs;
     if (pairs.pairs < options_.min_pairs) {
       result.status = MatchStatus::kTooFewPairs;

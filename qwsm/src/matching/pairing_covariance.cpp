@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Eigen/Core>
+#include <cmath>
+
+#include "pairing.hpp"
+#include "qwsm/matching/pair_error.hpp"
+
+namespace qwsm {
+namespace {
+
+// How a pull at a point moves the pose, H^T g, for arm = R u.
+Eigen::Vector3d PullOnPose(const Eigen::Vector2d& g, const Eigen::Vector2d& arm) {
+  return {g.x(), g.y(), arm.x() * g.y() - arm.y() * g.x()};
+}
+
+// What a pair tells of the position of its scan point, in 1/m^2 and map axes.
+Eigen::Matrix2d PairInformation(const Surface& surface,
+                                const Eigen::Matrix2d& N_map,
+                                double extent_m2) {
+  if (!surface.is_line) return PositionInformation(surface, N_map, extent_m2);
+  const Eigen::Vector2d& n = surface.normal;
+  return n * n.transpose() / DistanceVariance(surface, n.dot(N_map * n), 0.0);
+}
+
+}  // namespace
+
+// A pair as it counts at the pose.
+struct Pairing::CountedPair {
+  const Pair& pair;
+  const ScanPoint& point;
+  Eigen::Vector2d arm;    // R u,
+  Eigen::Matrix2d N_map;  // the point's noise,
+  Eigen::Matrix2d W;      // and what the pair tells of it.
+};
+
+template <class Visit>
+void Pairing::ForEachPair(const Pose2& T_map_cur, Visit visit) const {
+  const Eigen::Matrix2d R = T_map_cur.Rotation();
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Pair& pair = pairs_[i];
+    if (!pair.id) continue;
+    const ScanPoint& point = points_[i];
+    const Eigen::Matrix2d N_map = NoiseInMap(R, point);
+    visit(CountedPair{.pair = pair,
+                      .point = point,
+                      .arm = R * point.p_robot_m,
+                      .N_map = N_map,
+                      .W = pair.weight * PairInformation(pair.surface, N_map, Extent_m2(point))});
+  }
+}
+
+Eigen::Matrix3d Pairing::ConfirmedInformation(const Pose2& T_map_cur) const {
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  const Eigen::Matrix2d R = T_map_cur.Rotation();
+  ForEachPair(T_map_cur, [&](const CountedPair& p) {
+    const Eigen::Vector2d n_scan = R * p.point.normal_robot;
+    if (n_scan.isZero()) {
+      Eigen::Matrix<double, 3, 2> Ht;
+      Ht << PullOnPose(Eigen::Vector2d::UnitX(), p.arm),
+          PullOnPose(Eigen::Vector2d::UnitY(), p.arm);
+      A += Ht * p.W * Ht.transpose();
+      return;
+    }
+    const Eigen::Vector2d n_map = p.pair.surface.is_line ? p.pair.surface.normal : n_scan;
+    const double w = std::copysign(n_map.dot(p.W * n_map), n_map.dot(n_scan));
+    const Eigen::Matrix3d both = PullOnPose(n_map, p.arm) * PullOnPose(n_scan, p.arm).transpose();
+    A += 0.5 * w * (both + both.transpose());
+  });
+  return A;
+}
+
+}  // namespace qwsm
