@@ -12,7 +12,7 @@ constexpr double kReferenceReach_m = 0.2;    // Stored points this near are what
 constexpr double kReferenceSpacing_m = 0.3;  // Enough to tell which scans they came from.
 // Part of what two scans on the same surfaces add to the error is the same: that of the surfaces'
 // shapes. Measured by the NEES of many simulated drives (evaluate_covariance).
-constexpr double kIndependentShare = 0.45;
+constexpr double kIndependentShare = 0.55;
 
 // What is left of a pose's covariance beside that of its reference; nothing is negative.
 FrameCovariance OwnError(const UncertainPose2& map_robot, const FrameCovariance& reference) {

@@ -63,6 +63,9 @@ class Pairing {
   // is not that of the other, so that it does not pass for a hold.
   Eigen::Matrix3d ConfirmedInformation(const Pose2& T_map_cur) const;
 
+  // Covariance of b of the pairs found last, by what the readings miss the surfaces by.
+  Eigen::Matrix3d Scatter(const Pose2& T_map_cur) const;
+
   // A of the pairs found last, were each the nearest sample of the papers.
   Eigen::Matrix3d NearestSampleInformation(const Pose2& T_map_cur) const;
 

@@ -14,6 +14,8 @@ Eigen::Vector3d PullOnPose(const Eigen::Vector2d& g, const Eigen::Vector2d& arm)
   return {g.x(), g.y(), arm.x() * g.y() - arm.y() * g.x()};
 }
 
+Eigen::Matrix3d Square(const Eigen::Vector3d& v) { return v * v.transpose(); }
+
 // What a pair tells of the position of its scan point, in 1/m^2 and map axes.
 Eigen::Matrix2d PairInformation(const Surface& surface,
                                 const Eigen::Matrix2d& N_map,
@@ -68,6 +70,20 @@ Eigen::Matrix3d Pairing::ConfirmedInformation(const Pose2& T_map_cur) const {
     A += 0.5 * w * (both + both.transpose());
   });
   return A;
+}
+
+Eigen::Matrix3d Pairing::Scatter(const Pose2& T_map_cur) const {
+  Eigen::Matrix3d B = Eigen::Matrix3d::Zero();
+  ForEachPair(T_map_cur, [&](const CountedPair& p) {
+    const Surface& surface = p.pair.surface;
+    const Eigen::Vector2d error = surface.mean_m - p.arm - T_map_cur.translation_m();
+    B += Square(PullOnPose(p.W * error, p.arm));
+    if (!surface.is_line || surface.is_sample) return;
+    // How wrong the mean is, which it shares with the readings around, this one does not show.
+    const double noise_of_mean_m2 = surface.normal.dot(p.N_map * surface.normal) / surface.looks;
+    B += noise_of_mean_m2 * Square(PullOnPose(p.W * surface.normal, p.arm));
+  });
+  return B;
 }
 
 }  // namespace qwsm

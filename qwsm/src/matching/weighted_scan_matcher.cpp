@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -20,10 +21,11 @@ constexpr double kMostOfNoise = 4.0;  // Noise of normals passes for up to so ma
 // Takes back what pairs seem to say about a direction of which they say next to nothing: normals of
 // noisy walls are never quite parallel, and their errors would pass for a hold along a corridor
 // (Zhang, Kaess & Singh 2016). Where they may say little, map and scan must agree upon it.
-void DropFalseHold(const Pairing& pairing,
-                   const Pose2& T_ref_cur,
-                   double min_share,
-                   NormalEquations& equations) {
+// @return what of (x, y, theta) is held: all, or a projection on the others.
+Eigen::Matrix3d DropFalseHold(const Pairing& pairing,
+                              const Pose2& T_ref_cur,
+                              double min_share,
+                              NormalEquations& equations) {
   Eigen::Matrix3d& A = equations.A;
   const PositionHold hold = HoldOf(A);
   const bool may_be_noise =
@@ -31,12 +33,13 @@ void DropFalseHold(const Pairing& pairing,
   const bool is_held =
       hold.share() >= min_share &&
       (!may_be_noise || HoldOf(pairing.ConfirmedInformation(T_ref_cur)).share() >= min_share);
-  if (is_held) return;
+  if (is_held) return Eigen::Matrix3d::Identity();
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
   direction.head<2>() = hold.weakest;
   const Eigen::Matrix3d others = Eigen::Matrix3d::Identity() - direction * direction.transpose();
   A = (others * A * others).eval();
   equations.b = (others * equations.b).eval();
+  return others;
 }
 
 // Information of the pairs in real units. Laser and surfaces are better or worse than modelled by
@@ -51,6 +54,19 @@ Eigen::Matrix3d InformationOf(const NormalEquations& equations,
   const double mean_m = equations.sum_of_distances_m / std::max(1, equations.pairs);
   const double sigma_m = std::max(mean_m, options.noise.range_sigma_m);
   return equations.A / (sigma_m * sigma_m);
+}
+
+// The same from the errors that the readings show, pair by pair, where the modelled ones only
+// weigh: A B^-1 A, B being the covariance of b (White 1980). One scale for all pairs lets the many
+// that are better than modelled speak for the few far ones that tell the heading.
+Eigen::Matrix3d InformationByScatter(const NormalEquations& equations,
+                                     const Eigen::Matrix3d& scatter) {
+  const double pairs = equations.sum_of_weights;
+  const Eigen::Matrix3d B =
+      (pairs * scatter + kPairsOfExpectation * equations.A) / (pairs + kPairsOfExpectation);
+  const Eigen::Matrix3d information =
+      equations.A * B.completeOrthogonalDecomposition().pseudoInverse() * equations.A;
+  return 0.5 * (information + information.transpose());
 }
 
 Eigen::Vector3d Difference(const Pose2& a, const Pose2& b) {
@@ -93,11 +109,13 @@ MatchResult WeightedScanMatcher::Match(const SurfaceMap& reference,
   MatchResult result{.status = MatchStatus::kIterationLimit, .T_ref_cur = prior.start};
   const Eigen::Matrix3d prior_information = prior.predicted.covariance.inverse();
   Pairing pairing(reference, points, prior.max_drift_m2, options_);
+  NormalEquations pairs;
+  Eigen::Matrix3d held = Eigen::Matrix3d::Identity();
   Doubt doubt{prior.start_error};
   while (result.iterations < options_.max_iterations) {
     ++result.iterations;
-    NormalEquations pairs = pairing.Linearize(result.T_ref_cur, doubt);
-    DropFalseHold(pairing, result.T_ref_cur, options_.min_information_share, pairs);
+    pairs = pairing.Linearize(result.T_ref_cur, doubt);
+    held = DropFalseHold(pairing, result.T_ref_cur, options_.min_information_share, pairs);
     result.pairs = pairs.pairs;
     if (pairs.pairs < options_.min_pairs) {
       result.status = MatchStatus::kTooFewPairs;
@@ -132,6 +150,10 @@ MatchResult WeightedScanMatcher::Match(const SurfaceMap& reference,
       break;
     }
     doubt.Shrink(options_.annealing_factor);
+  }
+  if (options_.weighting == PairWeighting::kModelled) {
+    const Eigen::Matrix3d scatter = held * pairing.Scatter(result.T_ref_cur) * held;
+    result.information = InformationByScatter(pairs, scatter);
   }
   if (!IsConsistent(result, prior, options_)) result.status = MatchStatus::kInconsistent;
   result.nearest_sample_covariance =
