@@ -87,7 +87,7 @@ TEST_F(BackAtAKnownPlace, StaysWhereItIsBetweenTwoPlacesThatLookAlike) {
   See(ThicketAt(9.0, 2.0));
   const std::vector<ScanPoint> one_thicket = points_;
   World twins = ThicketAt(9.0, 2.0);
-  const World other = ThicketAt(9.0, 4.5);
+  const World other = ThicketAt(9.0, -0.5);
   twins.columns.insert(twins.columns.end(), other.columns.begin(), other.columns.end());
   See(twins);
   points_ = one_thicket;

@@ -99,7 +99,8 @@ struct Attempt {
   const UncertainPose2& estimated;
   double max_drift_m2;  // Of known surfaces.
 
-  // The place where the surroundings fit best, and another one where they fit nearly as well.
+  // The place where the surroundings fit best, and others, near and far, where they fit nearly as
+  // well.
   // None if they fit best where we are anyway.
   std::vector<Pose2> PlacesWithin(double drift_m) const {
     const ReturnOptions& known_places = options.known_places;
@@ -118,12 +119,17 @@ struct Attempt {
     const auto best = search();
     if (!best) return {};
     if (Distance_m(estimated.T_a_b, best->T_map_robot) < kSamePlace_m) return {};
+    std::vector<Pose2> places = {best->T_map_robot};
     window.exclude = best->T_map_robot;
-    window.exclude_m = kSamePlace_m;
     window.min_score = best->score - known_places.uniqueness;
-    const auto rival = search();
-    if (!rival) return {best->T_map_robot};
-    return {best->T_map_robot, rival->T_map_robot};
+    // Around a single thicket many places next to one another fit; another thicket is further away.
+    for (double apart_m = kSamePlace_m; apart_m < 2.0 * window.translation_m; apart_m *= 2.0) {
+      window.exclude_m = apart_m;
+      const auto rival = search();
+      if (!rival) break;
+      places.push_back(rival->T_map_robot);
+    }
+    return places;
   }
 
   MatchResult Match(std::span<const ScanPoint> scan,
@@ -135,6 +141,20 @@ struct Attempt {
                           .start = start,
                           .start_error = {.translation_m = options.search_error_m},
                           .max_drift_m2 = max_drift_m2});
+  }
+
+  // A single thicket holds the way around it and the heading only together. Whether it holds at all
+  // is asked with the heading given, so that nothing of it is dropped here.
+  MatchResult MatchSurroundings(const Pose2& start) const {
+    WeightedScanMatcherOptions undropped = matcher.options();
+    undropped.min_information_share = 0.0;
+    return WeightedScanMatcher(undropped).Match(
+        map,
+        surroundings,
+        {.predicted = estimated,
+         .start = start,
+         .start_error = {.translation_m = options.search_error_m},
+         .max_drift_m2 = max_drift_m2});
   }
 
   // The scan matched where it is expected, if it fits there.
@@ -156,7 +176,7 @@ struct Attempt {
   // places it must be the same pose, unless they turn out not to fit there. How far along a
   // corridor it is, the estimate cannot tell.
   std::optional<UncertainPose2> AgreedFrom(std::span<const Pose2> places) const {
-    const MatchResult best = Match(surroundings, estimated, places.front());
+    const MatchResult best = MatchSurroundings(places.front());
     UncertainPose2 agreed{.T_a_b = best.T_ref_cur, .covariance = best.covariance};
     if (best.status != MatchStatus::kConverged ||
         HoldWithHeadingGiven(best.information) < kMinHold ||
@@ -165,7 +185,7 @@ struct Attempt {
       return std::nullopt;
     }
     for (const Pose2& rival : places.subspan(1)) {
-      const MatchResult other = Match(surroundings, estimated, rival);
+      const MatchResult other = MatchSurroundings(rival);
       const bool fits =
           other.status == MatchStatus::kConverged && other.overlap >= kNearlyAsGood * best.overlap;
       if (fits && Distance_m(best.T_ref_cur, other.T_ref_cur) > kSamePose_m) return std::nullopt;
