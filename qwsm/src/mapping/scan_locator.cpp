@@ -62,14 +62,18 @@ MatchResult ScanLocator::Locate(const ScanMap& map,
                       ThinOut(points, options_.search_spacing_m), predicted.T_a_b)),
                   .seen_free = seen_free};
   const double sigmas = options_.window_sigmas;
+  const auto fits = [this](const MatchResult& match, double min_overlap) {
+    return match.overlap >= min_overlap && match.misfit <= options_.max_misfit;
+  };
 
   const auto near = task.Search(predicted, options_.narrow_share * sigmas);
   const MatchResult narrow = task.Match(near, predicted);
-  if (narrow.overlap >= options_.confident_overlap) return narrow;
+  const bool is_likely = near && near->score >= options_.confident_score;
+  if (is_likely && fits(narrow, options_.confident_overlap)) return narrow;
 
   const auto better = task.Search(predicted, sigmas, near ? near->score : 0.0);
   const MatchResult full = better ? task.Match(better, predicted) : narrow;
-  if (full.overlap >= options_.widen_below_overlap) return full;
+  if (fits(full, options_.widen_below_overlap)) return full;
 
   const UncertainPose2 doubted = predicted.Widened(options_.widen_factor);
   const MatchResult wide = task.Match(task.Search(doubted, sigmas), doubted);

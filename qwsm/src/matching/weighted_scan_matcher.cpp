@@ -42,14 +42,18 @@ Eigen::Matrix3d DropFalseHold(const Pairing& pairing,
   return others;
 }
 
+// How well the pairs fit, beside what the error model expects.
+double MisfitOf(const NormalEquations& equations) {
+  return (equations.sum_of_misfits + kPairsOfExpectation) /
+         (equations.sum_of_weights + kPairsOfExpectation);
+}
+
 // Information of the pairs in real units. Laser and surfaces are better or worse than modelled by
 // as much as the pairs fit; identity weights know no units, and the residuals give them.
 Eigen::Matrix3d InformationOf(const NormalEquations& equations,
                               const WeightedScanMatcherOptions& options) {
   if (options.weighting == PairWeighting::kModelled) {
-    const double misfit = (equations.sum_of_misfits + kPairsOfExpectation) /
-                          (equations.sum_of_weights + kPairsOfExpectation);
-    return equations.A / misfit;
+    return equations.A / MisfitOf(equations);
   }
   const double mean_m = equations.sum_of_distances_m / std::max(1, equations.pairs);
   const double sigma_m = std::max(mean_m, options.noise.range_sigma_m);
@@ -123,6 +127,7 @@ MatchResult WeightedScanMatcher::Match(const SurfaceMap& reference,
     }
     result.mean_residual_m = pairs.sum_of_distances_m / pairs.pairs;
     result.overlap = static_cast<double>(pairs.inliers) / static_cast<double>(points.size());
+    result.misfit = MisfitOf(pairs);
     result.information = InformationOf(pairs, options_);
 
     // Fuse pairs and prediction, each by its information.

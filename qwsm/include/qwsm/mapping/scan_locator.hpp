@@ -20,6 +20,8 @@ struct ScanLocatorOptions {
   ReturnOptions known_places;
   double narrow_share = 0.25;
   double confident_overlap = 0.9;
+  double confident_score = 0.8;
+  double max_misfit = 2.0;
   double search_spacing_m = 0.12;
   double search_error_m = 0.022;
   double window_sigmas = 3.0;
@@ -41,6 +43,14 @@ void Describe(Visitor& visit, ScanLocatorOptions& o) {
   visit("confident_overlap",
         o.confident_overlap,
         {.help = "and all of it where less of the scan agrees with the map", .min = 0, .max = 1});
+  visit("confident_score",
+        o.confident_score,
+        {.help = "... or where the pose that the search found scores less", .min = 0, .max = 1});
+  visit("max_misfit",
+        o.max_misfit,
+        {.help = "search further where pairs' squared errors are this many times the modelled",
+         .min = 0.1,
+         .max = 1000});
   visit("search_spacing_m",
         o.search_spacing_m,
         {.help = "points of the scan this near count once in searches", .min = 0, .max = 10});
@@ -69,8 +79,9 @@ class ScanLocator {
 
   /// Searches around the prediction, then matches from the best pose found. The window is narrow
   /// first, for most predictions are better than their worst case; as wide as the prediction is
-  /// uncertain where not nearly all of the scan is explained; and wider still where little of it
-  /// is, for then odometry has jumped or slipped.
+  /// uncertain where not nearly all of the scan is explained or the pose found is not likely; and
+  /// wider still where little of it is explained or it fits badly, for then odometry has jumped or
+  /// slipped, or the pose is that of a neighbouring minimum.
   ///
   /// @param predicted pose of the robot in the map.
   /// @param seen_free what ends there has moved and is left out of the match.

@@ -36,6 +36,7 @@ struct [[nodiscard]] MatchResult {
   int pairs = 0;
   double mean_residual_m = 0.0;  ///< Mean distance of a point to its nearest stored point.
   double overlap = 0.0;          ///< Share of the scan's points that agree with the reference.
+  double misfit = 1.0;  ///< Mean squared error of a pair, in units of its modelled variance.
 };
 
 /// How well the pairs of a match hold a position.
