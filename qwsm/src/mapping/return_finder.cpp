@@ -56,12 +56,11 @@ std::uint8_t SmallestDriftAround(const LikelihoodPyramid& map,
   constexpr int kStride = 1 << LikelihoodTile::DriftShiftOf(kLevel);
   const double cells = reach_m / (kStride * map.cell_size_m());
   const int reach = kStride * std::max(1, static_cast<int>(std::lround(cells)));
+  const GridCell center = map.CellAt(p_map);
   std::uint8_t smallest = LikelihoodPyramid::kUnmapped;
   for (int dy = -reach; dy <= reach; dy += kStride) {
     for (int dx = -reach; dx <= reach; dx += kStride) {
-      smallest = std::min(
-          smallest,
-          map.DriftCodeAt(kLevel, map.CellIndex(p_map.x()) + dx, map.CellIndex(p_map.y()) + dy));
+      smallest = std::min(smallest, map.DriftCodeAt(kLevel, center.x + dx, center.y + dy));
     }
   }
   return smallest;
@@ -132,15 +131,11 @@ struct Attempt {
     return places;
   }
 
-  MatchResult Match(std::span<const ScanPoint> scan,
-                    const UncertainPose2& expected,
-                    const Pose2& start) const {
-    return matcher.Match(map,
-                         scan,
-                         {.predicted = expected,
-                          .start = start,
-                          .start_error = {.translation_m = options.search_error_m},
-                          .max_drift_m2 = max_drift_m2});
+  MatchPrior PriorOf(const UncertainPose2& expected, const Pose2& start) const {
+    return {.predicted = expected,
+            .start = start,
+            .start_error = {.translation_m = options.search_error_m},
+            .max_drift_m2 = max_drift_m2};
   }
 
   // A single thicket holds the way around it and the heading only together. Whether it holds at all
@@ -148,18 +143,12 @@ struct Attempt {
   MatchResult MatchSurroundings(const Pose2& start) const {
     WeightedScanMatcherOptions undropped = matcher.options();
     undropped.min_information_share = 0.0;
-    return WeightedScanMatcher(undropped).Match(
-        map,
-        surroundings,
-        {.predicted = estimated,
-         .start = start,
-         .start_error = {.translation_m = options.search_error_m},
-         .max_drift_m2 = max_drift_m2});
+    return WeightedScanMatcher(undropped).Match(map, surroundings, PriorOf(estimated, start));
   }
 
   // The scan matched where it is expected, if it fits there.
   std::optional<MatchResult> Fitting(const UncertainPose2& expected) const {
-    const MatchResult match = Match(points, expected, expected.T_a_b);
+    const MatchResult match = matcher.Match(map, points, PriorOf(expected, expected.T_a_b));
     const bool fits = match.status == MatchStatus::kConverged &&
                       match.overlap >= options.known_places.min_overlap;
     return fits ? std::optional(match) : std::nullopt;

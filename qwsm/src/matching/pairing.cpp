@@ -55,7 +55,7 @@ void NormalEquations::AddLine(double information,
                               const Eigen::Vector2d& normal,
                               double error_m,
                               const Eigen::Vector2d& arm) {
-  const Eigen::Vector3d h(normal.x(), normal.y(), arm.x() * normal.y() - arm.y() * normal.x());
+  const Eigen::Vector3d h = PullOnPose(normal, arm);
   const Eigen::Vector3d weighted = information * h;
   A.noalias() += weighted * h.transpose();
   b += weighted * error_m;

@@ -24,6 +24,12 @@ struct Doubt {
   void Shrink(double factor);
 };
 
+// How a pull at a point moves the pose, H^T g, for arm = R u: H = [ I | J R u ] is the derivative
+// of R u + t by (x, y, theta).
+inline Eigen::Vector3d PullOnPose(const Eigen::Vector2d& g, const Eigen::Vector2d& arm) {
+  return {g.x(), g.y(), arm.x() * g.y() - arm.y() * g.x()};
+}
+
 // Normal equations of the weighted least squares, A step = b, for a step of (x, y, theta).
 struct NormalEquations {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();

@@ -9,11 +9,6 @@
 namespace qwsm {
 namespace {
 
-// How a pull at a point moves the pose, H^T g, for arm = R u.
-Eigen::Vector3d PullOnPose(const Eigen::Vector2d& g, const Eigen::Vector2d& arm) {
-  return {g.x(), g.y(), arm.x() * g.y() - arm.y() * g.x()};
-}
-
 Eigen::Matrix3d Square(const Eigen::Vector3d& v) { return v * v.transpose(); }
 
 // What a pair tells of the position of its scan point, in 1/m^2 and map axes.
@@ -53,23 +48,19 @@ void Pairing::ForEachPair(const Pose2& T_map_cur, Visit visit) const {
 }
 
 Eigen::Matrix3d Pairing::ConfirmedInformation(const Pose2& T_map_cur) const {
-  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  NormalEquations equations;
   const Eigen::Matrix2d R = T_map_cur.Rotation();
   ForEachPair(T_map_cur, [&](const CountedPair& p) {
     const Eigen::Vector2d n_scan = R * p.point.normal_robot;
     if (n_scan.isZero()) {
-      Eigen::Matrix<double, 3, 2> Ht;
-      Ht << PullOnPose(Eigen::Vector2d::UnitX(), p.arm),
-          PullOnPose(Eigen::Vector2d::UnitY(), p.arm);
-      A += Ht * p.W * Ht.transpose();
-      return;
+      return equations.AddPoint(p.W, Eigen::Vector2d::Zero(), p.arm);
     }
     const Eigen::Vector2d n_map = p.pair.surface.is_line ? p.pair.surface.normal : n_scan;
     const double w = std::copysign(n_map.dot(p.W * n_map), n_map.dot(n_scan));
     const Eigen::Matrix3d both = PullOnPose(n_map, p.arm) * PullOnPose(n_scan, p.arm).transpose();
-    A += 0.5 * w * (both + both.transpose());
+    equations.A += 0.5 * w * (both + both.transpose());
   });
-  return A;
+  return equations.A;
 }
 
 Eigen::Matrix3d Pairing::Scatter(const Pose2& T_map_cur) const {

@@ -17,14 +17,15 @@ LikelihoodWindow::LikelihoodWindow(const LikelihoodPyramid& pyramid,
                                    std::uint8_t max_drift_code)
     : first_tile_{low.x >> Tile::kBits, low.y >> Tile::kBits},
       size_{(high.x >> Tile::kBits) - first_tile_.x + 1,
-            (high.y >> Tile::kBits) - first_tile_.y + 1},
-      tiles_(pyramid.FindTiles(first_tile_, size_)) {
+            (high.y >> Tile::kBits) - first_tile_.y + 1} {
+  const std::vector<const Tile*> tiles = pyramid.FindTiles(first_tile_, size_);
   for (int level = 0; level < Tile::kLevels; ++level) {
     planes_.emplace_back(Tile::kSide >> Tile::ShiftOf(level), size_);
-    ForEachTile(
-        [&](const Tile& tile, GridCell at) { planes_.back().Place(tile.likelihoods(level), at); });
+    ForEachTile(tiles, [&](const Tile& tile, GridCell at) {
+      planes_.back().Place(tile.likelihoods(level), at);
+    });
   }
-  if (max_drift_code != LikelihoodPyramid::kUnmapped) ForgetDrifted(max_drift_code);
+  if (max_drift_code != LikelihoodPyramid::kUnmapped) ForgetDrifted(tiles, max_drift_code);
 }
 
 LikelihoodWindow::BlockSums LikelihoodWindow::SumsOfBlock(std::span<const GridCell> cells,
@@ -52,20 +53,22 @@ LikelihoodWindow::BlockSums LikelihoodWindow::SumsOfBlock(std::span<const GridCe
 }
 
 template <class Visit>
-void LikelihoodWindow::ForEachTile(Visit visit) const {
-  auto tile = tiles_.begin();
+void LikelihoodWindow::ForEachTile(std::span<const Tile* const> tiles, Visit visit) const {
+  auto tile = tiles.begin();
   for (int row = 0; row < size_.y; ++row) {
     for (int column = 0; column < size_.x; ++column, ++tile) visit(**tile, GridCell{column, row});
   }
 }
 
 // Sets the likelihood of cells to 0 that no surface with little drift is in.
-void LikelihoodWindow::ForgetDrifted(std::uint8_t max_drift_code) {
+void LikelihoodWindow::ForgetDrifted(std::span<const Tile* const> tiles,
+                                     std::uint8_t max_drift_code) {
   for (int level = 0; level < Tile::kLevels; ++level) {
     const int shift = Tile::ShiftOf(level);
     const int drift_shift = Tile::DriftShiftOf(level);
     Plane drift(Tile::kSide >> drift_shift, size_);
-    ForEachTile([&](const Tile& tile, GridCell at) { drift.Place(tile.drift_codes(level), at); });
+    ForEachTile(tiles,
+                [&](const Tile& tile, GridCell at) { drift.Place(tile.drift_codes(level), at); });
     // Drift cells that hold the level-0 cells a cell is the maximum over.
     const auto first_of = [&](int cell) { return (cell << shift) >> drift_shift; };
     const auto last_of = [&](int cell) {

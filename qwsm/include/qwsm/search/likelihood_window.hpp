@@ -62,7 +62,7 @@ class LikelihoodWindow {
     const std::uint8_t* RowAt(int x, int y) const {
       return &cells[static_cast<std::size_t>(y * width + x)];
     }
-    std::uint8_t At(int x, int y) const { return cells[static_cast<std::size_t>(y * width + x)]; }
+    std::uint8_t At(int x, int y) const { return *RowAt(x, y); }
     std::uint8_t& At(int x, int y) { return cells[static_cast<std::size_t>(y * width + x)]; }
     void Place(const std::uint8_t* tile, GridCell at);
     std::uint8_t Smallest(GridCell low, GridCell high) const;
@@ -74,13 +74,12 @@ class LikelihoodWindow {
   };
 
   template <class Visit>
-  void ForEachTile(Visit visit) const;
-  void ForgetDrifted(std::uint8_t max_drift_code);
+  void ForEachTile(std::span<const LikelihoodTile* const> tiles, Visit visit) const;
+  void ForgetDrifted(std::span<const LikelihoodTile* const> tiles, std::uint8_t max_drift_code);
 
-  GridCell first_tile_;                       // Column and row,
-  GridCell size_;                             // and how many columns and rows.
-  std::vector<const LikelihoodTile*> tiles_;  // Row after row.
-  std::vector<Plane> planes_;                 // By level.
+  GridCell first_tile_;        // Column and row,
+  GridCell size_;              // and how many columns and rows.
+  std::vector<Plane> planes_;  // By level.
 };
 
 }  // namespace qwsm
