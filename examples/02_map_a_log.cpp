@@ -8,8 +8,8 @@
 #include <iostream>
 
 #include "qwsm/mapping/mapper.hpp"
-#include "service/io/log_reader.hpp"
-#include "service/io/trajectory_file.hpp"
+#include "service/io/logs/log_reader.hpp"
+#include "service/io/trajectories/trajectory_file.hpp"
 
 namespace {
 

@@ -46,7 +46,7 @@ MatcherKind MatcherNamed(const std::string& name) {
                                config::DidYouMean(name, names)));
 }
 
-io::LogOptions LogOptionsOf(const config::LogOptions& options) {
+io::LogOptions LogOptionsOf(const options::LogOptions& options) {
   io::LogOptions log;
   log.strict = options.strict;
   if (options.range_max_m > 0.0) log.range_max_m = static_cast<float>(options.range_max_m);

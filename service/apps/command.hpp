@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "service/config/options_io.hpp"
-#include "service/config/program_options.hpp"
-#include "service/io/log_reader.hpp"
+#include "service/io/logs/log_reader.hpp"
+#include "service/options/program_options.hpp"
 
 namespace qwsm::apps {
 
@@ -52,7 +52,7 @@ void AddVerbosity(CLI::App& parser, Verbosity& verbosity, const std::string& jso
 MatcherKind MatcherNamed(const std::string& name);
 
 /// How logs are read; their faults become messages.
-io::LogOptions LogOptionsOf(const config::LogOptions& options);
+io::LogOptions LogOptionsOf(const options::LogOptions& options);
 
 // One per command, each in a file of its own.
 Command AddMapCommand(CLI::App& program);

@@ -8,8 +8,8 @@
 #include "service/apps/command.hpp"
 #include "service/apps/messages.hpp"
 #include "service/apps/run_session.hpp"
-#include "service/pipeline/comparison_report.hpp"
-#include "service/pipeline/matcher_contest.hpp"
+#include "service/pipeline/evaluation/comparison_report.hpp"
+#include "service/pipeline/evaluation/matcher_contest.hpp"
 
 namespace qwsm::apps {
 namespace {
@@ -19,7 +19,7 @@ constexpr std::array kMatchers = {MatcherKind::kQWsm, MatcherKind::kWsm, Matcher
 
 ExitCode RunCompare(const RunArguments& arguments) {
   StartMessages(arguments.verbosity);
-  const auto options = config::LoadOptions<config::ProgramOptions>(arguments.sources);
+  const auto options = config::LoadOptions<options::ProgramOptions>(arguments.sources);
   const auto source = OpenLogs(arguments, options.log);
   if (arguments.dry_run) return TellPlan("compare matchers on", arguments);
 

@@ -12,7 +12,7 @@ namespace qwsm::apps {
 namespace {
 
 using config::OptionSources;
-using config::ProgramOptions;
+using options::ProgramOptions;
 
 struct ConfigArguments {
   std::vector<std::filesystem::path> files;

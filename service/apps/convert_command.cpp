@@ -12,9 +12,9 @@
 
 #include "service/apps/command.hpp"
 #include "service/apps/messages.hpp"
-#include "service/io/atomic_file.hpp"
-#include "service/io/carmen_writer.hpp"
-#include "service/io/trajectory_file.hpp"
+#include "service/io/files/atomic_file.hpp"
+#include "service/io/logs/carmen_writer.hpp"
+#include "service/io/trajectories/trajectory_file.hpp"
 
 namespace qwsm::apps {
 namespace {
@@ -61,7 +61,7 @@ RecordWriter MakeWriter(const std::string& format, std::ostream& stream) {
 }
 
 void Convert(const ConvertArguments& arguments, std::ostream& stream) {
-  const auto options = config::LoadOptions<config::ProgramOptions>(arguments.sources);
+  const auto options = config::LoadOptions<options::ProgramOptions>(arguments.sources);
   const RecordWriter write = MakeWriter(arguments.format, stream);
   for (const fs::path& log : arguments.logs) {
     const std::unique_ptr<io::LogReader> reader = io::OpenLog(log, LogOptionsOf(options.log));

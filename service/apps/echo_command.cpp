@@ -14,10 +14,10 @@
 
 #include "service/apps/command.hpp"
 #include "service/apps/network.hpp"
-#include "service/dds/match_report_reader.hpp"
-#include "service/io/atomic_file.hpp"
-#include "service/io/trajectory_file.hpp"
-#include "service/pipeline/interruption.hpp"
+#include "service/dds/robot/match_report_reader.hpp"
+#include "service/io/files/atomic_file.hpp"
+#include "service/io/trajectories/trajectory_file.hpp"
+#include "service/pipeline/run/interruption.hpp"
 #include "service/team/team_status.hpp"
 
 namespace qwsm::apps {

@@ -12,7 +12,7 @@
 
 #include "qwsm/geometry/angle.hpp"
 #include "service/apps/command.hpp"
-#include "service/pipeline/evaluation.hpp"
+#include "service/pipeline/evaluation/evaluation.hpp"
 
 namespace qwsm::apps {
 namespace {

@@ -14,9 +14,9 @@
 #include "service/apps/messages.hpp"
 #include "service/apps/run_session.hpp"
 #include "service/apps/scenario_arguments.hpp"
-#include "service/io/atomic_file.hpp"
-#include "service/pipeline/experiment_report.hpp"
-#include "service/pipeline/simulator_source.hpp"
+#include "service/io/files/atomic_file.hpp"
+#include "service/pipeline/evaluation/experiment_report.hpp"
+#include "service/pipeline/simulation/simulator_source.hpp"
 
 namespace qwsm::apps {
 namespace {
@@ -51,7 +51,7 @@ void CopyFigures(const fs::path& seed, const fs::path& folder) {
 }
 
 Experiment RunSeeds(const ExperimentArguments& arguments,
-                    const config::ProgramOptions& options,
+                    const options::ProgramOptions& options,
                     const RunSession& session) {
   Experiment experiment;
   sim::ScenarioOptions scenario = LoadScenario(arguments.scenario);
@@ -75,7 +75,7 @@ Experiment RunSeeds(const ExperimentArguments& arguments,
 ExitCode RunExperiment(ExperimentArguments arguments) {
   StartMessages(arguments.run.verbosity);
   arguments.scenario.settings = TakeScenarioSettings(arguments.run.sources.settings);
-  const auto options = config::LoadOptions<config::ProgramOptions>(arguments.run.sources);
+  const auto options = config::LoadOptions<options::ProgramOptions>(arguments.run.sources);
   LoadScenario(arguments.scenario);  // So that nothing is left behind where it is wrong.
   if (arguments.run.dry_run) {
     arguments.run.logs = {arguments.scenario.scenario};

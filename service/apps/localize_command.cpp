@@ -14,8 +14,8 @@
 #include "service/apps/command.hpp"
 #include "service/apps/messages.hpp"
 #include "service/apps/run_session.hpp"
-#include "service/io/map_file.hpp"
-#include "service/pipeline/results_writer.hpp"
+#include "service/io/maps/map_file.hpp"
+#include "service/pipeline/results/results_writer.hpp"
 
 namespace qwsm::apps {
 namespace {
@@ -27,8 +27,8 @@ struct LocalizeArguments {
 };
 
 /// The options of the run; of the map, those it was made with.
-config::ProgramOptions LoadOptions(const LocalizeArguments& arguments, const ScanMap& map) {
-  auto options = config::LoadOptions<config::ProgramOptions>(arguments.run.sources);
+options::ProgramOptions LoadOptions(const LocalizeArguments& arguments, const ScanMap& map) {
+  auto options = config::LoadOptions<options::ProgramOptions>(arguments.run.sources);
   if (options.mapper.matcher != MatcherKind::kQWsm) {
     throw UsageError("localize needs the matcher q-wsm: the others forget the map");
   }
@@ -72,7 +72,7 @@ ExitCode RunLocalize(const LocalizeArguments& arguments) {
   StartMessages(arguments.run.verbosity);
   ScanMap map = io::LoadMap(arguments.map);
   if (map.empty()) throw UsageError(arguments.map.string() + ": is a map without scans");
-  const config::ProgramOptions options = LoadOptions(arguments, map);
+  const options::ProgramOptions options = LoadOptions(arguments, map);
   const auto source = OpenLogs(arguments.run, options.log);
   const UncertainPose2 start = FindStart(arguments, map, source->Peek()->scan);
   if (arguments.run.dry_run) return TellPlan("localize", arguments.run);

@@ -14,10 +14,10 @@
 #include "service/apps/run_session.hpp"
 #include "service/apps/scenario_arguments.hpp"
 #include "service/config/suggestion.hpp"
-#include "service/io/atomic_file.hpp"
-#include "service/io/map_file.hpp"
-#include "service/pipeline/results_writer.hpp"
-#include "service/pipeline/simulator_source.hpp"
+#include "service/io/files/atomic_file.hpp"
+#include "service/io/maps/map_file.hpp"
+#include "service/pipeline/results/results_writer.hpp"
+#include "service/pipeline/simulation/simulator_source.hpp"
 
 namespace qwsm::apps {
 namespace {
@@ -32,8 +32,8 @@ struct MapArguments {
   bool is_simulated() const { return !simulated.scenario.empty(); }
 };
 
-config::ProgramOptions LoadOptions(const MapArguments& arguments) {
-  auto options = config::LoadOptions<config::ProgramOptions>(arguments.run.sources);
+options::ProgramOptions LoadOptions(const MapArguments& arguments) {
+  auto options = config::LoadOptions<options::ProgramOptions>(arguments.run.sources);
   if (arguments.matcher) options.mapper.matcher = MatcherNamed(*arguments.matcher);
   if (arguments.save_map && options.mapper.matcher != MatcherKind::kQWsm) {
     throw UsageError("--save-map needs the matcher q-wsm: the others forget what they have seen");
@@ -73,7 +73,7 @@ struct Origin {
   std::optional<sim::ScenarioOptions> scenario;
 };
 
-Origin OpenOrigin(const MapArguments& arguments, const config::LogOptions& log) {
+Origin OpenOrigin(const MapArguments& arguments, const options::LogOptions& log) {
   if (!arguments.is_simulated()) return {.source = OpenLogs(arguments.run, log), .scenario = {}};
   const sim::ScenarioOptions scenario = LoadScenario(arguments.simulated);
   const std::size_t robot = RobotNamed(arguments.robot, scenario);
@@ -87,7 +87,7 @@ ExitCode RunMap(MapArguments arguments) {
   if (arguments.is_simulated()) {
     arguments.simulated.settings = TakeScenarioSettings(arguments.run.sources.settings);
   }
-  const config::ProgramOptions options = LoadOptions(arguments);
+  const options::ProgramOptions options = LoadOptions(arguments);
   const Origin origin = OpenOrigin(arguments, options.log);
   if (arguments.run.dry_run) {
     if (arguments.is_simulated()) arguments.run.logs = {arguments.simulated.scenario};

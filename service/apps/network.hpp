@@ -3,11 +3,11 @@
 #pragma once
 
 #include "service/apps/network_session.hpp"
-#include "service/config/program_options.hpp"
+#include "service/options/program_options.hpp"
 
 namespace qwsm::apps {
 
 /// Of the program qwsm.
-using NetworkSession = BasicNetworkSession<config::ProgramOptions>;
+using NetworkSession = BasicNetworkSession<options::ProgramOptions>;
 
 }  // namespace qwsm::apps

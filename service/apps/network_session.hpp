@@ -9,7 +9,7 @@
 #include "service/apps/command.hpp"
 #include "service/apps/messages.hpp"
 #include "service/config/loader.hpp"
-#include "service/dds/middleware_messages.hpp"
+#include "service/dds/entities/middleware_messages.hpp"
 
 namespace qwsm::apps {
 

@@ -14,7 +14,7 @@
 #include "service/apps/help_formatter.hpp"
 #include "service/apps/version.hpp"
 #include "service/config/suggestion.hpp"
-#include "service/io/atomic_file.hpp"
+#include "service/io/files/atomic_file.hpp"
 
 namespace qwsm::apps {
 namespace {

@@ -11,10 +11,10 @@
 
 #include "service/apps/command.hpp"
 #include "service/apps/network.hpp"
-#include "service/dds/robot_feed.hpp"
-#include "service/io/atomic_file.hpp"
-#include "service/pipeline/interruption.hpp"
-#include "service/pipeline/scan_recorder.hpp"
+#include "service/dds/robot/robot_feed.hpp"
+#include "service/io/files/atomic_file.hpp"
+#include "service/pipeline/network/scan_recorder.hpp"
+#include "service/pipeline/run/interruption.hpp"
 
 namespace qwsm::apps {
 namespace {

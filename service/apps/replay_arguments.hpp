@@ -10,8 +10,8 @@
 #include <string>
 
 #include "service/apps/command.hpp"
-#include "service/dds/wire_kind.hpp"
-#include "service/pipeline/network_replay.hpp"
+#include "service/dds/wire/wire_kind.hpp"
+#include "service/pipeline/network/network_replay.hpp"
 
 namespace qwsm::apps {
 

@@ -7,7 +7,7 @@
 #include "service/apps/command.hpp"
 #include "service/apps/network.hpp"
 #include "service/apps/replay_arguments.hpp"
-#include "service/pipeline/log_source.hpp"
+#include "service/pipeline/run/log_source.hpp"
 
 namespace qwsm::apps {
 namespace {

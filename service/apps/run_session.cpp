@@ -10,11 +10,11 @@
 
 #include "service/apps/messages.hpp"
 #include "service/apps/version.hpp"
-#include "service/io/atomic_file.hpp"
-#include "service/pipeline/interruption.hpp"
-#include "service/pipeline/json_lines_sink.hpp"
-#include "service/pipeline/progress_display.hpp"
-#include "service/pipeline/run_report.hpp"
+#include "service/io/files/atomic_file.hpp"
+#include "service/pipeline/results/json_lines_sink.hpp"
+#include "service/pipeline/results/run_report.hpp"
+#include "service/pipeline/run/interruption.hpp"
+#include "service/pipeline/run/progress_display.hpp"
 
 namespace qwsm::apps {
 
@@ -41,7 +41,7 @@ void AddResultArguments(CLI::App& parser, RunArguments& arguments, const std::st
 }
 
 std::unique_ptr<LogSource> OpenLogs(const RunArguments& arguments,
-                                    const config::LogOptions& options) {
+                                    const options::LogOptions& options) {
   auto source = std::make_unique<LogSource>(arguments.logs, LogOptionsOf(options));
   if (source->Peek() == nullptr) {
     throw UsageError("there is no scan in " + arguments.logs.front().string());
@@ -58,7 +58,7 @@ ExitCode TellPlan(const std::string& what, const RunArguments& arguments) {
   return ExitCode::kDone;
 }
 
-RunSession::RunSession(const RunArguments& arguments, const config::ProgramOptions& options)
+RunSession::RunSession(const RunArguments& arguments, const options::ProgramOptions& options)
     : verbosity_(arguments.verbosity),
       folder_(arguments.output ? ResultsFolder(*arguments.output, arguments.force)
                                : ResultsFolder::ForNow("results")) {

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "service/apps/command.hpp"
-#include "service/pipeline/log_source.hpp"
-#include "service/pipeline/replay.hpp"
-#include "service/pipeline/results_folder.hpp"
-#include "service/pipeline/results_writer.hpp"
+#include "service/pipeline/results/results_folder.hpp"
+#include "service/pipeline/results/results_writer.hpp"
+#include "service/pipeline/run/log_source.hpp"
+#include "service/pipeline/run/replay.hpp"
 
 namespace qwsm::apps {
 
@@ -38,7 +38,7 @@ void AddResultArguments(CLI::App& parser, RunArguments& arguments, const std::st
 
 /// Opens the logs. @throws std::runtime_error where one is no log, or there is no scan in them.
 std::unique_ptr<pipeline::LogSource> OpenLogs(const RunArguments& arguments,
-                                              const config::LogOptions& options);
+                                              const options::LogOptions& options);
 
 /// Tells what would have been done, for --dry-run.
 ExitCode TellPlan(const std::string& what, const RunArguments& arguments);
@@ -47,7 +47,7 @@ ExitCode TellPlan(const std::string& what, const RunArguments& arguments);
 class RunSession {
  public:
   /// @throws io::WriteError where the folder cannot be had.
-  RunSession(const RunArguments& arguments, const config::ProgramOptions& options);
+  RunSession(const RunArguments& arguments, const options::ProgramOptions& options);
 
   const pipeline::ResultsFolder& folder() const { return folder_; }
 

@@ -6,7 +6,7 @@
 
 #include "service/config/options_io.hpp"
 #include "service/config/scenario_file.hpp"
-#include "service/pipeline/command_log.hpp"
+#include "service/pipeline/simulation/command_log.hpp"
 
 namespace qwsm::apps {
 

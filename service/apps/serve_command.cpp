@@ -11,11 +11,11 @@
 #include "service/apps/network.hpp"
 #include "service/apps/serving.hpp"
 #include "service/apps/version.hpp"
-#include "service/dds/team_inbox.hpp"
-#include "service/dds/team_outbox.hpp"
-#include "service/pipeline/team_log.hpp"
-#include "service/pipeline/team_results.hpp"
-#include "service/pipeline/team_sinks.hpp"
+#include "service/dds/service/team_inbox.hpp"
+#include "service/dds/service/team_outbox.hpp"
+#include "service/pipeline/team/team_log.hpp"
+#include "service/pipeline/team/team_results.hpp"
+#include "service/pipeline/team/team_sinks.hpp"
 #include "service/team/team_service.hpp"
 
 namespace qwsm::apps {
@@ -25,7 +25,7 @@ namespace {
 class Server {
  public:
   Server(const ServeArguments& arguments,
-         const config::ProgramOptions& options,
+         const options::ProgramOptions& options,
          const std::optional<pipeline::ResultsFolder>& folder)
       : refusals_([](const std::string& text) { spdlog::warn("{}", text); }),
         participant_(options.network),

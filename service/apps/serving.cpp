@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "service/io/atomic_file.hpp"
+#include "service/io/files/atomic_file.hpp"
 
 namespace qwsm::apps {
 

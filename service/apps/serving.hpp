@@ -12,8 +12,8 @@
 
 #include "service/apps/network_session.hpp"
 #include "service/apps/service_manager.hpp"
-#include "service/pipeline/interruption.hpp"
-#include "service/pipeline/results_folder.hpp"
+#include "service/pipeline/results/results_folder.hpp"
+#include "service/pipeline/run/interruption.hpp"
 #include "service/team/team_status.hpp"
 
 namespace qwsm::apps {

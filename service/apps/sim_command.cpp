@@ -14,13 +14,13 @@
 #include "service/apps/scenario_arguments.hpp"
 #include "service/apps/version.hpp"
 #include "service/config/options_io.hpp"
-#include "service/dds/middleware_messages.hpp"
-#include "service/io/atomic_file.hpp"
-#include "service/pipeline/interruption.hpp"
-#include "service/pipeline/network_robot.hpp"
-#include "service/pipeline/results_folder.hpp"
-#include "service/pipeline/simulation_report.hpp"
-#include "service/pipeline/simulation_run.hpp"
+#include "service/dds/entities/middleware_messages.hpp"
+#include "service/io/files/atomic_file.hpp"
+#include "service/pipeline/network/network_robot.hpp"
+#include "service/pipeline/results/results_folder.hpp"
+#include "service/pipeline/run/interruption.hpp"
+#include "service/pipeline/simulation/simulation_report.hpp"
+#include "service/pipeline/simulation/simulation_run.hpp"
 
 namespace qwsm::apps {
 namespace {

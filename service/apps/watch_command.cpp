@@ -13,11 +13,11 @@
 
 #include "service/apps/command.hpp"
 #include "service/apps/network.hpp"
-#include "service/dds/match_report_reader.hpp"
-#include "service/io/atomic_file.hpp"
-#include "service/pipeline/interruption.hpp"
-#include "service/pipeline/progress_display.hpp"
-#include "service/pipeline/team_table.hpp"
+#include "service/dds/robot/match_report_reader.hpp"
+#include "service/io/files/atomic_file.hpp"
+#include "service/pipeline/run/interruption.hpp"
+#include "service/pipeline/run/progress_display.hpp"
+#include "service/pipeline/team/team_table.hpp"
 
 namespace qwsm::apps {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "service/io/cloud_codec.hpp"
+#include "service/io/clouds/cloud_codec.hpp"
 
 namespace qwsm::team {
 namespace {

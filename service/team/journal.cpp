@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "service/io/atomic_file.hpp"
+#include "service/io/files/atomic_file.hpp"
 
 namespace qwsm::team {
 namespace {

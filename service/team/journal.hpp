@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "service/io/journal_file.hpp"
+#include "service/io/journal/journal_file.hpp"
 #include "service/team/team_status.hpp"
 
 namespace qwsm::team {

@@ -8,7 +8,7 @@
 #include <random>
 #include <utility>
 
-#include "service/io/binary.hpp"
+#include "service/io/files/binary.hpp"
 
 namespace qwsm::team {
 

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "service/io/scan_codec.hpp"
+#include "service/io/journal/scan_codec.hpp"
 
 namespace qwsm::team {
 namespace {

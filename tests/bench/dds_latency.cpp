@@ -17,9 +17,9 @@
 #include <thread>
 #include <vector>
 
-#include "service/dds/match_report_reader.hpp"
-#include "service/dds/robot_publisher.hpp"
-#include "service/pipeline/log_source.hpp"
+#include "service/dds/robot/match_report_reader.hpp"
+#include "service/dds/robot/robot_publisher.hpp"
+#include "service/pipeline/run/log_source.hpp"
 
 namespace {
 

@@ -16,7 +16,7 @@
 #include <nanoflann.hpp>
 #pragma GCC diagnostic pop
 
-#include "service/io/uos_scan.hpp"
+#include "service/io/clouds/uos_scan.hpp"
 #include "slam6d/icp/icp.hpp"
 
 namespace slam6d::bench {

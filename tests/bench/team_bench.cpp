@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "qwsm/mapping/robot_tracker.hpp"
-#include "service/io/journal_file.hpp"
-#include "service/io/scan_codec.hpp"
+#include "service/io/journal/journal_file.hpp"
+#include "service/io/journal/scan_codec.hpp"
 #include "service/team/latency_histogram.hpp"
 #include "service/team/team_map.hpp"
 #include "tests/support/room_drive.hpp"

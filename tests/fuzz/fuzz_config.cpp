@@ -5,7 +5,7 @@
 #include <string>
 
 #include "service/config/options_io.hpp"
-#include "service/config/program_options.hpp"
+#include "service/options/program_options.hpp"
 #include "tests/fuzz/expect.hpp"
 
 namespace {

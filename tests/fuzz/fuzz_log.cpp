@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "service/io/carmen_writer.hpp"
-#include "service/io/log_reader.hpp"
+#include "service/io/logs/carmen_writer.hpp"
+#include "service/io/logs/log_reader.hpp"
 #include "tests/fuzz/expect.hpp"
 
 namespace {

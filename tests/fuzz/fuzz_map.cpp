@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string>
 
-#include "service/io/binary.hpp"
-#include "service/io/map_file.hpp"
+#include "service/io/files/binary.hpp"
+#include "service/io/maps/map_file.hpp"
 #include "tests/fuzz/expect.hpp"
 
 namespace {

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "service/io/relations_file.hpp"
-#include "service/io/trajectory_file.hpp"
+#include "service/io/trajectories/relations_file.hpp"
+#include "service/io/trajectories/trajectory_file.hpp"
 #include "tests/fuzz/expect.hpp"
 
 namespace {

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "service/io/trajectory_file.hpp"
+#include "service/io/trajectories/trajectory_file.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/room_log.hpp"
 

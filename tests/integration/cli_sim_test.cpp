@@ -12,8 +12,8 @@
 #include <variant>
 #include <vector>
 
-#include "service/io/log_reader.hpp"
-#include "service/io/trajectory_file.hpp"
+#include "service/io/logs/log_reader.hpp"
+#include "service/io/trajectories/trajectory_file.hpp"
 #include "tests/support/program.hpp"
 
 namespace qwsm::test {

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "service/io/ply_file.hpp"
-#include "service/io/trajectory3_file.hpp"
-#include "service/io/uos_scan.hpp"
+#include "service/io/clouds/ply_file.hpp"
+#include "service/io/clouds/trajectory3_file.hpp"
+#include "service/io/clouds/uos_scan.hpp"
 #include "tests/support/drive3.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/uos_files.hpp"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Recorded drives: a log of commands is played back, and refused where it is wrong.
-#include "service/pipeline/command_log.hpp"
+#include "service/pipeline/simulation/command_log.hpp"
 
 #include <gtest/gtest.h>
 

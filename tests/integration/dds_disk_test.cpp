@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "service/io/journal_file.hpp"
-#include "service/io/scan_codec.hpp"
+#include "service/io/journal/journal_file.hpp"
+#include "service/io/journal/scan_codec.hpp"
 #include "tests/support/robot_in_room.hpp"
 
 namespace qwsm::test {

@@ -13,9 +13,9 @@
 #include <string>
 #include <thread>
 
-#include "service/dds/reader.hpp"
-#include "service/dds/robot_names.hpp"
-#include "service/dds/writer.hpp"
+#include "service/dds/entities/reader.hpp"
+#include "service/dds/entities/writer.hpp"
+#include "service/dds/wire/robot_names.hpp"
 #include "tests/support/network.hpp"
 #include "tests/support/temporary_folder.hpp"
 

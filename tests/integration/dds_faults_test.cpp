@@ -14,9 +14,9 @@
 #include <thread>
 #include <vector>
 
-#include "service/dds/robot_names.hpp"
-#include "service/dds/scan_conversion.hpp"
-#include "service/dds/writer.hpp"
+#include "service/dds/entities/writer.hpp"
+#include "service/dds/wire/robot_names.hpp"
+#include "service/dds/wire/scan_conversion.hpp"
 #include "tests/support/hostile_peer.hpp"
 #include "tests/support/network.hpp"
 #include "tests/support/process_state.hpp"

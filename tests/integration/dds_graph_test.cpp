@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-#include "service/dds/publications.hpp"
+#include "service/dds/entities/publications.hpp"
 #include "tests/support/robot_in_room.hpp"
 
 namespace qwsm::test {

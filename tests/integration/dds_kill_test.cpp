@@ -16,9 +16,9 @@
 #include <utility>
 #include <vector>
 
-#include "service/io/journal_file.hpp"
-#include "service/io/scan_codec.hpp"
-#include "service/io/sqlite_database.hpp"
+#include "service/io/journal/journal_file.hpp"
+#include "service/io/journal/scan_codec.hpp"
+#include "service/io/journal/sqlite_database.hpp"
 #include "tests/support/robot_in_room.hpp"
 
 namespace qwsm::test {

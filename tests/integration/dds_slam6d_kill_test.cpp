@@ -14,12 +14,12 @@
 #include <thread>
 #include <vector>
 
-#include "service/dds/match_report_reader.hpp"
-#include "service/dds/robot_names.hpp"
-#include "service/dds/robot_publisher.hpp"
-#include "service/io/cloud_codec.hpp"
-#include "service/io/journal_file.hpp"
-#include "service/io/sqlite_database.hpp"
+#include "service/dds/robot/match_report_reader.hpp"
+#include "service/dds/robot/robot_publisher.hpp"
+#include "service/dds/wire/robot_names.hpp"
+#include "service/io/clouds/cloud_codec.hpp"
+#include "service/io/journal/journal_file.hpp"
+#include "service/io/journal/sqlite_database.hpp"
 #include "tests/support/drive3.hpp"
 #include "tests/support/network.hpp"
 

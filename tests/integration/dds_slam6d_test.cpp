@@ -11,12 +11,12 @@
 #include <utility>
 #include <vector>
 
-#include "service/dds/cloud_conversion.hpp"
-#include "service/dds/match_report_reader.hpp"
-#include "service/dds/reader.hpp"
-#include "service/dds/robot_names.hpp"
-#include "service/dds/robot_publisher.hpp"
-#include "service/dds/writer.hpp"
+#include "service/dds/entities/reader.hpp"
+#include "service/dds/entities/writer.hpp"
+#include "service/dds/robot/match_report_reader.hpp"
+#include "service/dds/robot/robot_publisher.hpp"
+#include "service/dds/wire/cloud_conversion.hpp"
+#include "service/dds/wire/robot_names.hpp"
 #include "tests/support/drive3.hpp"
 #include "tests/support/network.hpp"
 #include "tests/support/uos_files.hpp"

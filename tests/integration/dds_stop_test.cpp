@@ -9,8 +9,8 @@
 #include <iostream>
 #include <string>
 
-#include "service/io/journal_file.hpp"
-#include "service/io/scan_codec.hpp"
+#include "service/io/journal/journal_file.hpp"
+#include "service/io/journal/scan_codec.hpp"
 #include "tests/support/network.hpp"
 
 namespace qwsm::test {

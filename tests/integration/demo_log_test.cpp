@@ -9,7 +9,7 @@
 #include <string>
 
 #include "qwsm/metrics/trajectory_error.hpp"
-#include "service/io/trajectory_file.hpp"
+#include "service/io/trajectories/trajectory_file.hpp"
 #include "tests/support/program.hpp"
 
 namespace qwsm::test {

@@ -13,10 +13,10 @@
 #include <string>
 #include <thread>
 
-#include "service/io/journal_file.hpp"
-#include "service/io/map_file.hpp"
-#include "service/io/scan_codec.hpp"
-#include "service/io/sqlite_database.hpp"
+#include "service/io/journal/journal_file.hpp"
+#include "service/io/journal/scan_codec.hpp"
+#include "service/io/journal/sqlite_database.hpp"
+#include "service/io/maps/map_file.hpp"
 #include "service/team/team_service.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/support/recording_sink.hpp"

@@ -12,7 +12,7 @@
 
 #include "service/config/options_io.hpp"
 #include "service/config/problem.hpp"
-#include "service/pipeline/command_log.hpp"
+#include "service/pipeline/simulation/command_log.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -4,6 +4,7 @@
 
     service/apps                       composition
     service/pipeline                   sources and sinks
+    service/options                    what can be configured of the programs
     service/dds                        the network
     service/team                       sessions, queues, threads, the shared map
     service/config  service/io  service/graph
@@ -24,13 +25,14 @@ MAY_USE = {
     "slam6d": set(),
     "sim": {"qwsm", "slam6d"},
     "idl": set(),
-    "service/config": LIBRARIES | {"service/dds", "service/team"},  # Of these, options.
+    "service/config": {"qwsm"},
     "service/io": {"qwsm", "slam6d"},
     "service/graph": {"slam6d"},
     "service/dds": {"qwsm", "slam6d", "idl", "service/team"},
     "service/team": {"qwsm", "slam6d", "service/io"},
-    "service/pipeline": LIBRARIES | BORDER | {"service/team"},
-    "service/apps": LIBRARIES | BORDER | {"service/team", "service/pipeline"},
+    "service/options": LIBRARIES | BORDER | {"service/team"},
+    "service/pipeline": LIBRARIES | BORDER | {"service/options", "service/team"},
+    "service/apps": LIBRARIES | BORDER | {"service/options", "service/team", "service/pipeline"},
 }
 
 # Third-party library: how its headers are recognised, and the layers that may include it.

@@ -16,7 +16,7 @@
 
 #include "qwsm/mapping/occupancy_grid.hpp"
 #include "qwsm/mapping/robot_tracker.hpp"
-#include "service/io/map_file.hpp"
+#include "service/io/maps/map_file.hpp"
 #include "service/team/worker_pool.hpp"
 #include "tests/support/room_drive.hpp"
 

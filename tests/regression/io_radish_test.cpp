@@ -8,9 +8,9 @@
 #include <string>
 
 #include "qwsm/metrics/relations.hpp"
-#include "service/io/evaluation_odometry.hpp"
-#include "service/io/log_reader.hpp"
-#include "service/io/relations_file.hpp"
+#include "service/io/logs/evaluation_odometry.hpp"
+#include "service/io/logs/log_reader.hpp"
+#include "service/io/trajectories/relations_file.hpp"
 #include "tests/support/log_text.hpp"
 
 namespace qwsm::io {

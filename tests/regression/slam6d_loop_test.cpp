@@ -11,7 +11,7 @@
 #include <numbers>
 
 #include "service/graph/ceres_loop_closer.hpp"
-#include "service/io/uos_scan.hpp"
+#include "service/io/clouds/uos_scan.hpp"
 #include "slam6d/mapping/slam.hpp"
 
 namespace slam6d {

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string>
 
-#include "service/io/uos_scan.hpp"
+#include "service/io/clouds/uos_scan.hpp"
 #include "slam6d/mapping/slam.hpp"
 
 namespace slam6d {

@@ -12,9 +12,9 @@
 #include <string>
 #include <string_view>
 
-#include "service/io/atomic_file.hpp"
-#include "service/io/carmen_writer.hpp"
-#include "service/io/trajectory_file.hpp"
+#include "service/io/files/atomic_file.hpp"
+#include "service/io/logs/carmen_writer.hpp"
+#include "service/io/trajectories/trajectory_file.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/simulated_drive.hpp"
 

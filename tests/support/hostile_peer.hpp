@@ -16,8 +16,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "service/dds/robot_names.hpp"
-#include "service/dds/writer.hpp"
+#include "service/dds/entities/writer.hpp"
+#include "service/dds/wire/robot_names.hpp"
 
 namespace qwsm::test {
 

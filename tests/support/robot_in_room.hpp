@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "service/dds/match_report_reader.hpp"
-#include "service/dds/reader.hpp"
-#include "service/dds/robot_publisher.hpp"
-#include "service/dds/scan_conversion.hpp"
+#include "service/dds/entities/reader.hpp"
+#include "service/dds/robot/match_report_reader.hpp"
+#include "service/dds/robot/robot_publisher.hpp"
+#include "service/dds/wire/scan_conversion.hpp"
 #include "tests/support/network.hpp"
 #include "tests/support/room_drive.hpp"
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "service/dds/match_report_reader.hpp"
-#include "service/dds/robot_publisher.hpp"
+#include "service/dds/robot/match_report_reader.hpp"
+#include "service/dds/robot/robot_publisher.hpp"
 #include "sim/simulation.hpp"
 
 namespace qwsm::test {

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "service/io/cloud_codec.hpp"
+#include "service/io/clouds/cloud_codec.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <string>
 
-#include "service/io/binary.hpp"
+#include "service/io/files/binary.hpp"
 
 namespace slam6d::io {
 namespace {

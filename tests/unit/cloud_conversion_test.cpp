@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Clouds that come over the wire: the same to the last bit, or refused.
-#include "service/dds/cloud_conversion.hpp"
+#include "service/dds/wire/cloud_conversion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "service/dds/registration_report.hpp"
-#include "service/dds/spatial.hpp"
+#include "service/dds/wire/registration_report.hpp"
+#include "service/dds/wire/spatial.hpp"
 
 namespace qwsm::dds {
 namespace {

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "service/dds/planar.hpp"
-#include "service/dds/robot_names.hpp"
-#include "service/dds/scan_conversion.hpp"
-#include "service/dds/static_transforms.hpp"
+#include "service/dds/wire/planar.hpp"
+#include "service/dds/wire/robot_names.hpp"
+#include "service/dds/wire/scan_conversion.hpp"
+#include "service/dds/wire/static_transforms.hpp"
 
 namespace qwsm::dds {
 namespace {

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <string>
 
-#include "service/io/atomic_file.hpp"
+#include "service/io/files/atomic_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace qwsm::io {

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "service/io/byte_source.hpp"
+#include "service/io/files/byte_source.hpp"
 
 namespace qwsm::io {
 namespace {

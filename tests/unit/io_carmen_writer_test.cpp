@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "service/io/carmen_writer.hpp"
-#include "service/io/sweep_geometry.hpp"
+#include "service/io/logs/carmen_writer.hpp"
+#include "service/io/logs/sweep_geometry.hpp"
 #include "tests/support/log_text.hpp"
 
 namespace qwsm::io {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "service/io/evaluation_odometry.hpp"
+#include "service/io/logs/evaluation_odometry.hpp"
 
 namespace qwsm::io {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "service/io/field_reader.hpp"
+#include "service/io/files/field_reader.hpp"
 
 namespace qwsm::io {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "service/io/line_reader.hpp"
+#include "service/io/files/line_reader.hpp"
 
 namespace qwsm::io {
 namespace {

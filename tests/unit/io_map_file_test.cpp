@@ -7,8 +7,8 @@
 #include <string>
 
 #include "qwsm/mapping/mapper.hpp"
-#include "service/io/atomic_file.hpp"
-#include "service/io/map_file.hpp"
+#include "service/io/files/atomic_file.hpp"
+#include "service/io/maps/map_file.hpp"
 #include "tests/support/room_drive.hpp"
 #include "tests/support/temporary_folder.hpp"
 

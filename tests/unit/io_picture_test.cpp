@@ -11,15 +11,15 @@
 #include <stdexcept>
 #include <string>
 
-#include "service/io/atomic_file.hpp"
-#include "service/io/axis.hpp"
-#include "service/io/canvas.hpp"
-#include "service/io/covariance_ellipse.hpp"
-#include "service/io/legend.hpp"
-#include "service/io/map_image.hpp"
-#include "service/io/map_picture.hpp"
-#include "service/io/residual_plot.hpp"
-#include "service/io/trajectory_picture.hpp"
+#include "service/io/files/atomic_file.hpp"
+#include "service/io/pictures/axis.hpp"
+#include "service/io/pictures/canvas.hpp"
+#include "service/io/pictures/covariance_ellipse.hpp"
+#include "service/io/pictures/legend.hpp"
+#include "service/io/pictures/map_image.hpp"
+#include "service/io/pictures/map_picture.hpp"
+#include "service/io/pictures/residual_plot.hpp"
+#include "service/io/pictures/trajectory_picture.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 

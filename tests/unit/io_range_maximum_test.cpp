@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "service/io/range_maximum.hpp"
+#include "service/io/logs/range_maximum.hpp"
 
 namespace qwsm::io {
 namespace {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "service/io/relations_file.hpp"
+#include "service/io/trajectories/relations_file.hpp"
 
 namespace qwsm::io {
 namespace {

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "service/io/pgm_file.hpp"
-#include "service/io/ros_map_file.hpp"
+#include "service/io/maps/pgm_file.hpp"
+#include "service/io/maps/ros_map_file.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-#include "service/io/trajectory_file.hpp"
+#include "service/io/trajectories/trajectory_file.hpp"
 
 namespace qwsm::io {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "service/pipeline/matcher_comparison.hpp"
+#include "service/pipeline/evaluation/matcher_comparison.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "service/pipeline/parallel.hpp"
+#include "service/pipeline/run/parallel.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "service/io/scan_points.hpp"
+#include "service/io/clouds/scan_points.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "service/io/ply_file.hpp"
-#include "service/io/trajectory3_file.hpp"
-#include "service/io/uos_scan.hpp"
+#include "service/io/clouds/ply_file.hpp"
+#include "service/io/clouds/trajectory3_file.hpp"
+#include "service/io/clouds/uos_scan.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace slam6d::io {

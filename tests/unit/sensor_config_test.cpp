@@ -10,7 +10,7 @@
 #include <string>
 
 #include "service/config/options_io.hpp"
-#include "service/config/program_options.hpp"
+#include "service/options/program_options.hpp"
 
 namespace qwsm::config {
 namespace {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "qwsm/mapping/mapper.hpp"
-#include "service/io/map_file.hpp"
+#include "service/io/maps/map_file.hpp"
 #include "tests/support/recording_sink.hpp"
 #include "tests/support/room_drive.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "service/pipeline/team_table.hpp"
+#include "service/pipeline/team/team_table.hpp"
 
 #include <gtest/gtest.h>
 

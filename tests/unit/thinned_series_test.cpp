@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "service/pipeline/thinned_series.hpp"
+#include "service/pipeline/run/thinned_series.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "service/io/uos_scan.hpp"
+#include "service/io/clouds/uos_scan.hpp"
 
 #include <gtest/gtest.h>
 

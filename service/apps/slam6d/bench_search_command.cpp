@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "service/apps/slam6d/commands.hpp"
-#include "service/pipeline/results_folder.hpp"
+#include "service/pipeline/results/results_folder.hpp"
 #include "service/pipeline/slam6d/scan_series.hpp"
 #include "service/pipeline/slam6d/search_benchmark.hpp"
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "service/apps/slam6d/commands.hpp"
-#include "service/pipeline/slam6d/program_options.hpp"
+#include "service/options/slam6d/program_options.hpp"
 
 namespace slam6d::apps {
 
@@ -22,7 +22,7 @@ Command AddConfigCommand(CLI::App& program) {
   parser->add_flag("--describe", settings->describe, "a table with units, bounds and help");
   qwsm::apps::AddConfiguration(*parser, settings->sources);
   return {.parser = parser, .run = [settings] {
-            using pipeline::ProgramOptions;
+            using options::ProgramOptions;
             const auto options = qwsm::config::LoadOptions<ProgramOptions>(settings->sources);
             fmt::print("{}",
                        settings->describe ? qwsm::config::DescribeOptions<ProgramOptions>()

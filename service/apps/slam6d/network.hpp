@@ -3,7 +3,7 @@
 #pragma once
 
 #include "service/apps/network_session.hpp"
-#include "service/pipeline/slam6d/program_options.hpp"
+#include "service/options/slam6d/program_options.hpp"
 
 namespace slam6d::apps {
 
@@ -11,6 +11,6 @@ using qwsm::apps::AddNetworkArguments;
 using qwsm::apps::NetworkArguments;
 
 /// Of the program slam6d.
-using NetworkSession = qwsm::apps::BasicNetworkSession<pipeline::ProgramOptions>;
+using NetworkSession = qwsm::apps::BasicNetworkSession<options::ProgramOptions>;
 
 }  // namespace slam6d::apps

@@ -13,17 +13,17 @@
 #include "service/apps/messages.hpp"
 #include "service/apps/slam6d/commands.hpp"
 #include "service/apps/version.hpp"
-#include "service/io/atomic_file.hpp"
-#include "service/pipeline/interruption.hpp"
-#include "service/pipeline/progress_display.hpp"
-#include "service/pipeline/slam6d/program_options.hpp"
+#include "service/io/files/atomic_file.hpp"
+#include "service/options/slam6d/program_options.hpp"
+#include "service/pipeline/run/interruption.hpp"
+#include "service/pipeline/run/progress_display.hpp"
 #include "service/pipeline/slam6d/registration_results.hpp"
 
 namespace slam6d::apps {
 namespace {
 
 namespace fs = std::filesystem;
-using pipeline::RegistrationOptions;
+using options::RegistrationOptions;
 using qwsm::pipeline::ResultsFolder;
 
 struct RegisterArguments {
@@ -46,7 +46,7 @@ ExitCode TellPlan(const std::vector<fs::path>& files, const RegisterArguments& a
 
 /// The folder of this run, with its messages and configuration recorded there.
 ResultsFolder OpenResults(const RegisterArguments& arguments,
-                          const pipeline::ProgramOptions& options) {
+                          const options::ProgramOptions& options) {
   ResultsFolder folder = arguments.output ? ResultsFolder(*arguments.output, arguments.force)
                                           : ResultsFolder::ForNow("results");
   qwsm::apps::CopyMessagesTo(folder / "run.log");
@@ -104,7 +104,7 @@ void TellDoubts(const pipeline::Registration& registration) {
 
 ExitCode RunRegister(const RegisterArguments& arguments) {
   qwsm::apps::StartMessages(arguments.verbosity);
-  auto options = qwsm::config::LoadOptions<pipeline::ProgramOptions>(arguments.sources);
+  auto options = qwsm::config::LoadOptions<options::ProgramOptions>(arguments.sources);
   if (arguments.threads) options.slam.icp.threads = *arguments.threads;
   const std::vector<fs::path> files = pipeline::FindScans(arguments.scans);
   const io::NumberedPoses starts =

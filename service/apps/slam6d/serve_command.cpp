@@ -11,8 +11,8 @@
 #include "service/apps/slam6d/commands.hpp"
 #include "service/apps/slam6d/network.hpp"
 #include "service/apps/version.hpp"
-#include "service/dds/cloud_inbox.hpp"
-#include "service/dds/cloud_outbox.hpp"
+#include "service/dds/service/cloud_inbox.hpp"
+#include "service/dds/service/cloud_outbox.hpp"
 #include "service/pipeline/slam6d/cloud_results.hpp"
 #include "service/pipeline/slam6d/cloud_sinks.hpp"
 
@@ -26,7 +26,7 @@ using qwsm::pipeline::ResultsFolder;
 class Server {
  public:
   Server(const ServeArguments& arguments,
-         const pipeline::ProgramOptions& options,
+         const options::ProgramOptions& options,
          const std::optional<ResultsFolder>& folder)
       : refusals_([](const std::string& text) { spdlog::warn("{}", text); }),
         participant_(options.network),

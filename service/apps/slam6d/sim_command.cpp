@@ -11,12 +11,12 @@
 #include "service/apps/messages.hpp"
 #include "service/apps/scenario_arguments.hpp"
 #include "service/apps/slam6d/commands.hpp"
-#include "service/io/atomic_file.hpp"
-#include "service/io/uos_scan.hpp"
-#include "service/pipeline/interruption.hpp"
-#include "service/pipeline/progress_display.hpp"
-#include "service/pipeline/results_folder.hpp"
-#include "service/pipeline/slam6d/program_options.hpp"
+#include "service/io/clouds/uos_scan.hpp"
+#include "service/io/files/atomic_file.hpp"
+#include "service/options/slam6d/program_options.hpp"
+#include "service/pipeline/results/results_folder.hpp"
+#include "service/pipeline/run/interruption.hpp"
+#include "service/pipeline/run/progress_display.hpp"
 #include "service/pipeline/slam6d/simulated_scans.hpp"
 
 namespace slam6d::apps {
@@ -45,7 +45,7 @@ ExitCode RunSim(SimArguments arguments) {
   qwsm::apps::StartMessages(arguments.verbosity);
   arguments.scenario.settings = qwsm::apps::TakeScenarioSettings(arguments.sources.settings);
   const sim::ScenarioOptions scenario = qwsm::apps::LoadScenario(arguments.scenario);
-  auto options = qwsm::config::LoadOptions<pipeline::ProgramOptions>(arguments.sources);
+  auto options = qwsm::config::LoadOptions<options::ProgramOptions>(arguments.sources);
   if (arguments.stop_every_m) options.sim.stop_every_m = *arguments.stop_every_m;
   const qwsm::pipeline::ResultsFolder folder(arguments.output, arguments.force);
   fs::create_directories(folder / "gt");

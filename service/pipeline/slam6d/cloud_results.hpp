@@ -6,7 +6,7 @@
 #include <mutex>
 #include <string>
 
-#include "service/pipeline/results_folder.hpp"
+#include "service/pipeline/results/results_folder.hpp"
 #include "service/pipeline/slam6d/registration.hpp"
 #include "service/team/cloud_service.hpp"
 
@@ -16,7 +16,8 @@ namespace slam6d::pipeline {
 /// the folder itself, others a folder of their name in it. Keeps all points until then.
 class CloudResults final : public qwsm::team::CloudSink {
  public:
-  CloudResults(const qwsm::pipeline::ResultsFolder& folder, const RegistrationOptions& options)
+  CloudResults(const qwsm::pipeline::ResultsFolder& folder,
+               const options::RegistrationOptions& options)
       : folder_(folder), options_(options) {}
 
   void TakeAnswer(const qwsm::team::CloudAnswer& answer) override { Keep(answer); }
@@ -34,7 +35,7 @@ class CloudResults final : public qwsm::team::CloudSink {
   void Keep(const qwsm::team::CloudAnswer& answer);
 
   const qwsm::pipeline::ResultsFolder folder_;
-  const RegistrationOptions options_;
+  const options::RegistrationOptions options_;
   std::mutex mutex_;
   std::map<std::string, Registration, std::less<>> robots_;
 };

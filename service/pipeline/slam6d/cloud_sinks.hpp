@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "service/pipeline/team_log.hpp"
+#include "service/pipeline/team/team_log.hpp"
 #include "service/team/cloud_sink.hpp"
 
 namespace slam6d::pipeline {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "service/io/trajectory3_file.hpp"
+#include "service/io/clouds/trajectory3_file.hpp"
 
 namespace slam6d::pipeline {
 

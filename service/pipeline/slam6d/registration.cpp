@@ -55,7 +55,7 @@ PointCloud WithinRange(const PointCloud& cloud, const SlamOptions& options) {
 }
 
 Registration RegisterSeries(ScanSeries& series,
-                            const RegistrationOptions& options,
+                            const options::RegistrationOptions& options,
                             const RegistrationObserver& observer) {
   const std::unique_ptr<LoopCloser> closer = graph::MakeLoopCloser(options.loop_error);
   Slam slam(options.slam, *closer);

@@ -45,7 +45,7 @@ PointCloud WithinRange(const PointCloud& cloud, const SlamOptions& options);
 
 /// Registers all scans of a series and fits them to each other.
 Registration RegisterSeries(ScanSeries& series,
-                            const RegistrationOptions& options,
+                            const options::RegistrationOptions& options,
                             const RegistrationObserver& observer);
 
 }  // namespace slam6d::pipeline

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "service/pipeline/progress_display.hpp"
+#include "service/pipeline/run/progress_display.hpp"
 #include "service/pipeline/slam6d/registration_results.hpp"
 
 namespace slam6d::pipeline {

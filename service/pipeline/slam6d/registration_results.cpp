@@ -6,11 +6,11 @@
 
 #include <numbers>
 
-#include "service/io/atomic_file.hpp"
-#include "service/io/cloud_picture.hpp"
-#include "service/io/ply_file.hpp"
-#include "service/io/trajectory3_file.hpp"
-#include "service/io/uos_scan.hpp"
+#include "service/io/clouds/ply_file.hpp"
+#include "service/io/clouds/trajectory3_file.hpp"
+#include "service/io/clouds/uos_scan.hpp"
+#include "service/io/files/atomic_file.hpp"
+#include "service/io/pictures/cloud_picture.hpp"
 
 namespace slam6d::pipeline {
 namespace {
@@ -85,7 +85,7 @@ std::string Table(const Registration& registration) {
 }  // namespace
 
 void WriteResults(const Registration& registration,
-                  const RegistrationOptions& options,
+                  const options::RegistrationOptions& options,
                   const qwsm::pipeline::ResultsFolder& folder) {
   const std::vector<Pose3> before = PosesBefore(registration);
   const std::vector<Pose3>& after = registration.T_map_scan;

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "service/pipeline/results_folder.hpp"
+#include "service/pipeline/results/results_folder.hpp"
 #include "service/pipeline/slam6d/registration.hpp"
 
 namespace slam6d::pipeline {
@@ -13,7 +13,7 @@ namespace slam6d::pipeline {
 /// merged cloud, and pictures of it before and after.
 /// @throws qwsm::io::WriteError where something cannot be written.
 void WriteResults(const Registration& registration,
-                  const RegistrationOptions& options,
+                  const options::RegistrationOptions& options,
                   const qwsm::pipeline::ResultsFolder& folder);
 
 /// metrics.json; every name ends in its unit.

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "service/io/uos_scan.hpp"
+#include "service/io/clouds/uos_scan.hpp"
 
 namespace slam6d::pipeline {
 namespace {
@@ -93,7 +93,7 @@ std::vector<fs::path> FindScans(const std::vector<fs::path>& arguments) {
 
 ScanSeries::ScanSeries(std::vector<fs::path> files,
                        io::NumberedPoses starts,
-                       const RegistrationOptions& options)
+                       const options::RegistrationOptions& options)
     : files_(std::move(files)), starts_(std::move(starts)), options_(options) {}
 
 std::optional<LoadedScan> ScanSeries::Next() {

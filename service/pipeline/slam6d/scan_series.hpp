@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "service/io/trajectory3_file.hpp"
-#include "service/pipeline/slam6d/registration_options.hpp"
+#include "service/io/clouds/trajectory3_file.hpp"
+#include "service/options/slam6d/registration_options.hpp"
 
 namespace slam6d::pipeline {
 
@@ -38,7 +38,7 @@ class ScanSeries {
   ///        each file.
   ScanSeries(std::vector<std::filesystem::path> files,
              io::NumberedPoses starts,
-             const RegistrationOptions& options);
+             const options::RegistrationOptions& options);
 
   std::size_t size() const { return files_.size(); }
   std::optional<LoadedScan> Next();
@@ -56,7 +56,7 @@ class ScanSeries {
 
   std::vector<std::filesystem::path> files_;
   io::NumberedPoses starts_;
-  RegistrationOptions options_;
+  options::RegistrationOptions options_;
   std::size_t read_ = 0;
   std::size_t given_ = 0;
   std::deque<ReadScan> ahead_;

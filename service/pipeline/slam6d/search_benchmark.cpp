@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "service/config/text_table.hpp"
-#include "service/io/line_plot.hpp"
+#include "service/io/pictures/line_plot.hpp"
 
 namespace slam6d::pipeline {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "service/pipeline/scan_source.hpp"
+#include "service/pipeline/run/scan_source.hpp"
 #include "service/pipeline/slam6d/scan_series.hpp"
 #include "service/team/cloud_scan.hpp"
 

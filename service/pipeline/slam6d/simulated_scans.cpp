@@ -13,7 +13,7 @@ Pose3 InSpace(const qwsm::Pose2& pose) {
 }  // namespace
 
 SimulatedScans::SimulatedScans(const sim::ScenarioOptions& scenario,
-                               const SimulationOptions& options)
+                               const options::SimulationOptions& options)
     : options_(options),
       simulation_(scenario),
       world_(simulation_.scenery(), options.world),

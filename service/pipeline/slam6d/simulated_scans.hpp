@@ -5,26 +5,11 @@
 #include <cstddef>
 #include <optional>
 
-#include "sim/pitching_laser.hpp"
+#include "service/options/slam6d/simulation_options.hpp"
 #include "sim/simulation.hpp"
 #include "slam6d/geometry/pose3.hpp"
 
 namespace slam6d::pipeline {
-
-/// How a scenario of the plane is seen by a 3D scanner.
-struct SimulationOptions {
-  sim::SolidOptions world{};
-  sim::PitchingLaserOptions laser{};
-  double stop_every_m = 2.0;
-};
-
-template <class Visitor>
-void Describe(Visitor& visit, SimulationOptions& o) {
-  visit("world", o.world, {.help = "the scenario in space"});
-  visit("laser", o.laser, {.help = "the 2D laser that nods"});
-  visit(
-      "stop_every_m", o.stop_every_m, {.help = "a scan for so much way", .min = 0.05, .max = 1e3});
-}
 
 /// A 3D scan of a simulation.
 struct SimulatedScan {
@@ -38,13 +23,13 @@ struct SimulatedScan {
 class SimulatedScans {
  public:
   /// @throws sim::ScenarioError.
-  SimulatedScans(const sim::ScenarioOptions& scenario, const SimulationOptions& options);
+  SimulatedScans(const sim::ScenarioOptions& scenario, const options::SimulationOptions& options);
 
   /// The next scan; nothing once the drive is over.
   std::optional<SimulatedScan> Next();
 
  private:
-  SimulationOptions options_;
+  options::SimulationOptions options_;
   sim::Simulation simulation_;
   sim::SolidWorld world_;
   sim::RandomEngine random_;

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+#include "service/dds/entities/participant.hpp"
+
+namespace qwsm::dds {
+
+/// A writer somewhere in the domain, this participant's included, that has come, has changed or has
+/// gone. What it refers to lives as long as the call.
+struct Publication {
+  Guid writer{};
+  bool is_alive = false;
+  // Known only of one that is alive:
+  Guid participant{};
+  std::string_view topic{};  ///< As DDS has it.
+  std::string_view type{};
+  std::string_view user_data{};
+  bool is_reliable = false;
+};
+
+/// Finds out who publishes what.
+class Publications {
+ public:
+  explicit Publications(const Participant& participant);
+
+  /// What changed since the last call.
+  void TakeAll(const std::function<void(const Publication&)>& take) const;
+  Entity::Handle handle() const { return reader_.handle(); }
+
+ private:
+  Entity reader_;
+};
+
+}  // namespace qwsm::dds

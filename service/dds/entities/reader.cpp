@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/dds/entities/reader.hpp"
+
+#include <dds/dds.h>
+
+#include <array>
+
+#include "service/dds/entities/topic.hpp"
+
+namespace qwsm::dds {
+namespace {
+
+constexpr std::size_t kBatch = 64;
+
+/// Samples on loan from the middleware.
+class Loan {
+ public:
+  explicit Loan(dds_entity_t reader)
+      : reader_(reader), count_(dds_take(reader, samples_.data(), infos_.data(), kBatch, kBatch)) {}
+  Loan(const Loan&) = delete;
+  Loan& operator=(const Loan&) = delete;
+  ~Loan() {
+    if (count_ > 0) dds_return_loan(reader_, samples_.data(), count_);
+  }
+
+  std::size_t count() const { return count_ > 0 ? static_cast<std::size_t>(count_) : 0; }
+  /// Null where only the state of a writer changed.
+  const void* operator[](std::size_t i) const {
+    return infos_[i].valid_data ? samples_[i] : nullptr;
+  }
+
+ private:
+  dds_entity_t reader_;
+  std::array<void*, kBatch> samples_{};
+  std::array<dds_sample_info_t, kBatch> infos_{};
+  dds_return_t count_;
+};
+
+}  // namespace
+
+UntypedReader::UntypedReader(const Participant& participant,
+                             const dds_topic_descriptor_t& descriptor,
+                             const std::string& topic,
+                             Profile profile) {
+  const Qos qos = QosOf(profile);
+  topic_ = MakeTopic(participant, descriptor, topic);
+  reader_ = Entity(dds_create_reader(participant.handle(), topic_.handle(), qos.get(), nullptr),
+                   topic + ": cannot be read");
+  dds_set_status_mask(handle(), DDS_DATA_AVAILABLE_STATUS);  // What a WaitSet wakes up for.
+}
+
+std::size_t UntypedReader::writer_count() const {
+  dds_subscription_matched_status_t status{};
+  dds_get_subscription_matched_status(handle(), &status);
+  return status.current_count;
+}
+
+std::size_t UntypedReader::lost_writer_count() const {
+  dds_subscription_matched_status_t status{};
+  dds_get_subscription_matched_status(handle(), &status);
+  return status.total_count - status.current_count;
+}
+
+std::size_t UntypedReader::TakeSamples(const std::function<void(const void*)>& take) const {
+  std::size_t taken = 0;
+  while (true) {
+    const Loan loan(handle());
+    if (loan.count() == 0) return taken;
+    for (std::size_t i = 0; i < loan.count(); ++i) {
+      if (loan[i] == nullptr) continue;
+      take(loan[i]);
+      ++taken;
+    }
+  }
+}
+
+}  // namespace qwsm::dds

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "service/dds/entities/participant.hpp"
+#include "service/dds/entities/profile.hpp"
+#include "service/dds/entities/wire_types.hpp"
+
+namespace qwsm::dds {
+
+/// What readers of all types have in common.
+class UntypedReader {
+ public:
+  /// @param topic name as ROS has it, such as `/robot1/scan`. @throws DdsError.
+  UntypedReader(const Participant& participant,
+                const dds_topic_descriptor_t& descriptor,
+                const std::string& topic,
+                Profile profile);
+
+  /// How many writers there are now that this reader hears.
+  std::size_t writer_count() const;
+  /// How many there have been that are gone.
+  std::size_t lost_writer_count() const;
+  Entity::Handle handle() const { return reader_.handle(); }
+
+ protected:
+  /// Hands over every sample that has arrived, in order, and gives it back to the middleware
+  /// afterwards, whatever the callback does.
+  std::size_t TakeSamples(const std::function<void(const void*)>& take) const;
+
+ private:
+  Entity topic_;
+  Entity reader_;
+};
+
+/// Receives samples of one type from one topic.
+template <class T>
+class Reader : public UntypedReader {
+ public:
+  Reader(const Participant& participant, const std::string& topic, Profile profile)
+      : UntypedReader(participant, *wire::kDescriptor<T>, topic, profile) {}
+
+  /// Calls `take(const T&)` with every sample that has arrived; returns how many there were.
+  template <class Take>
+  std::size_t TakeAll(Take&& take) const {
+    return TakeSamples([&take](const void* sample) { take(*static_cast<const T*>(sample)); });
+  }
+};
+
+}  // namespace qwsm::dds

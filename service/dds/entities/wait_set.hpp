@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+
+#include "service/dds/entities/entity.hpp"
+#include "service/dds/entities/participant.hpp"
+
+namespace qwsm::dds {
+
+/// Sleeps until one of several readers has samples, or somebody calls.
+class WaitSet {
+ public:
+  explicit WaitSet(const Participant& participant);
+
+  /// @param reader outlives the wait set, or is removed before.
+  void Add(Entity::Handle reader);
+  void Remove(Entity::Handle reader);
+
+  /// Whether there is something to take; false where the time passed first.
+  bool Wait(std::chrono::nanoseconds timeout);
+  /// Ends a wait in another thread, or the next one.
+  void Wake();
+
+ private:
+  Entity wait_set_;
+  Entity bell_;
+};
+
+}  // namespace qwsm::dds

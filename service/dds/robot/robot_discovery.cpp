@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/dds/robot/robot_discovery.hpp"
+
+#include <optional>
+#include <utility>
+
+#include "service/dds/wire/robot_names.hpp"
+
+namespace qwsm::dds {
+
+RobotDiscovery::RobotDiscovery(const Participant& participant, std::string part, std::string type)
+    : part_(std::move(part)), type_(std::move(type)), publications_(participant) {}
+
+RobotDiscovery::Changes RobotDiscovery::Take() {
+  Changes changes;
+  publications_.TakeAll([&](const Publication& publication) { Note(publication, changes); });
+  return changes;
+}
+
+void RobotDiscovery::Note(const Publication& publication, Changes& changes) {
+  if (!publication.is_alive) {
+    const auto gone = robot_of_.extract(publication.writer);
+    if (!gone || --publishers_of_[gone.mapped()] > 0) return;
+    unreliable_.erase(gone.mapped());
+    changes.left.push_back(gone.mapped());
+    return;
+  }
+  if (robot_of_.contains(publication.writer) || publication.type != type_) return;
+  const std::optional<std::string> robot = RobotNames::RobotOf(publication.topic, part_);
+  if (!robot) return;
+  robot_of_[publication.writer] = *robot;
+  if (!publication.is_reliable) unreliable_.insert(*robot);
+  if (++publishers_of_[*robot] == 1) changes.joined.push_back(*robot);
+}
+
+}  // namespace qwsm::dds

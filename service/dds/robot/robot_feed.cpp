@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/dds/robot/robot_feed.hpp"
+
+#include "service/dds/entities/reader.hpp"
+#include "service/dds/entities/wait_set.hpp"
+#include "service/dds/robot/robot_inbox.hpp"
+#include "service/dds/wire/static_transforms.hpp"
+
+namespace qwsm::dds {
+
+class RobotFeed::Topics {
+ public:
+  Topics(const Participant& participant, const RobotNames& names, Refusals& refusals)
+      : wait_set_(participant),
+        static_transforms_(participant, kStaticTransformsTopic, Profile::kStaticTransforms),
+        inbox_(participant, names, refusals) {
+    for (const Entity::Handle handle : inbox_.handles()) wait_set_.Add(handle);
+  }
+
+  void Deliver(std::chrono::nanoseconds timeout, RobotListener& listener) {
+    wait_set_.Wait(timeout);
+    static_transforms_.TakeAll(
+        [this](const wire::TFMessage& message) { transforms_.Take(message); });
+    inbox_.Deliver(transforms_, listener);
+  }
+
+ private:
+  WaitSet wait_set_;
+  Reader<wire::TFMessage> static_transforms_;
+  StaticTransforms transforms_;
+  RobotInbox inbox_;
+};
+
+RobotFeed::RobotFeed(const Participant& participant, const RobotNames& names, Refusals& refusals)
+    : topics_(std::make_unique<Topics>(participant, names, refusals)) {}
+
+RobotFeed::~RobotFeed() = default;
+
+void RobotFeed::Deliver(std::chrono::nanoseconds timeout, RobotListener& listener) {
+  topics_->Deliver(timeout, listener);
+}
+
+}  // namespace qwsm::dds

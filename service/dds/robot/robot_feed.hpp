@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <memory>
+
+#include "service/dds/entities/participant.hpp"
+#include "service/dds/robot/robot_listener.hpp"
+#include "service/dds/wire/refusals.hpp"
+#include "service/dds/wire/robot_names.hpp"
+
+namespace qwsm::dds {
+
+/// What one robot says, for programs that are not the service.
+class RobotFeed {
+ public:
+  /// @param participant and refusals outlive this.
+  RobotFeed(const Participant& participant, const RobotNames& names, Refusals& refusals);
+  ~RobotFeed();
+
+  /// Waits until something has arrived, or for so long, and delivers it.
+  void Deliver(std::chrono::nanoseconds timeout, RobotListener& listener);
+
+ private:
+  class Topics;
+  std::unique_ptr<Topics> topics_;
+};
+
+}  // namespace qwsm::dds

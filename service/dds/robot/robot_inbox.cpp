@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/dds/robot/robot_inbox.hpp"
+
+#include <cstring>
+#include <utility>
+
+#include "service/dds/wire/wire_kind.hpp"
+#include "service/team/team_scan.hpp"
+
+namespace qwsm::dds {
+namespace {
+
+// A transform that is not there after this long will not come.
+constexpr auto kPatienceForTransforms = std::chrono::seconds(1);
+constexpr std::size_t kMaxUnplaced = 64;
+constexpr std::size_t kMaxMissingFrames = 256;
+
+template <class Kind>
+std::string_view ObjectionToPose(const wire::Header& header, const wire::Pose& pose) {
+  if (!FromWire(header.stamp)) return "its stamp is no time";
+  if (!OnWire<Kind>::IsRotation(pose.orientation)) return "its orientation is no rotation";
+  if (!IsFinite(OnWire<Kind>::PoseOf(pose))) return "its pose is not finite";
+  return {};
+}
+
+}  // namespace
+
+template <class Kind>
+BasicRobotInbox<Kind>::BasicRobotInbox(const Participant& participant,
+                                       const RobotNames& names,
+                                       Refusals& refusals,
+                                       Profile scans)
+    : names_(names),
+      refusals_(refusals),
+      robot_frame_(names.Frame(kRobotFrame)),
+      odometry_(participant, names.Topic(kOdometryTopic), Profile::kSensorIn),
+      scans_(participant, names.Topic(OnWire<Kind>::kScanTopic), scans),
+      initial_poses_(participant, names.Topic(kInitialPoseTopic), Profile::kSensorIn) {}
+
+template <class Kind>
+std::array<Entity::Handle, 3> BasicRobotInbox<Kind>::handles() const {
+  return {odometry_.handle(), scans_.handle(), initial_poses_.handle()};
+}
+
+template <class Kind>
+void BasicRobotInbox<Kind>::Deliver(const BasicStaticTransforms<Kind>& transforms,
+                                    BasicRobotListener<Kind>& listener) {
+  listener.TakeOdometryUse(names_.name(), odometry_.writer_count() > 0);
+  // Robots tell their odometry before the scan: whose scan is here has its odometry here, too.
+  scans_.TakeAll([this](const typename OnWire<Kind>::Scan& sample) { TakeScan(sample); });
+  odometry_.TakeAll([&](const wire::Odometry& sample) { TakeOdometry(sample, listener); });
+  initial_poses_.TakeAll(
+      [&](const wire::PoseWithCovarianceStamped& sample) { TakeInitialPose(sample, listener); });
+  DeliverPlacedScans(transforms, listener);
+}
+
+template <class Kind>
+void BasicRobotInbox<Kind>::TakeOdometry(const wire::Odometry& sample,
+                                         BasicRobotListener<Kind>& listener) {
+  const std::string_view objection = ObjectionToPose<Kind>(sample.header, sample.pose.pose);
+  if (!objection.empty()) return refusals_.Add(names_.Topic(kOdometryTopic), objection);
+  const std::size_t length = strnlen(sample.child_frame_id, kMaxNameLength + 1);
+  if (length > 0 && length <= kMaxNameLength) robot_frame_ = sample.child_frame_id;
+  listener.TakeOdometry(
+      names_.name(), *FromWire(sample.header.stamp), OnWire<Kind>::PoseOf(sample.pose.pose));
+}
+
+template <class Kind>
+void BasicRobotInbox<Kind>::TakeScan(const typename OnWire<Kind>::Scan& sample) {
+  const std::string topic = names_.Topic(OnWire<Kind>::kScanTopic);
+  const std::string_view objection = ObjectionTo(sample);
+  if (!objection.empty()) return refusals_.Add(topic, objection);
+  unplaced_.push_back(
+      {.scan = OnWire<Kind>::ScanOf(sample), .sensor_frame = sample.header.frame_id});
+  if (unplaced_.size() <= kMaxUnplaced) return;
+  unplaced_.pop_front();
+  refusals_.Add(topic, "/tf_static does not say yet where on the robot its frame is");
+}
+
+// Scans and /tf_static overtake each other at the beginning. Scans of one frame wait for it, not
+// those of another: anybody may send scans of frames that there are not.
+template <class Kind>
+void BasicRobotInbox<Kind>::DeliverPlacedScans(const BasicStaticTransforms<Kind>& transforms,
+                                               BasicRobotListener<Kind>& listener) {
+  std::deque<UnplacedScan> waiting;
+  for (UnplacedScan& next : unplaced_) {
+    const auto T_robot_sensor = SensorOnRobot(next.sensor_frame, transforms);
+    if (!T_robot_sensor) {
+      waiting.push_back(std::move(next));
+      continue;
+    }
+    OnWire<Kind>::Mounting(next.scan) = *T_robot_sensor;
+    listener.TakeScan(names_.name(), std::move(next.scan));
+  }
+  unplaced_ = std::move(waiting);
+}
+
+template <class Kind>
+void BasicRobotInbox<Kind>::TakeInitialPose(const wire::PoseWithCovarianceStamped& sample,
+                                            BasicRobotListener<Kind>& listener) {
+  const typename Kind::UncertainPose map_robot{
+      .T_a_b = OnWire<Kind>::PoseOf(sample.pose.pose),
+      .covariance = OnWire<Kind>::CovarianceOf(sample.pose.covariance)};
+  std::string_view objection = ObjectionToPose<Kind>(sample.header, sample.pose.pose);
+  if (objection.empty()) objection = team::ObjectionTo(map_robot);
+  if (!objection.empty()) return refusals_.Add(names_.Topic(kInitialPoseTopic), objection);
+  listener.TakeInitialPose(names_.name(), map_robot);
+}
+
+/// A sensor nobody says anything about sits in the middle of the robot.
+template <class Kind>
+std::optional<typename Kind::Pose> BasicRobotInbox<Kind>::SensorOnRobot(
+    const std::string& sensor_frame, const BasicStaticTransforms<Kind>& transforms) {
+  if (const auto known = transforms.Find(robot_frame_, sensor_frame)) return known;
+  const auto now = std::chrono::steady_clock::now();
+  if (missing_since_.size() >= kMaxMissingFrames) missing_since_.clear();
+  const auto since = missing_since_.try_emplace(sensor_frame, now).first->second;
+  return now - since < kPatienceForTransforms ? std::nullopt : std::optional(typename Kind::Pose{});
+}
+
+template class BasicRobotInbox<team::Planar>;
+template class BasicRobotInbox<team::Spatial>;
+
+}  // namespace qwsm::dds

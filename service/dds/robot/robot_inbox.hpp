@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "service/dds/entities/reader.hpp"
+#include "service/dds/robot/robot_listener.hpp"
+#include "service/dds/wire/refusals.hpp"
+#include "service/dds/wire/robot_names.hpp"
+#include "service/dds/wire/static_transforms.hpp"
+
+namespace qwsm::dds {
+
+/// What one robot says: scans, odometry, and where its operator says it is.
+template <class Kind>
+class BasicRobotInbox {
+ public:
+  /// @param scans how they are listened to. @param refusals outlives this.
+  BasicRobotInbox(const Participant& participant,
+                  const RobotNames& names,
+                  Refusals& refusals,
+                  Profile scans = Profile::kSensorIn);
+
+  std::array<Entity::Handle, 3> handles() const;
+
+  /// Delivers all that has arrived: odometry before scans, for scans are matched with it.
+  void Deliver(const BasicStaticTransforms<Kind>& transforms, BasicRobotListener<Kind>& listener);
+
+ private:
+  void TakeOdometry(const wire::Odometry& sample, BasicRobotListener<Kind>& listener);
+  void TakeScan(const typename OnWire<Kind>::Scan& sample);
+  void DeliverPlacedScans(const BasicStaticTransforms<Kind>& transforms,
+                          BasicRobotListener<Kind>& listener);
+  void TakeInitialPose(const wire::PoseWithCovarianceStamped& sample,
+                       BasicRobotListener<Kind>& listener);
+  std::optional<typename Kind::Pose> SensorOnRobot(const std::string& sensor_frame,
+                                                   const BasicStaticTransforms<Kind>& transforms);
+
+  /// A scan that waits until it is known where its sensor sits.
+  struct UnplacedScan {
+    typename Kind::Scan scan;
+    std::string sensor_frame;
+  };
+
+  RobotNames names_;
+  Refusals& refusals_;
+  std::string robot_frame_;
+  Reader<wire::Odometry> odometry_;
+  Reader<typename OnWire<Kind>::Scan> scans_;
+  Reader<wire::PoseWithCovarianceStamped> initial_poses_;
+  std::deque<UnplacedScan> unplaced_;
+  std::map<std::string, std::chrono::steady_clock::time_point> missing_since_;  // By frame.
+};
+
+using RobotInbox = BasicRobotInbox<team::Planar>;
+using CloudRobotInbox = BasicRobotInbox<team::Spatial>;
+
+extern template class BasicRobotInbox<team::Planar>;
+extern template class BasicRobotInbox<team::Spatial>;
+
+}  // namespace qwsm::dds

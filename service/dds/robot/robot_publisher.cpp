@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/dds/robot/robot_publisher.hpp"
+
+#include <dds/dds.h>
+
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "service/dds/entities/writer.hpp"
+#include "service/dds/wire/transform_sample.hpp"
+#include "service/dds/wire/wire_kind.hpp"
+
+namespace qwsm::dds {
+namespace {
+
+bool IsSame(const Pose2& a, const Pose2& b) { return a == b; }
+bool IsSame(const slam6d::Pose3& a, const slam6d::Pose3& b) {
+  return a.rotation == b.rotation && a.translation_m == b.translation_m;
+}
+
+}  // namespace
+
+template <class Kind>
+class BasicRobotPublisher<Kind>::Topics {
+ public:
+  Topics(const Participant& participant, RobotNames names, OdometryUse use)
+      : names_(std::move(names)),
+        odom_frame_(names_.Frame(kOdometryFrame)),
+        robot_frame_(names_.Frame(kRobotFrame)),
+        static_transforms_(participant, kStaticTransformsTopic, Profile::kStaticTransformsOut),
+        transforms_(participant, kTransformsTopic, Profile::kTransforms),
+        truth_(participant, names_.Topic(kTruthTopic), Profile::kSensorOut),
+        told_poses_(participant, names_.Topic(kInitialPoseTopic), Profile::kSensorOut) {
+    // Scans last: when somebody discovers them, everything else is known already.
+    if (use == OdometryUse::kPublished) {
+      odometry_.emplace(participant, names_.Topic(kOdometryTopic), Profile::kSensorOut);
+    }
+    scans_.emplace(participant, names_.Topic(OnWire<Kind>::kScanTopic), Profile::kSensorOut);
+  }
+
+  bool has_listener() const {
+    return scans_->reader_count() > 0 && (!odometry_ || odometry_->reader_count() > 0);
+  }
+  bool has_pose_listener() const { return told_poses_.reader_count() > 0; }
+  const RobotNames& names() const { return names_; }
+
+  /// A sensor that is mounted anew gets a new frame: transforms and scans may overtake each other.
+  void PlaceSensor(const Pose& T_robot_sensor) {
+    if (T_robot_sensor_ && IsSame(*T_robot_sensor_, T_robot_sensor)) return;
+    T_robot_sensor_ = T_robot_sensor;
+    sensor_frame_ = names_.Frame(kLaserFrame);
+    if (placements_++ > 0) sensor_frame_ += "_" + std::to_string(placements_);
+    static_transforms_.Write(
+        TransformSample({}, robot_frame_, sensor_frame_, ToWire(T_robot_sensor)).sample());
+  }
+
+  bool Publish(const Observation& observation) {
+    PlaceSensor(OnWire<Kind>::Mounting(observation.scan));
+    if (odometry_ && observation.T_odom_robot) {
+      PublishOdometry(observation.scan.stamp, *observation.T_odom_robot);
+    }
+    const typename OnWire<Kind>::Sample sample(observation.scan, sensor_frame_);
+    return scans_->Write(sample.sample());
+  }
+
+  void PublishOdometry(Timestamp stamp, const Pose& T_odom_robot) {
+    odometry_->Write(OdometryOf(stamp, odom_frame_, T_odom_robot));
+    transforms_.Write(
+        TransformSample(stamp, odom_frame_, robot_frame_, ToWire(T_odom_robot)).sample());
+  }
+
+  void TellPose(Timestamp stamp, const typename Kind::UncertainPose& map_robot) {
+    wire::PoseWithCovarianceStamped sample{};
+    sample.header = HeaderOf(stamp, map_frame_);
+    sample.pose.pose = ToWire(map_robot.T_a_b);
+    CopyCovariance(map_robot.covariance, sample.pose.covariance);
+    told_poses_.Write(sample);
+  }
+
+  void PublishTruth(Timestamp stamp, const Pose& T_world_robot) {
+    truth_.Write(OdometryOf(stamp, world_frame_, T_world_robot));
+  }
+
+  bool WaitForAcknowledgments(std::chrono::nanoseconds timeout) {
+    return dds_wait_for_acks(static_transforms_.handle(), timeout.count()) == DDS_RETCODE_OK &&
+           (!odometry_ || dds_wait_for_acks(odometry_->handle(), timeout.count()) == 0) &&
+           dds_wait_for_acks(scans_->handle(), timeout.count()) == DDS_RETCODE_OK;
+  }
+
+ private:
+  wire::Odometry OdometryOf(Timestamp stamp, const std::string& frame, const Pose& pose) const {
+    wire::Odometry sample{};
+    sample.header = HeaderOf(stamp, frame);
+    sample.child_frame_id = Borrow(robot_frame_);
+    sample.pose.pose = ToWire(pose);
+    return sample;
+  }
+
+  RobotNames names_;
+  std::string odom_frame_;
+  std::string robot_frame_;
+  std::string world_frame_ = kWorldFrame;
+  std::string map_frame_ = kMapFrame;
+  std::string sensor_frame_;
+  std::optional<Pose> T_robot_sensor_;
+  int placements_ = 0;
+  Writer<wire::TFMessage> static_transforms_;
+  Writer<wire::TFMessage> transforms_;
+  Writer<wire::Odometry> truth_;
+  Writer<wire::PoseWithCovarianceStamped> told_poses_;
+  std::optional<Writer<wire::Odometry>> odometry_;
+  std::optional<Writer<typename OnWire<Kind>::Scan>> scans_;
+};
+
+template <class Kind>
+BasicRobotPublisher<Kind>::BasicRobotPublisher(const Participant& participant,
+                                               RobotNames names,
+                                               OdometryUse odometry)
+    : topics_(std::make_unique<Topics>(participant, std::move(names), odometry)) {}
+
+template <class Kind>
+BasicRobotPublisher<Kind>::~BasicRobotPublisher() = default;
+
+template <class Kind>
+bool BasicRobotPublisher<Kind>::WaitForListener(const Pose& T_robot_sensor,
+                                                std::chrono::nanoseconds timeout) {
+  constexpr auto kLook = std::chrono::milliseconds(5);
+  topics_->PlaceSensor(T_robot_sensor);
+  const auto until = std::chrono::steady_clock::now() + timeout;
+  while (!topics_->has_listener()) {
+    if (std::chrono::steady_clock::now() >= until) return false;
+    std::this_thread::sleep_for(kLook);
+  }
+  return topics_->WaitForAcknowledgments(until - std::chrono::steady_clock::now());
+}
+
+template <class Kind>
+bool BasicRobotPublisher<Kind>::Publish(const Observation& observation) {
+  return topics_->Publish(observation);
+}
+
+template <class Kind>
+bool BasicRobotPublisher<Kind>::has_listener() const {
+  return topics_->has_listener();
+}
+
+template <class Kind>
+bool BasicRobotPublisher<Kind>::has_pose_listener() const {
+  return topics_->has_pose_listener();
+}
+
+template <class Kind>
+void BasicRobotPublisher<Kind>::TellPose(Timestamp stamp,
+                                         const typename Kind::UncertainPose& map_robot) {
+  topics_->TellPose(stamp, map_robot);
+}
+
+template <class Kind>
+void BasicRobotPublisher<Kind>::PublishTruth(Timestamp stamp, const Pose& T_world_robot) {
+  topics_->PublishTruth(stamp, T_world_robot);
+}
+
+template <class Kind>
+bool BasicRobotPublisher<Kind>::WaitForAcknowledgments(std::chrono::nanoseconds timeout) {
+  return topics_->WaitForAcknowledgments(timeout);
+}
+
+template <class Kind>
+void BasicRobotPublisher<Kind>::Finish(std::chrono::nanoseconds timeout) {
+  constexpr auto kOnItsWay = std::chrono::milliseconds(200);
+  WaitForAcknowledgments(timeout);
+  std::this_thread::sleep_for(kOnItsWay);
+}
+
+template <class Kind>
+const RobotNames& BasicRobotPublisher<Kind>::names() const {
+  return topics_->names();
+}
+
+template class BasicRobotPublisher<team::Planar>;
+template class BasicRobotPublisher<team::Spatial>;
+
+}  // namespace qwsm::dds

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+
+#include "service/dds/entities/participant.hpp"
+#include "service/dds/wire/robot_names.hpp"
+#include "service/team/sensor_kind.hpp"
+
+namespace qwsm::dds {
+
+/// Whether a robot says how it moved.
+enum class OdometryUse { kPublished, kNone };
+
+/// Publishes as a robot does: scans, odometry and the sensor's place on it.
+/// @tparam Kind team::Planar or team::Spatial.
+template <class Kind>
+class BasicRobotPublisher {
+ public:
+  using Pose = typename Kind::Pose;
+  using Observation = typename Kind::Observation;
+
+  /// @throws DdsError.
+  BasicRobotPublisher(const Participant& participant, RobotNames names, OdometryUse odometry);
+  ~BasicRobotPublisher();
+
+  /// Waits until somebody listens to the scans, knows where the sensor is, and hears the odometry.
+  /// @returns false where nobody came in time.
+  bool WaitForListener(const Pose& T_robot_sensor, std::chrono::nanoseconds timeout);
+
+  /// Odometry goes first, so that it is there when its scan arrives.
+  /// @returns false where a listener did not take it in time.
+  bool Publish(const Observation& observation);
+  /// Whether somebody listens to the scans; to where the robot is told to be.
+  bool has_listener() const;
+  bool has_pose_listener() const;
+  /// Tells where the robot is, as an operator would (initialpose).
+  void TellPose(Timestamp stamp, const typename Kind::UncertainPose& map_robot);
+  void PublishTruth(Timestamp stamp, const Pose& T_world_robot);
+
+  /// Waits until all that was published has arrived at every reliable listener.
+  bool WaitForAcknowledgments(std::chrono::nanoseconds timeout);
+  /// Waits for that before this goes, and a moment longer: listeners that acknowledge nothing may
+  /// hear that their publisher is gone before they hear what it said last, which then is lost.
+  void Finish(std::chrono::nanoseconds timeout);
+
+  const RobotNames& names() const;
+
+ private:
+  class Topics;
+  std::unique_ptr<Topics> topics_;
+};
+
+using RobotPublisher = BasicRobotPublisher<team::Planar>;
+using CloudRobotPublisher = BasicRobotPublisher<team::Spatial>;
+
+extern template class BasicRobotPublisher<team::Planar>;
+extern template class BasicRobotPublisher<team::Spatial>;
+
+}  // namespace qwsm::dds

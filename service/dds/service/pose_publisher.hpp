@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "service/dds/entities/writer.hpp"
+#include "service/dds/wire/robot_names.hpp"
+#include "service/team/sensor_kind.hpp"
+
+namespace qwsm::dds {
+
+/// Tells where a robot is: pose, odometry and transform.
+/// @tparam Kind of the poses: team::Planar or team::Spatial.
+template <class Kind>
+class PosePublisher {
+ public:
+  using Pose = typename Kind::Pose;
+
+  /// @param transforms writer of /tf, which all robots share; outlives this.
+  PosePublisher(const Participant& participant,
+                const RobotNames& names,
+                const Writer<wire::TFMessage>& transforms);
+
+  /// @param T_odom_robot at the same time, if there is odometry.
+  void Publish(Timestamp stamp,
+               const typename Kind::UncertainPose& map_robot,
+               const std::optional<Pose>& T_odom_robot) const;
+
+ private:
+  void PublishTransform(Timestamp stamp,
+                        const Pose& T_map_robot,
+                        const std::optional<Pose>& T_odom_robot) const;
+
+  std::string map_frame_;
+  std::string odom_frame_;
+  std::string robot_frame_;
+  const Writer<wire::TFMessage>& transforms_;
+  Writer<wire::PoseWithCovarianceStamped> poses_;
+  Writer<wire::Odometry> odometry_;
+};
+
+extern template class PosePublisher<team::Planar>;
+extern template class PosePublisher<team::Spatial>;
+
+}  // namespace qwsm::dds

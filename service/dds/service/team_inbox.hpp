@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "service/dds/service/service_inbox.hpp"
+#include "service/dds/service/team_outbox.hpp"
+#include "service/team/team_service.hpp"
+
+namespace qwsm::dds {
+
+extern template class ServiceInbox<team::Planar, team::TeamService, TeamOutbox>;
+
+/// Brings the service what robots and other services say. Used by one thread.
+class TeamInbox {
+ public:
+  /// As ServiceInbox. @param participant and all others outlive this.
+  TeamInbox(const Participant& participant,
+            const std::vector<std::string>& robots,
+            team::TeamService& service,
+            TeamOutbox& outbox,
+            Refusals& refusals);
+
+  /// Waits until something has arrived, or for so long, and delivers it.
+  void Deliver(std::chrono::nanoseconds timeout);
+
+ private:
+  void DeliverSharedScans();
+
+  team::TeamService& service_;
+  Refusals& refusals_;
+  Reader<wire::RelevantScan> shared_scans_;
+  std::size_t lost_services_ = 0;
+  ServiceInbox<team::Planar, team::TeamService, TeamOutbox> robots_;
+};
+
+}  // namespace qwsm::dds

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "service/dds/entities/wire_types.hpp"
+#include "service/dds/wire/match_report.hpp"
+#include "service/team/team_sink.hpp"
+
+namespace qwsm::dds {
+
+/// What an answer says to others.
+MatchReport ReportOf(const team::RobotAnswer& answer);
+
+/// A sample that points into the report and the name of the frame: write it while both live.
+wire::MatchReport ToWire(const MatchReport& report, const std::string& map_frame);
+
+/// Nothing where the sample makes no sense.
+std::optional<MatchReport> FromWire(const wire::MatchReport& sample);
+
+}  // namespace qwsm::dds

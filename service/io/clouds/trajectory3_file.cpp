@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/io/clouds/trajectory3_file.hpp"
+
+#include <Eigen/Geometry>
+#include <charconv>
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "service/io/clouds/uos_scan.hpp"
+#include "service/io/files/atomic_file.hpp"
+#include "service/io/files/file_error.hpp"
+#include "service/io/files/number_text.hpp"
+#include "service/io/files/table_file.hpp"
+
+namespace slam6d::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The number at the end of a name: 7 for "scan007".
+std::optional<double> NumberAtEnd(const std::string& name) {
+  const std::size_t start = name.find_last_not_of("0123456789") + 1;
+  unsigned long number = 0;
+  const char* const end = name.data() + name.size();
+  if (std::from_chars(name.data() + start, end, number).ec != std::errc{}) return std::nullopt;
+  return static_cast<double>(number);
+}
+
+NumberedPoses ReadTum3(const fs::path& file) {
+  NumberedPoses poses;
+  std::ifstream stream = qwsm::io::OpenForReading(file);
+  qwsm::io::ReadTable(
+      stream, file.string(), "a line is 't x y z qx qy qz qw'", [&](qwsm::io::FieldReader& fields) {
+        const double stamp = fields.Number();
+        Pose3 pose;
+        for (int axis = 0; axis < 3; ++axis) pose.translation_m(axis) = fields.Number();
+        Eigen::Quaterniond q;
+        for (double* const part : {&q.x(), &q.y(), &q.z(), &q.w()}) *part = fields.Number();
+        if (!(q.norm() > 0.0)) fields.Fail(qwsm::io::FieldFault::kNoRotation);
+        pose.rotation = q.normalized().toRotationMatrix();
+        poses[stamp] = pose;
+      });
+  return poses;
+}
+
+NumberedPoses ReadFolder(const fs::path& folder, const std::string& ending) {
+  NumberedPoses poses;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() != ending) continue;
+    const std::optional<double> number = NumberAtEnd(entry.path().stem().string());
+    if (!number) continue;
+    poses[*number] = ending == ".frames" ? ReadUosFrames(entry.path()) : ReadUosPose(entry.path());
+  }
+  return poses;
+}
+
+}  // namespace
+
+void WriteTum3(const fs::path& file,
+               const std::vector<Pose3>& T_map_scan,
+               const std::vector<qwsm::Timestamp>& stamps) {
+  constexpr std::string_view kWhole = ".000000000";
+  std::string text;
+  for (std::size_t scan = 0; scan < T_map_scan.size(); ++scan) {
+    const Eigen::Vector3d& t = T_map_scan[scan].translation_m;
+    const Eigen::Quaterniond q(T_map_scan[scan].rotation);
+    qwsm::io::AppendStamp(text, stamps[scan]);
+    if (text.ends_with(kWhole)) text.erase(text.size() - kWhole.size());  // As of a number.
+    for (const double value : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}) {
+      text += ' ';
+      qwsm::io::AppendNumber(text, value);
+    }
+    text += '\n';
+  }
+  qwsm::io::WriteTextFile(file, text);
+}
+
+void WriteTum3(const fs::path& file, const std::vector<Pose3>& T_map_scan) {
+  std::vector<qwsm::Timestamp> numbers;
+  for (std::size_t scan = 0; scan < T_map_scan.size(); ++scan) {
+    numbers.push_back(std::chrono::seconds(scan));
+  }
+  WriteTum3(file, T_map_scan, numbers);
+}
+
+NumberedPoses ReadPoses(const fs::path& path) {
+  if (!fs::is_directory(path)) return ReadTum3(path);
+  if (fs::exists(path / "trajectory.tum")) return ReadTum3(path / "trajectory.tum");
+  for (const char* ending : {".frames", ".pose"}) {
+    NumberedPoses poses = ReadFolder(path, ending);
+    if (!poses.empty()) return poses;
+  }
+  throw std::runtime_error(path.string() +
+                           ": holds no trajectory.tum, no .frames and no .pose files");
+}
+
+}  // namespace slam6d::io

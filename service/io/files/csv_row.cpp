@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/io/files/csv_row.hpp"
+
+#include <cassert>
+
+#include "service/io/files/number_text.hpp"
+
+namespace qwsm::io {
+
+void CsvRow::Add(double value) {
+  AppendNumber(text_, value);
+  text_ += ',';
+}
+
+void CsvRow::Add(Timestamp stamp) {
+  AppendStamp(text_, stamp);
+  text_ += ',';
+}
+
+void CsvRow::Add(std::string_view word) {
+  text_ += word;
+  text_ += ',';
+}
+
+const std::string& CsvRow::Finish() {
+  assert(!text_.empty() && "a row has at least one column");
+  text_.back() = '\n';
+  return text_;
+}
+
+}  // namespace qwsm::io

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/io/logs/journal_reader.hpp"
+
+#include <utility>
+
+#include "service/io/journal/scan_codec.hpp"
+
+namespace qwsm::io {
+namespace {
+
+JournalFile Open(const std::filesystem::path& file) {
+  try {
+    return JournalFile::Read(file, kScanJournal);
+  } catch (const JournalError& error) {
+    throw LogError(error.what());
+  }
+}
+
+}  // namespace
+
+JournalReader::JournalReader(const std::filesystem::path& file)
+    : journal_(Open(file)), entries_(journal_.size()) {
+  report_.name = file.string();
+  report_.format = "journal";
+  report_.compression = "none";
+}
+
+std::optional<LogRecord> JournalReader::Next() {
+  while (std::optional<JournalEntry> entry = NextEntry()) {
+    try {
+      RelevantScan relevant = DecodeScan(entry->contents).relevant;
+      ++report_.scans;
+      return ScanReading{.scan = std::move(relevant.scan),
+                         .T_odom_robot = relevant.map_robot.T_a_b,
+                         .laser = std::move(entry->robot)};
+    } catch (const BinaryError&) {
+      CountDamaged(1, "an entry holds no scan that can be read");
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<JournalEntry> JournalReader::NextEntry() {
+  const std::size_t damaged_before = journal_.damaged();
+  try {
+    std::optional<JournalEntry> entry = journal_.Next();
+    const std::size_t damaged = journal_.damaged() - damaged_before;
+    report_.lines += damaged + (entry ? 1 : 0);
+    if (damaged > 0) CountDamaged(damaged, "an entry's checksum is wrong");
+    return entry;
+  } catch (const JournalError& error) {
+    throw LogError(error.what());
+  }
+}
+
+void JournalReader::CountDamaged(std::size_t damaged, const char* what) {
+  for (LogFault& fault : report_.faults) {
+    if (fault.what != what) continue;
+    fault.count += damaged;
+    return;
+  }
+  report_.faults.push_back({.what = what, .count = damaged, .first_line = report_.lines});
+}
+
+LogProgress JournalReader::progress() const {
+  return {.bytes_read = report_.lines, .bytes_total = entries_};
+}
+
+}  // namespace qwsm::io

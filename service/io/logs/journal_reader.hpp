@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "service/io/journal/journal_file.hpp"
+#include "service/io/logs/log_reader.hpp"
+
+namespace qwsm::io {
+
+/// Reads the journal of a service as a log of its relevant scans.
+///
+/// Their poses in the map stand for odometry: those of all robots of a team are in one frame, so
+/// that the scans of several robots can be read as one drive.
+class JournalReader final : public LogReader {
+ public:
+  /// @throws LogError where it is no journal of planar scans.
+  explicit JournalReader(const std::filesystem::path& file);
+
+  std::optional<LogRecord> Next() override;
+  const LogReport& report() const override { return report_; }
+  /// In entries, not in bytes.
+  LogProgress progress() const override;
+
+ private:
+  std::optional<JournalEntry> NextEntry();
+  void CountDamaged(std::size_t damaged, const char* what);
+
+  JournalFile journal_;
+  LogReport report_;
+  std::size_t entries_;
+};
+
+}  // namespace qwsm::io

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "service/io/files/field_reader.hpp"
+#include "service/io/logs/log_record.hpp"
+
+namespace qwsm::io {
+
+/// One sweep as its line gives it, before what the line leaves open is filled in.
+///
+/// Open are a `range_max_m` of 0, the mounting unless `mounting_known`, the odometry if absent.
+struct Sweep {
+  ScanReading reading;
+  std::string_view message;           ///< "FLASER", a literal.
+  bool mounting_known = false;        ///< Stated by the log apart from the line.
+  std::optional<Pose2> T_odom_laser;  ///< Stated by the line.
+  bool odd_readings = false;          ///< Some are negative or not finite.
+};
+
+struct Comment {};
+/// A message of no use here.
+struct OtherMessage {};
+struct UnknownMessage {
+  std::string_view name;
+};
+struct MalformedLine {
+  std::string_view message;  ///< Its name, a literal.
+  FieldFault fault{};
+};
+
+/// What one line says.
+using ParsedLine = std::variant<Comment,
+                                OtherMessage,
+                                UnknownMessage,
+                                MalformedLine,
+                                Sweep,
+                                OdometryReading,
+                                TruePoseReading>;
+
+/// Knows one text format, line by line.
+class LogParser {
+ public:
+  LogParser() = default;
+  LogParser(const LogParser&) = delete;
+  LogParser& operator=(const LogParser&) = delete;
+  virtual ~LogParser() = default;
+
+  virtual std::string_view format() const = 0;
+  /// Whether the format has time stamps; else the parser makes them up.
+  virtual bool has_stamps() const { return true; }
+  /// Views in the result are valid as long as `line`.
+  virtual ParsedLine Parse(std::string_view line) = 0;
+};
+
+/// The parser of the format that `line` is written in; null where it tells nothing, as comments do.
+std::unique_ptr<LogParser> RecognizeFormat(std::string_view line,
+                                           std::optional<double> field_of_view_rad);
+
+}  // namespace qwsm::io

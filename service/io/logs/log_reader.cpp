@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/io/logs/log_reader.hpp"
+
+#include <fstream>
+#include <iostream>
+#include <utility>
+
+#include "service/io/files/file_error.hpp"
+#include "service/io/journal/sqlite_database.hpp"
+#include "service/io/logs/journal_reader.hpp"
+#include "service/io/logs/text_log_reader.hpp"
+
+namespace qwsm::io {
+
+std::unique_ptr<LogReader> OpenLog(std::istream& stream,
+                                   std::string_view name,
+                                   const LogOptions& options) {
+  return std::make_unique<TextLogReader>(stream, name, options);
+}
+
+std::unique_ptr<LogReader> OpenLog(const std::filesystem::path& path, const LogOptions& options) {
+  if (path == "-") return OpenLog(std::cin, "standard input", options);
+  if (IsSqliteDatabase(path)) return std::make_unique<JournalReader>(path);
+  std::unique_ptr<std::ifstream> file;
+  try {
+    file = std::make_unique<std::ifstream>(OpenForReading(path));
+  } catch (const std::runtime_error& error) {
+    throw LogError(error.what());
+  }
+  auto reader = std::make_unique<TextLogReader>(*file, path.string(), options);
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);  // Not that of a pipe.
+  reader->Own(std::move(file), error ? std::nullopt : std::optional<std::uint64_t>(size));
+  return reader;
+}
+
+}  // namespace qwsm::io

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <istream>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "service/io/logs/log_record.hpp"
+#include "service/io/logs/log_report.hpp"
+
+namespace qwsm::io {
+
+/// A log that cannot be opened, recognised or read on; or, when strict, its first malformed line.
+/// The text begins with "file:" or "file:line:" and says what is wrong and how to mend it.
+class LogError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// How a log is read. What the log states and what can be inferred from it needs no option.
+struct LogOptions {
+  bool strict = false;  ///< Throw at a malformed line instead of counting and skipping it.
+  std::string laser;    ///< Its name or message ("rear", "RLASER"), "all"; empty: the front one.
+  std::optional<Pose2> T_robot_laser;       ///< Instead of what the log says of the mounting.
+  std::optional<float> range_max_m;         ///< Instead of what the log says or shows.
+  std::optional<double> field_of_view_rad;  ///< Where lines do not state it, instead of the guess.
+  std::function<void(const std::string&)>
+      on_fault;  ///< Gets each kind of fault once, as it appears.
+};
+
+/// How much of a log has been read.
+struct LogProgress {
+  std::uint64_t bytes_read = 0;              ///< Of the file as it is, compressed or not.
+  std::optional<std::uint64_t> bytes_total;  ///< Unknown for a pipe.
+};
+
+/// Reads a robot log message by message.
+///
+/// Memory is bounded: the reader looks some thousand sweeps ahead, to know the lasers before it
+/// delivers the first, but never keeps the whole file. What it delivers depends on nothing but the
+/// bytes: a pipe gives the same records as a file.
+class LogReader {
+ public:
+  LogReader() = default;
+  LogReader(const LogReader&) = delete;
+  LogReader& operator=(const LogReader&) = delete;
+  virtual ~LogReader() = default;
+
+  /// The next message, in the order of the file; nothing at the end.
+  /// @throws LogError where the file is damaged, after everything before the damage was delivered;
+  ///         or, when strict, at a malformed line.
+  virtual std::optional<LogRecord> Next() = 0;
+
+  virtual const LogReport& report() const = 0;
+  virtual LogProgress progress() const = 0;
+};
+
+/// Opens a log: CARMEN, Player or DP-SLAM text; plain, gzip, bzip2 or xz; or the journal of a
+/// service. All are recognised from the content, never from the name. "-" is standard input.
+/// @throws LogError where there is no such file or it is not a log.
+std::unique_ptr<LogReader> OpenLog(const std::filesystem::path& path,
+                                   const LogOptions& options = {});
+
+/// The same from a stream, which must outlive the reader; `name` stands for it in messages.
+std::unique_ptr<LogReader> OpenLog(std::istream& stream,
+                                   std::string_view name,
+                                   const LogOptions& options = {});
+
+}  // namespace qwsm::io

@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/io/maps/map_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <fstream>
+
+#include "qwsm/sensor/scan_points.hpp"
+#include "service/io/files/atomic_file.hpp"
+#include "service/io/files/binary.hpp"
+#include "service/io/files/file_error.hpp"
+#include "service/io/journal/scan_codec.hpp"
+#include "service/io/maps/option_codec.hpp"
+
+namespace qwsm::io {
+namespace {
+
+constexpr std::string_view kMagic = "QWSM map";
+constexpr std::uint32_t kVersion = 1;
+constexpr std::size_t kHeaderBytes =
+    kMagic.size() + 2 * sizeof(std::uint32_t) + sizeof(std::uint64_t);
+// Of the smallest scan and of a point, which bound what a file of some size can claim to hold.
+constexpr std::size_t kScanBytes = 38 * sizeof(std::uint32_t);
+constexpr std::size_t kPointBytes = 2 * sizeof(double) + 2 * sizeof(std::uint32_t);
+
+void AddPoints(BinaryWriter& writer, const PointQuadtree& points) {
+  writer.Add(static_cast<std::uint64_t>(points.size()));
+  for (PointId id = 0; id < points.id_end(); ++id) {
+    if (!points.Contains(id)) continue;
+    const Eigen::Vector2d p_map_m = points.Position(id);
+    writer.Add(p_map_m.x());
+    writer.Add(p_map_m.y());
+    writer.Add(static_cast<std::uint32_t>(points.Scan(id)));
+    writer.Add(points.Count(id));
+  }
+}
+
+/// Whether the quadtree holds just the points that follow, in this order.
+bool HoldsPoints(BinaryReader& reader, const PointQuadtree& points) {
+  if (reader.Count(kPointBytes) != points.size()) return false;
+  for (PointId id = 0; id < points.id_end(); ++id) {
+    if (!points.Contains(id)) continue;
+    const Eigen::Vector2d p_map_m = points.Position(id);
+    const bool same_place = reader.Double() == p_map_m.x() && reader.Double() == p_map_m.y();
+    const bool same_origin = same_place && reader.Unsigned32() == points.Scan(id) &&
+                             reader.Unsigned32() == points.Count(id);
+    if (!same_origin) return false;
+  }
+  return true;
+}
+
+ScanMapOptions ReadMapOptions(BinaryReader& reader) {
+  OptionValues values = ReadOptions(reader);
+  ScanMapOptions options;
+  OptionRestorer restorer(values);
+  Describe(restorer, options);
+  if (!values.empty()) throw BinaryError("the option " + values.begin()->first + " is unknown");
+  return options;
+}
+
+ScanMap DecodeRest(std::string_view rest) {
+  BinaryReader reader(rest);
+  ScanMap map(ReadMapOptions(reader));
+  const std::size_t scans = reader.Count(kScanBytes);
+  for (std::size_t i = 0; i < scans; ++i) {
+    const RelevantScan relevant = ReadScan(reader);
+    map.Insert(relevant.scan, ToPoints(relevant.scan), relevant.map_robot);
+  }
+  if (!HoldsPoints(reader, map.surfaces().quadtree())) {
+    throw BinaryError("its points are not those of its scans; was it saved by another release?");
+  }
+  if (reader.remaining() > 0) throw BinaryError("there is more in it than a map");
+  return map;
+}
+
+/// Checks all that can be known before the contents are looked at, and returns them.
+std::string_view CheckHeader(std::string_view bytes, std::string_view name) {
+  if (!bytes.starts_with(kMagic)) throw MapFileError(fmt::format("{}: is no map of qwsm", name));
+  if (bytes.size() < kHeaderBytes) throw MapFileError(fmt::format("{}: is truncated", name));
+  BinaryReader header(bytes.substr(kMagic.size()));
+  const std::uint32_t version = header.Unsigned32();
+  if (version != kVersion) {
+    throw MapFileError(
+        fmt::format("{}: is a map of version {}; this release of qwsm reads version {}",
+                    name,
+                    version,
+                    kVersion));
+  }
+  const std::uint32_t checksum = header.Unsigned32();
+  const std::uint64_t size = header.Unsigned64();
+  const std::string_view rest = bytes.substr(kHeaderBytes);
+  if (rest.size() < size) {
+    throw MapFileError(fmt::format("{}: is truncated: only {} of {} bytes are there",
+                                   name,
+                                   bytes.size(),
+                                   size + kHeaderBytes));
+  }
+  if (rest.size() > size) {
+    throw MapFileError(fmt::format("{}: is damaged: {} bytes too many", name, rest.size() - size));
+  }
+  if (Checksum(rest) != checksum) {
+    throw MapFileError(fmt::format("{}: is damaged: its checksum is wrong", name));
+  }
+  return rest;
+}
+
+/// All bytes of a map file; of any other, not more than it takes to tell.
+std::string ReadBytes(const std::filesystem::path& path) {
+  std::ifstream file = OpenForReading(path);
+  std::string bytes(kMagic.size(), '\0');
+  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  if (bytes == kMagic) bytes.append(std::istreambuf_iterator<char>(file), {});
+  return bytes;
+}
+
+}  // namespace
+
+std::string EncodeMap(const ScanMap& map) {
+  BinaryWriter rest;
+  OptionCollector options;
+  ScanMapOptions copy = map.options();
+  Describe(options, copy);
+  AddOptions(rest, options.values);
+  rest.Add(static_cast<std::uint64_t>(map.scans().size()));
+  for (const RelevantScan& relevant : map.scans()) AddScan(rest, relevant);
+  AddPoints(rest, map.surfaces().quadtree());
+
+  BinaryWriter header;
+  header.Add(kVersion);
+  header.Add(Checksum(rest.bytes()));
+  header.Add(static_cast<std::uint64_t>(rest.bytes().size()));
+  return std::string(kMagic) + header.bytes() + rest.bytes();
+}
+
+ScanMap DecodeMap(std::string_view bytes, std::string_view name) {
+  const std::string_view rest = CheckHeader(bytes, name);
+  try {
+    return DecodeRest(rest);
+  } catch (const BinaryError& error) {
+    throw MapFileError(fmt::format("{}: is damaged: {}", name, error.what()));
+  }
+}
+
+void SaveMap(const std::filesystem::path& path, const ScanMap& map) {
+  WriteTextFile(path, EncodeMap(map));
+}
+
+ScanMap LoadMap(const std::filesystem::path& path) {
+  return DecodeMap(ReadBytes(path), path.string());
+}
+
+}  // namespace qwsm::io

@@ -1,0 +1,267 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/io/pictures/trajectory_picture.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "service/io/pictures/axis.hpp"
+#include "service/io/pictures/covariance_ellipse.hpp"
+#include "service/io/pictures/map_frame.hpp"
+
+namespace qwsm::io {
+namespace {
+
+using Points = std::vector<Eigen::Vector2d>;
+
+constexpr LineStyle kHalo{.color = {1.0, 1.0, 1.0, 0.75}, .width_px = 6.0};
+// Wider than the path, which is drawn on it: where the two agree the path has dark edges.
+constexpr LineStyle kTruthStyle{.color = FromBytes(60, 60, 60), .width_px = 5.0};
+constexpr LineStyle kOdometryStyle{
+    .color = FromBytes(120, 125, 132), .width_px = 1.6, .dash_px = 6.0};
+constexpr LineStyle kEllipseStyle{.color = FromBytes(150, 0, 140), .width_px = 1.1};
+constexpr Color kEllipseFill = FromBytes(150, 0, 140, 0.12);
+constexpr Color kDeadReckoned = FromBytes(225, 20, 30);
+constexpr Color kStartFill = FromBytes(255, 200, 0);
+constexpr Color kStartEdge = FromBytes(90, 70, 0);
+constexpr double kPathWidthPx = 2.8;
+constexpr double kDotPx = 3.0;
+
+// From the beginning to the end, as a share of the path.
+Color ColorAlongPath(double share) {
+  constexpr std::array kStops = {FromBytes(0, 110, 200),
+                                 FromBytes(0, 160, 150),
+                                 FromBytes(90, 175, 40),
+                                 FromBytes(240, 150, 0)};
+  const double at = std::clamp(share, 0.0, 1.0) * (kStops.size() - 1);
+  const auto below = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
+  const double rest = at - static_cast<double>(below);
+  const Color& a = kStops[below];
+  const Color& b = kStops[below + 1];
+  return {a.red + rest * (b.red - a.red),
+          a.green + rest * (b.green - a.green),
+          a.blue + rest * (b.blue - a.blue)};
+}
+
+void DrawDot(Canvas& canvas, const Eigen::Vector2d& center_px) {
+  canvas.FillPolygon(EllipseOutline(center_px, kDotPx * Eigen::Matrix2d::Identity()),
+                     kDeadReckoned);
+}
+
+// An arrow of fixed size, pointing where the robot looks; y points down on the canvas.
+void DrawArrow(Canvas& canvas, const Eigen::Vector2d& at_px, double heading_rad) {
+  const Eigen::Vector2d ahead(std::cos(heading_rad), -std::sin(heading_rad));
+  const Eigen::Vector2d left(-ahead.y(), ahead.x());
+  const std::array<Eigen::Vector2d, 4> corners_px = {at_px + 14.0 * ahead,
+                                                     at_px - 8.0 * ahead + 9.0 * left,
+                                                     at_px - 4.0 * ahead,
+                                                     at_px - 8.0 * ahead - 9.0 * left};
+  canvas.FillPolygon(corners_px, kStartFill);
+  Points outline_px(corners_px.begin(), corners_px.end());
+  outline_px.push_back(outline_px.front());
+  canvas.Stroke(outline_px, {.color = kStartEdge, .width_px = 1.2});
+}
+
+std::string MinutesAndSeconds(Timestamp time) {
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(time).count();
+  const std::string rest = std::to_string(seconds % 60);
+  return std::to_string(seconds / 60) + ":" + (rest.size() < 2 ? "0" : "") + rest;
+}
+
+// An ellipse of the position, where it is drawn.
+struct PlacedEllipse {
+  Eigen::Vector2d center_map_m;
+  Eigen::Matrix2d half_axes_m;
+};
+
+// Ellipses along the path, far enough from each other not to hide it.
+std::vector<PlacedEllipse> EllipsesAlong(const std::vector<PathPose>& path, double apart_m) {
+  std::vector<PlacedEllipse> ellipses;
+  double since_last_m = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Eigen::Vector2d here_m = path[i].map_robot.T_a_b.translation_m();
+    since_last_m += (here_m - path[i - 1].map_robot.T_a_b.translation_m()).norm();
+    if (since_last_m < apart_m) continue;
+    ellipses.push_back({here_m, HalfAxes95(path[i].map_robot.covariance)});
+    since_last_m = 0.0;
+  }
+  return ellipses;
+}
+
+double EnlargementOf(const std::vector<PlacedEllipse>& ellipses, double px_per_m) {
+  std::vector<double> radii_px;
+  for (const PlacedEllipse& ellipse : ellipses) {
+    radii_px.push_back(ellipse.half_axes_m.colwise().norm().maxCoeff() * px_per_m);
+  }
+  return Enlargement(std::move(radii_px));
+}
+
+LegendItem TimeItem(const std::vector<PathPose>& path) {
+  constexpr int kSteps = 80;
+  const auto [first, last] = std::ranges::minmax(path, {}, &PathPose::stamp);
+  return {.label = "path, 0:00 to " + MinutesAndSeconds(last.stamp - first.stamp) + " min",
+          .sample_width_px = kSteps,
+          .draw_sample = [](Canvas& canvas, const Eigen::Vector2d& left_px) {
+            for (int i = 0; i < kSteps; ++i) {
+              canvas.StrokeLine(left_px + Eigen::Vector2d(i, 0.0),
+                                left_px + Eigen::Vector2d(i + 1.0, 0.0),
+                                {.color = ColorAlongPath(1.0 * i / kSteps), .width_px = 4.0});
+            }
+          }};
+}
+
+LegendItem StartItem() {
+  return {.label = "start",
+          .sample_width_px = 22.0,
+          .draw_sample = [](Canvas& canvas, const Eigen::Vector2d& left_px) {
+            DrawArrow(canvas, left_px + Eigen::Vector2d(8.0, 0.0), 0.0);
+          }};
+}
+
+LegendItem DeadReckonedItem(std::ptrdiff_t count, std::size_t of) {
+  return {.label = "dead reckoned (" + std::to_string(count) + " of " + std::to_string(of) + ")",
+          .sample_width_px = 2.0 * kDotPx,
+          .draw_sample = [](Canvas& canvas, const Eigen::Vector2d& left_px) {
+            DrawDot(canvas, left_px + Eigen::Vector2d(kDotPx, 0.0));
+          }};
+}
+
+LegendItem EllipseItem(double enlargement) {
+  const std::string times =
+      enlargement > 1.0 ? ", " + std::to_string(std::lround(enlargement)) + " times enlarged" : "";
+  return {.label = "95 % ellipse" + times,
+          .sample_width_px = 24.0,
+          .draw_sample = [](Canvas& canvas, const Eigen::Vector2d& left_px) {
+            const Points outline_px = EllipseOutline(left_px + Eigen::Vector2d(12.0, 0.0),
+                                                     Eigen::Vector2d(12.0, 6.0).asDiagonal());
+            canvas.FillPolygon(outline_px, kEllipseFill);
+            canvas.Stroke(outline_px, kEllipseStyle);
+          }};
+}
+
+Eigen::Vector2d PositionOf(const PathPose& pose) { return pose.map_robot.T_a_b.translation_m(); }
+Eigen::Vector2d PositionOf(const StampedPose2& pose) { return pose.T_map_robot.translation_m(); }
+
+bool IsDeadReckoned(const PathPose& pose) { return pose.status == StepStatus::kDeadReckoned; }
+
+// Draws what an overlay holds on a map.
+class OverlayPainter {
+ public:
+  OverlayPainter(const OccupancyGrid& grid, const MapView& view, const MapOverlay& overlay)
+      : overlay_(overlay),
+        ellipses_(EllipsesAlong(overlay.path, kApartPx / view.px_per_m())),
+        enlargement_(EnlargementOf(ellipses_, view.px_per_m())),
+        frame_(grid, view, Items()) {}
+
+  void Paint() {
+    frame_.canvas().Clip(frame_.map_area());
+    StrokePath(overlay_.odometry, kOdometryStyle);
+    PaintEllipses();
+    if (overlay_.truth.empty()) StrokePath(overlay_.path, kHalo);
+    StrokePath(overlay_.truth, kTruthStyle);
+    PaintPath();
+    if (!overlay_.path.empty()) {
+      const Pose2& T_map_robot = overlay_.path.front().map_robot.T_a_b;
+      DrawArrow(
+          frame_.canvas(), frame_.ToCanvas(T_map_robot.translation_m()), T_map_robot.theta_rad);
+    }
+    frame_.canvas().Unclip();
+  }
+
+  const Canvas& canvas() { return frame_.canvas(); }
+
+ private:
+  static constexpr double kApartPx = 70.0;
+
+  std::vector<LegendItem> Items() const {
+    std::vector<LegendItem> items;
+    if (!overlay_.path.empty()) items = {TimeItem(overlay_.path), StartItem()};
+    const auto lost = std::ranges::count_if(overlay_.path, IsDeadReckoned);
+    if (lost > 0) items.push_back(DeadReckonedItem(lost, overlay_.path.size()));
+    if (!ellipses_.empty()) items.push_back(EllipseItem(enlargement_));
+    if (!overlay_.truth.empty()) items.push_back(LineItem("truth", kTruthStyle));
+    if (!overlay_.odometry.empty()) items.push_back(LineItem("odometry", kOdometryStyle));
+    return items;
+  }
+
+  // Without the poses that are within a pixel of the one before: a robot that waits has thousands.
+  template <class Pose>
+  Points ToCanvas(std::span<const Pose> path) const {
+    constexpr double kLeastStepPx = 1.0;
+    Points points_px;
+    for (const Pose& pose : path) {
+      const Eigen::Vector2d point_px = frame_.ToCanvas(PositionOf(pose));
+      const bool is_last = &pose == &path.back();
+      if (points_px.empty() || is_last || (point_px - points_px.back()).norm() >= kLeastStepPx) {
+        points_px.push_back(point_px);
+      }
+    }
+    return points_px;
+  }
+
+  template <class Pose>
+  void StrokePath(const std::vector<Pose>& path, const LineStyle& style) {
+    frame_.canvas().Stroke(ToCanvas(std::span(path)), style);
+  }
+
+  // Its colour changes in steps too small to be seen.
+  void PaintPath() {
+    constexpr std::size_t kSteps = 250;
+    const std::span path(overlay_.path);
+    for (std::size_t step = 0; step < kSteps; ++step) {
+      const std::size_t first = step * path.size() / kSteps;
+      const std::size_t end = std::min((step + 1) * path.size() / kSteps + 1, path.size());
+      if (end - first < 2) continue;
+      frame_.canvas().Stroke(
+          ToCanvas(path.subspan(first, end - first)),
+          {.color = ColorAlongPath(static_cast<double>(step) / kSteps), .width_px = kPathWidthPx});
+    }
+    for (const PathPose& pose : path) {
+      if (IsDeadReckoned(pose)) DrawDot(frame_.canvas(), frame_.ToCanvas(PositionOf(pose)));
+    }
+  }
+
+  void PaintEllipses() {
+    for (const PlacedEllipse& ellipse : ellipses_) {
+      Points outline = EllipseOutline(ellipse.center_map_m, enlargement_ * ellipse.half_axes_m);
+      for (Eigen::Vector2d& point : outline) point = frame_.ToCanvas(point);
+      frame_.canvas().FillPolygon(outline, kEllipseFill);
+      frame_.canvas().Stroke(outline, kEllipseStyle);
+    }
+  }
+
+  const MapOverlay& overlay_;
+  std::vector<PlacedEllipse> ellipses_;
+  double enlargement_ = 1.0;
+  MapFrame frame_;
+};
+
+// The view of the map, the path and the truth; odometry may go anywhere.
+MapView ViewOf(const OccupancyGrid& grid, const MapOverlay& overlay) {
+  Eigen::Vector2d low_m = grid.origin_map_m;
+  Eigen::Vector2d high_m = grid.origin_map_m;
+  const auto include = [&](const auto& pose) {
+    low_m = low_m.cwiseMin(PositionOf(pose));
+    high_m = high_m.cwiseMax(PositionOf(pose));
+  };
+  std::ranges::for_each(overlay.path, include);
+  std::ranges::for_each(overlay.truth, include);
+  return {grid, low_m, high_m};
+}
+
+}  // namespace
+
+void WriteTrajectoryPicture(const std::filesystem::path& path,
+                            const OccupancyGrid& grid,
+                            const MapOverlay& overlay) {
+  OverlayPainter painter(grid, ViewOf(grid, overlay), overlay);
+  painter.Paint();
+  painter.canvas().Save(path);
+}
+
+}  // namespace qwsm::io

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <numbers>
+
+#include "qwsm/mapping/mapper.hpp"
+#include "qwsm/mapping/occupancy_grid.hpp"
+#include "service/config/describe.hpp"
+#include "service/dds/entities/network_options.hpp"
+#include "service/team/team_options.hpp"
+
+namespace qwsm::options {
+
+/// How logs are read. What a log states, or lets infer, needs no option: 0 leaves it at that.
+struct LogOptions {
+  bool strict = false;
+  double range_max_m = 0.0;
+  double field_of_view_rad = 0.0;
+};
+
+template <class Visitor>
+void Describe(Visitor& visit, LogOptions& o) {
+  visit("strict", o.strict, {.help = "stop at a malformed line instead of skipping it"});
+  visit("range_max_m",
+        o.range_max_m,
+        {.help = "range of the laser; 0: as the log says or shows", .min = 0, .max = 1000});
+  visit("field_of_view_rad",
+        o.field_of_view_rad,
+        {.help = "of the laser; 0: as the log says or its beams suggest",
+         .min = 0,
+         .max = 2.0 * std::numbers::pi});
+}
+
+/// Everything that can be configured of the program `qwsm`.
+struct ProgramOptions {
+  LogOptions log;
+  MapperOptions mapper;
+  OccupancyGridOptions rendering;
+  dds::NetworkOptions network;
+  team::TeamOptions team;
+};
+
+template <class Visitor>
+void Describe(Visitor& visit, ProgramOptions& o) {
+  visit("log", o.log, {.help = "reading of logs"});
+  visit("mapper", o.mapper, {.help = "matching scans and extending the map"});
+  visit("rendering", o.rendering, {.help = "the occupancy map that is drawn of the result"});
+  visit("network", o.network, {.help = "DDS, by which robots and services talk"});
+  visit("team", o.team, {.help = "the service for robots on the network"});
+}
+
+}  // namespace qwsm::options
+
+namespace qwsm::config {
+
+// Made once, in program_options.cpp: the compiler takes long over some hundred options.
+extern template OptionGroup GroupOf(options::ProgramOptions& options);
+
+}  // namespace qwsm::config

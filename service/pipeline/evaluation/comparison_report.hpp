@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <list>
+#include <string>
+
+#include "service/pipeline/evaluation/matcher_contest.hpp"
+
+namespace qwsm::pipeline {
+
+// @pre, of all here: there is a contestant.
+
+/// One line per scan, with the status, residual, trace and time of every matcher.
+std::string ComparisonCsv(const std::list<Contestant>& contestants);
+
+/// The figures of every matcher, and the first one's beside those of each other. Names are only
+/// ever added.
+std::string ComparisonJson(const std::list<Contestant>& contestants);
+
+/// The same in two tables for people.
+std::string ComparisonText(const std::list<Contestant>& contestants);
+
+}  // namespace qwsm::pipeline

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "qwsm/geometry/angle.hpp"
+#include "service/config/text_table.hpp"
+#include "service/pipeline/evaluation/evaluation.hpp"
+
+namespace qwsm::pipeline {
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+using Json = nlohmann::ordered_json;
+
+const double kDegrees = RadiansToDegrees(1.0);
+
+/// One metric of one trajectory, as it is called in tables and in JSON.
+struct Metric {
+  std::string name;
+  std::string unit;
+  const ErrorStatistics& errors;
+  double scale = 1.0;
+};
+
+std::vector<Metric> MetricsOf(const Evaluation& evaluation) {
+  std::vector<Metric> metrics;
+  if (evaluation.relations) {
+    const RelationsResult& relations = *evaluation.relations;
+    metrics.push_back({"relations translation", "m", relations.all.translation_m});
+    metrics.push_back({"relations rotation", "deg", relations.all.rotation_rad, kDegrees});
+  }
+  if (evaluation.absolute_m) metrics.push_back({"ate", "m", *evaluation.absolute_m});
+  if (evaluation.relative) {
+    metrics.push_back({"rpe translation", "m", evaluation.relative->translation_m});
+    metrics.push_back({"rpe rotation", "deg", evaluation.relative->rotation_rad, kDegrees});
+  }
+  return metrics;
+}
+
+void AddRow(const Metric& metric, const std::string& trajectory, Rows& rows) {
+  const ErrorStatistics& errors = metric.errors;
+  std::vector<std::string> row{metric.name, metric.unit, fmt::format("{}", errors.count)};
+  for (const double value : {errors.mean,
+                             errors.standard_deviation,
+                             errors.rmse,
+                             errors.median,
+                             errors.percentile_95,
+                             errors.min,
+                             errors.max}) {
+    row.push_back(fmt::format("{:.4f}", value * metric.scale));
+  }
+  row.push_back(trajectory);
+  rows.push_back(std::move(row));
+}
+
+Json ToJson(const ErrorStatistics& errors, const std::string& unit, double scale = 1.0) {
+  Json json;
+  json["count"] = errors.count;
+  json["mean_" + unit] = errors.mean * scale;
+  json["std_" + unit] = errors.standard_deviation * scale;
+  json["rmse_" + unit] = errors.rmse * scale;
+  json["median_" + unit] = errors.median * scale;
+  json["p95_" + unit] = errors.percentile_95 * scale;
+  json["min_" + unit] = errors.min * scale;
+  json["max_" + unit] = errors.max * scale;
+  return json;
+}
+
+Json ToJson(const RelationsSummary& summary) {
+  return {{"translation", ToJson(summary.translation_m, "m")},
+          {"translation_squared", ToJson(summary.translation_squared_m2, "m2")},
+          {"rotation", ToJson(summary.rotation_rad, "deg", kDegrees)},
+          {"rotation_squared", ToJson(summary.rotation_squared_rad2, "deg2", kDegrees * kDegrees)}};
+}
+
+Json ToJson(const RelationsResult& relations) {
+  Json json = ToJson(relations.all);
+  json["local"] = ToJson(relations.local);
+  json["global"] = ToJson(relations.global);
+  json["skipped"] = relations.skipped;
+  return json;
+}
+
+}  // namespace
+
+std::string EvaluationTable(std::span<const Evaluation> evaluations) {
+  Rows rows{{"metric",
+             "unit",
+             "count",
+             "mean",
+             "std",
+             "rmse",
+             "median",
+             "p95",
+             "min",
+             "max",
+             "trajectory"}};
+  std::string notes;
+  for (const Evaluation& evaluation : evaluations) {
+    for (const Metric& metric : MetricsOf(evaluation)) AddRow(metric, evaluation.trajectory, rows);
+    const std::size_t skipped = evaluation.relations ? evaluation.relations->skipped : 0;
+    if (skipped == 0) continue;
+    notes += fmt::format(
+        "{}: {} relations skipped: no pose at their stamps\n", evaluation.trajectory, skipped);
+  }
+  return config::FormatTable(rows) + notes;
+}
+
+std::string EvaluationJson(std::span<const Evaluation> evaluations) {
+  Json list = Json::array();
+  for (const Evaluation& evaluation : evaluations) {
+    Json json{{"trajectory", evaluation.trajectory}};
+    if (evaluation.relations) json["relations"] = ToJson(*evaluation.relations);
+    if (evaluation.absolute_m) json["ate"] = ToJson(*evaluation.absolute_m, "m");
+    if (evaluation.relative) {
+      json["rpe"]["translation"] = ToJson(evaluation.relative->translation_m, "m");
+      json["rpe"]["rotation"] = ToJson(evaluation.relative->rotation_rad, "deg", kDegrees);
+    }
+    list.push_back(std::move(json));
+  }
+  return list.dump(2) + "\n";
+}
+
+}  // namespace qwsm::pipeline

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/evaluation/matcher_contest.hpp"
+
+#include <string>
+
+#include "service/io/files/atomic_file.hpp"
+#include "service/io/pictures/residual_plot.hpp"
+#include "service/pipeline/evaluation/comparison_report.hpp"
+#include "service/pipeline/results/run_report.hpp"
+
+namespace qwsm::pipeline {
+
+MatcherContest::MatcherContest(const MapperOptions& options,
+                               std::span<const MatcherKind> matchers,
+                               const ResultsFolder& folder)
+    : folder_(folder) {
+  for (const MatcherKind matcher : matchers) {
+    MapperOptions own = options;
+    own.matcher = matcher;
+    contestants_.emplace_back(own, ResultsFolder(folder / NameOf(matcher), false));
+  }
+}
+
+std::vector<MappingRun> MatcherContest::runs() {
+  std::vector<MappingRun> runs;
+  for (Contestant& contestant : contestants_) {
+    runs.push_back(
+        {.mapper = &contestant.mapper, .sinks = {&contestant.results, &contestant.figures}});
+  }
+  return runs;
+}
+
+void MatcherContest::Finish(const OccupancyGridOptions& rendering, const Trajectory& truth) {
+  std::vector<io::ResidualSeries> residuals;
+  for (Contestant& contestant : contestants_) {
+    contestant.results.Finish(contestant.mapper, rendering, truth);
+    // The first matcher stands in front, as in the paper.
+    residuals.insert(residuals.begin(),
+                     {.name = std::string(NameOf(contestant.matcher())),
+                      .residual_mm = contestant.figures.Residuals_mm()});
+  }
+  io::WriteResidualPlot(folder_ / "residual.png", residuals);
+  io::WriteTextFile(folder_ / "comparison.csv", ComparisonCsv(contestants_));
+  io::WriteTextFile(folder_ / "metrics.json", ComparisonJson(contestants_));
+}
+
+}  // namespace qwsm::pipeline

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/network/network_robot.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <string>
+#include <vector>
+
+namespace qwsm::pipeline {
+namespace {
+
+constexpr std::size_t kScansOnTheirWay = 3;
+constexpr auto kPatience = std::chrono::seconds(10);
+// Of a team; measured before the start, say.
+constexpr double kStartSigma_m = 0.03;
+constexpr double kStartSigma_rad = 0.01;
+// Who hears the scans hears of the start a moment later, if at all.
+constexpr int kMaxScansHeldBack = 10;
+
+const std::string& NameOf(const sim::Simulation& simulation, std::size_t robot) {
+  return simulation.robots()[robot].options().name;
+}
+
+}  // namespace
+
+NetworkRobot::NetworkRobot(const dds::Participant& participant,
+                           sim::Simulation& simulation,
+                           std::size_t robot,
+                           NetworkPace pace)
+    : simulation_(simulation),
+      robot_(robot),
+      pace_(pace),
+      has_begun_(simulation.robots().size() == 1),
+      reports_(participant, {NameOf(simulation, robot)}),
+      commands_(participant, dds::RobotNames(NameOf(simulation, robot))),
+      publisher_(
+          participant, dds::RobotNames(NameOf(simulation, robot)), dds::OdometryUse::kPublished),
+      window_(reports_, kScansOnTheirWay) {}
+
+bool NetworkRobot::WaitForListener(std::chrono::nanoseconds timeout) {
+  const auto until = std::chrono::steady_clock::now() + timeout;
+  const sim::LaserOptions& laser = simulation_.robots()[robot_].options().laser;
+  const Pose2 T_robot_laser{
+      laser.mount_x_m, laser.mount_y_m, NormalizeAngle(laser.mount_heading_rad)};
+  if (!publisher_.WaitForListener(T_robot_laser, timeout)) return false;
+  while (!reports_.has_writer() || (!has_begun_ && !publisher_.has_pose_listener())) {
+    if (std::chrono::steady_clock::now() >= until) return false;
+    reports_.Take(std::chrono::milliseconds(10));
+  }
+  return true;
+}
+
+void NetworkRobot::Take(const sim::Reading& reading) {
+  if (reading.robot != robot_) return;
+  if (const std::optional<dds::VelocityRequest> command = commands_.Take()) {
+    simulation_.SetCommand(
+        robot_, {.forward_mps = command->forward_mps, .turn_rad_s = command->turn_rad_s});
+  }
+  publisher_.PublishTruth(reading.scan.stamp, reading.T_world_robot);
+  if (!HasBegun(reading)) return;
+  publisher_.Publish({.scan = reading.scan, .T_odom_robot = reading.T_odom_robot});
+  if (pace_ == NetworkPace::kFree) return;
+  window_.NoteSent(reading.scan.stamp);
+  if (!window_.WaitForRoom(kPatience)) {
+    spdlog::warn("{}: no answer for {} s; going on", names().name(), kPatience.count());
+  }
+}
+
+// Topics overtake each other: the first scan follows the start by one period.
+bool NetworkRobot::HasBegun(const sim::Reading& reading) {
+  if (has_begun_) return true;
+  if (publisher_.has_pose_listener()) {
+    UncertainPose2 start{.T_a_b = reading.T_world_robot};
+    start.covariance.diagonal() =
+        Eigen::Vector3d(kStartSigma_m, kStartSigma_m, kStartSigma_rad).cwiseAbs2();
+    publisher_.TellPose(reading.scan.stamp, start);
+    has_begun_ = true;
+    return false;
+  }
+  if (publisher_.has_listener()) ++scans_held_back_;
+  has_begun_ = scans_held_back_ > kMaxScansHeldBack;
+  return has_begun_;
+}
+
+void NetworkRobot::Finish() {
+  if (pace_ == NetworkPace::kAnswers) window_.WaitForAll(kPatience);
+  publisher_.Finish(kPatience);
+}
+
+}  // namespace qwsm::pipeline

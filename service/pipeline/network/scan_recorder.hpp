@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <deque>
+#include <ostream>
+
+#include "service/dds/robot/robot_listener.hpp"
+#include "service/io/logs/carmen_writer.hpp"
+#include "service/team/odometry_buffer.hpp"
+
+namespace qwsm::pipeline {
+
+/// Writes what a robot says as a CARMEN log, each scan with the odometry of its moment.
+class ScanRecorder final : public dds::RobotListener {
+ public:
+  /// The stream outlives this.
+  explicit ScanRecorder(std::ostream& stream) : carmen_(stream) {}
+
+  void TakeScan(const std::string& robot, LaserScan scan) override;
+  void TakeOdometry(const std::string& robot, Timestamp stamp, const Pose2& T_odom_robot) override;
+  void TakeOdometryUse(const std::string& robot, bool is_published) override;
+  void TakeInitialPose(const std::string&, const UncertainPose2&) override {}
+
+  /// Writes the scans whose odometry is known, or will not come.
+  void WriteReady();
+  /// Writes all.
+  void Finish();
+
+  std::size_t scans() const { return scans_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Waiting {
+    LaserScan scan;
+    Clock::time_point arrived;
+  };
+
+  void WriteFirst();
+
+  io::CarmenWriter carmen_;
+  team::OdometryBuffer<Pose2> odometry_;
+  bool expects_odometry_ = false;
+  std::deque<Waiting> waiting_;
+  std::size_t scans_ = 0;
+};
+
+}  // namespace qwsm::pipeline

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "service/io/pictures/residual_plot.hpp"
+#include "service/io/pictures/trajectory_picture.hpp"
+#include "service/pipeline/run/step_sink.hpp"
+#include "service/pipeline/run/thinned_series.hpp"
+
+namespace qwsm::pipeline {
+
+/// Keeps of a run what pictures are drawn from.
+class RunHistory final : public StepSink {
+ public:
+  /// Of a recorded log all is kept.
+  static constexpr std::size_t kAll = std::size_t{1} << 40U;
+
+  /// @param most poses that are kept, evenly spread; even.
+  explicit RunHistory(std::size_t most = kAll)
+      : path_(most), odometry_(most), residuals_mm_(most) {}
+
+  void Take(const TimedStep& timed) override;
+
+  const std::vector<io::PathPose>& path() const { return path_.elements(); }
+  /// Path and odometry.
+  io::MapOverlay Overlay() const;
+  /// Per scan; NaN where there was no match.
+  const std::vector<double>& residuals_mm() const { return residuals_mm_.elements(); }
+
+ private:
+  ThinnedSeries<io::PathPose> path_;
+  ThinnedSeries<StampedPose2> odometry_;
+  ThinnedSeries<double> residuals_mm_;
+  std::optional<Pose2> T_map_odom_;  // By the first scan that has odometry.
+};
+
+}  // namespace qwsm::pipeline

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/results/run_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "qwsm/geometry/angle.hpp"
+#include "service/pipeline/run/progress_display.hpp"
+
+namespace qwsm::pipeline {
+namespace {
+
+double ScansPerSecond(const RunStatistics& run) {
+  const double time_s = run.total_time_s();
+  return time_s > 0.0 ? static_cast<double>(run.scans()) / time_s : 0.0;
+}
+
+void AddTo(nlohmann::ordered_json& json, const TruthReport& truth) {
+  json["ate_rmse_m"] = truth.ate_rmse_m;
+  json["ate_from_start_rmse_m"] = truth.ate_from_start_rmse_m;
+  json["heading_rmse_deg"] = RadiansToDegrees(truth.heading_rmse_rad);
+  json["loop_gap_m"] = truth.loop_gap_m;
+  json["nees"] = truth.nees.mean;
+  json["share_in_95_percent_ellipsoid"] = truth.nees.share_in_95_percent_ellipsoid;
+}
+
+}  // namespace
+
+std::string_view NameOf(MatcherKind matcher) {
+  const auto found =
+      std::ranges::find(Names(matcher), matcher, [](const auto& named) { return named.second; });
+  return found->first;
+}
+
+std::string MetricsJson(const RunStatistics& run,
+                        const ScanMap& map,
+                        MatcherKind matcher,
+                        const std::optional<TruthReport>& truth) {
+  const PointQuadtreeStatistics points = map.surfaces().quadtree().Statistics();
+  nlohmann::ordered_json json;
+  json["matcher"] = NameOf(matcher);
+  json["scans"] = run.scans();
+  json["matched"] = run.Count(StepStatus::kMatched);
+  json["extended"] = run.Count(StepStatus::kExtended);
+  json["dead_reckoned"] = run.Count(StepStatus::kDeadReckoned);
+  json["relevant"] = run.relevant();
+  json["path_length_m"] = run.path_length_m();
+  json["mean_residual_mm"] = run.MeanResidual_mm();
+  json["mean_trace_m2"] = run.MeanTrace_m2();
+  json["scans_per_s"] = ScansPerSecond(run);
+  if (run.scans() > 0) {
+    json["ms_median"] = run.TimeQuantile_ms(0.5);
+    json["ms_p99"] = run.TimeQuantile_ms(0.99);
+    json["ms_max"] = run.longest_time_ms();
+  }
+  json["map"]["points"] = points.points;
+  json["map"]["scans"] = map.scans().size();
+  json["map"]["quadtree_nodes"] = points.nodes;
+  json["map"]["quadtree_depth"] = points.depth;
+  json["map"]["quadtree_bytes"] = points.bytes;
+  if (truth) AddTo(json, *truth);
+  return json.dump(2) + "\n";
+}
+
+std::string SummaryText(const RunStatistics& run,
+                        const ScanMap& map,
+                        const std::optional<TruthReport>& truth) {
+  const PointQuadtreeStatistics points = map.surfaces().quadtree().Statistics();
+  std::string text = fmt::format("scans          {}", WithThousands(run.scans()));
+  if (run.scans() == 0) return text + "\n";
+  text += fmt::format(", {:.0f} per second (median {:.2f} ms, p99 {:.2f} ms, longest {:.1f} ms)\n",
+                      ScansPerSecond(run),
+                      run.TimeQuantile_ms(0.5),
+                      run.TimeQuantile_ms(0.99),
+                      run.longest_time_ms());
+  text += fmt::format("path           {:.1f} m\n", run.path_length_m());
+  text +=
+      fmt::format("matched        {}, of which {} showed much that is new\n",
+                  WithThousands(run.Count(StepStatus::kMatched) + run.Count(StepStatus::kExtended)),
+                  WithThousands(run.Count(StepStatus::kExtended)));
+  text += fmt::format("dead reckoned  {}\n", WithThousands(run.Count(StepStatus::kDeadReckoned)));
+  text += fmt::format("mean residual  {:.2f} mm\n", run.MeanResidual_mm());
+  text += fmt::format("map            {} points of {} relevant scans, {:.1f} MB\n",
+                      WithThousands(points.points),
+                      WithThousands(map.scans().size()),
+                      static_cast<double>(points.bytes) * 1e-6);
+  if (truth) {
+    text += fmt::format(
+        "truth          ATE {:.3f} m rmse, {:.3f} m from tip to tail; NEES {:.2f} (3 is right)\n",
+        truth->ate_rmse_m,
+        truth->loop_gap_m,
+        truth->nees.mean);
+  }
+  return text;
+}
+
+}  // namespace qwsm::pipeline

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "service/pipeline/results/run_statistics.hpp"
+#include "service/pipeline/results/truth_report.hpp"
+
+namespace qwsm::pipeline {
+
+/// As it is given after --matcher.
+std::string_view NameOf(MatcherKind matcher);
+
+/// The figures of a run as JSON; every name ends in its unit. Names are only ever added.
+std::string MetricsJson(const RunStatistics& run,
+                        const ScanMap& map,
+                        MatcherKind matcher,
+                        const std::optional<TruthReport>& truth);
+
+/// The same in a few lines for people.
+std::string SummaryText(const RunStatistics& run,
+                        const ScanMap& map,
+                        const std::optional<TruthReport>& truth);
+
+}  // namespace qwsm::pipeline

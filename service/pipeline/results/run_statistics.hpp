@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "qwsm/mapping/scan_map.hpp"
+#include "service/pipeline/run/step_sink.hpp"
+#include "service/pipeline/run/thinned_series.hpp"
+
+namespace qwsm::pipeline {
+
+/// Adds up what a run was like.
+class RunStatistics final : public StepSink {
+ public:
+  void Take(const TimedStep& timed) override;
+
+  std::size_t scans() const;
+  std::size_t relevant() const { return relevant_; }
+  std::size_t Count(StepStatus status) const;
+  double path_length_m() const { return path_length_m_; }
+  /// Over the matched scans; 0 for none.
+  double MeanResidual_mm() const;
+  double MeanTrace_m2() const;
+  double total_time_s() const { return 1e-3 * time_sum_ms_; }
+  /// Of the time per scan: 0.5 is the median. @pre scans() > 0.
+  double TimeQuantile_ms(double quantile) const;
+  double longest_time_ms() const { return longest_time_ms_; }
+
+ private:
+  static constexpr std::size_t kMostDurations = 1'000'000;
+
+  ThinnedSeries<double> durations_ms_{kMostDurations};
+  double time_sum_ms_ = 0.0;
+  double longest_time_ms_ = 0.0;
+  std::vector<std::size_t> count_of_status_ = std::vector<std::size_t>(4);
+  std::size_t relevant_ = 0;
+  double path_length_m_ = 0.0;
+  double residual_sum_mm_ = 0.0;
+  double trace_sum_m2_ = 0.0;
+  std::optional<Pose2> T_map_last_;
+};
+
+}  // namespace qwsm::pipeline

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "service/io/files/atomic_file.hpp"
+#include "service/pipeline/run/step_sink.hpp"
+
+namespace qwsm::pipeline {
+
+/// The uncertainty the paper charts, in m^2: the on-diagonal elements for x and y of the covariance
+/// of the match (Visser et al. 2009, section 4.1).
+double PositionTrace_m2(const MatchResult& match);
+
+/// Writes a table (CSV) of what the mapper found out about every scan. Columns are only ever added.
+class ScanTableSink final : public StepSink {
+ public:
+  explicit ScanTableSink(const std::filesystem::path& path);
+
+  void Take(const TimedStep& timed) override;
+  void Commit() { file_.Commit(); }
+
+ private:
+  io::AtomicFile file_;
+};
+
+}  // namespace qwsm::pipeline

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/run/interruption.hpp"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <string_view>
+
+namespace qwsm::pipeline {
+namespace {
+
+using std::literals::operator""sv;
+
+constexpr int kInterruptedExitCode = 130;
+
+// The only thing a signal handler and the program can share.
+std::atomic<bool> interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+// Only what may be called inside a signal handler.
+void Say(std::string_view text) {
+  for (const std::string_view part :
+       {"\n"sv, std::string_view(program_invocation_short_name), ": "sv, text}) {
+    [[maybe_unused]] const ssize_t ignored = write(STDERR_FILENO, part.data(), part.size());
+  }
+}
+
+extern "C" void HandleSignal(int number) {
+  if (interrupted.exchange(true)) {
+    Say("quit without writing results\n");
+    _exit(kInterruptedExitCode);
+  }
+  // Ctrl-C comes from a person; SIGTERM from a program, which may read what else is said as JSON.
+  if (number == SIGTERM) return;
+  Say("interrupted: finishing this scan and writing the results; again to quit at once\n");
+}
+
+}  // namespace
+
+Interruption::Interruption() {
+  interrupted = false;
+  struct sigaction action {};
+  action.sa_handler = HandleSignal;
+  action.sa_flags = SA_RESTART;  // What is being written is written whole.
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, &old_interrupt_);
+  sigaction(SIGTERM, &action, &old_terminate_);
+}
+
+Interruption::~Interruption() {
+  sigaction(SIGINT, &old_interrupt_, nullptr);
+  sigaction(SIGTERM, &old_terminate_, nullptr);
+}
+
+bool Interruption::requested() const { return interrupted; }
+
+}  // namespace qwsm::pipeline

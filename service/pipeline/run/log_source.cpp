@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/run/log_source.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+namespace qwsm::pipeline {
+
+LogSource::LogSource(const std::vector<std::filesystem::path>& logs,
+                     const io::LogOptions& options) {
+  for (const std::filesystem::path& log : logs) readers_.push_back(io::OpenLog(log, options));
+}
+
+std::optional<Observation> LogSource::Next() {
+  std::optional<Observation> observation = ahead_ ? std::exchange(ahead_, std::nullopt) : Read();
+  if (observation) ++scans_;
+  return observation;
+}
+
+const Observation* LogSource::Peek() {
+  if (!ahead_) ahead_ = Read();
+  return ahead_ ? &*ahead_ : nullptr;
+}
+
+std::optional<Observation> LogSource::Read() {
+  while (current_ < readers_.size()) {
+    std::optional<io::LogRecord> record = readers_[current_]->Next();
+    if (!record) {
+      ++current_;
+    } else if (auto* reading = std::get_if<io::ScanReading>(&*record)) {
+      return Observation{.scan = std::move(reading->scan), .T_odom_robot = reading->T_odom_robot};
+    } else if (const auto* pose = std::get_if<io::TruePoseReading>(&*record)) {
+      truth_.push_back({.stamp = pose->stamp, .T_map_robot = pose->T_world_robot});
+    }
+  }
+  return std::nullopt;
+}
+
+SourceProgress LogSource::progress() const {
+  SourceProgress progress{.scans = scans_};
+  double bytes_read = 0.0;
+  double bytes_total = 0.0;
+  bool is_known = true;
+  for (const auto& reader : readers_) {
+    progress.dropped += reader->report().malformed_lines();
+    const io::LogProgress log = reader->progress();
+    bytes_read += static_cast<double>(log.bytes_read);
+    bytes_total += static_cast<double>(log.bytes_total.value_or(0));
+    is_known = is_known && log.bytes_total.has_value();
+  }
+  if (is_known && bytes_total > 0.0) progress.share = std::min(1.0, bytes_read / bytes_total);
+  return progress;
+}
+
+std::vector<std::string> LogSource::Describe() const {
+  std::vector<std::string> lines;
+  for (const auto& reader : readers_) {
+    const io::LogReport& report = reader->report();
+    lines.push_back(fmt::format("{}: {} log, {} scans, {} odometry readings in {} lines",
+                                report.name,
+                                report.format,
+                                report.scans,
+                                report.odometry_readings,
+                                report.lines));
+    for (const io::LogFault& fault : report.faults) {
+      lines.push_back(fmt::format("{}:{}: {} ({} lines{})",
+                                  report.name,
+                                  fault.first_line,
+                                  fault.what,
+                                  fault.count,
+                                  fault.line_was_skipped ? ", skipped" : ""));
+    }
+  }
+  return lines;
+}
+
+}  // namespace qwsm::pipeline

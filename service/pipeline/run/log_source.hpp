@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "service/io/logs/log_reader.hpp"
+#include "service/pipeline/run/scan_source.hpp"
+
+namespace qwsm::pipeline {
+
+/// The scans of recorded logs, one log after the other as parts of one recording.
+class LogSource final : public ScanSource {
+ public:
+  /// Opens all logs at once, so that a wrong name is found before the work begins.
+  /// @throws io::LogError where one is no log.
+  LogSource(const std::vector<std::filesystem::path>& logs, const io::LogOptions& options);
+
+  /// @throws io::LogError where a log is damaged, after everything before the damage was given.
+  std::optional<Observation> Next() override;
+  SourceProgress progress() const override;
+  const Trajectory& truth() const override { return truth_; }
+
+  /// What Next() will give; null at the end.
+  const Observation* Peek();
+
+  /// A line per log, and one per kind of fault.
+  std::vector<std::string> Describe() const override;
+
+ private:
+  std::optional<Observation> Read();
+
+  std::vector<std::unique_ptr<io::LogReader>> readers_;
+  std::size_t current_ = 0;
+  std::size_t scans_ = 0;
+  std::optional<Observation> ahead_;  // Peeked at.
+  Trajectory truth_;
+};
+
+}  // namespace qwsm::pipeline

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/run/replay.hpp"
+
+#include <chrono>
+#include <optional>
+
+#include "service/io/logs/log_reader.hpp"
+
+namespace qwsm::pipeline {
+namespace {
+
+void Answer(const Observation& observation, const MappingRun& run) {
+  const auto start = std::chrono::steady_clock::now();
+  TimedStep timed{.step = run.mapper->Process(observation),
+                  .T_odom_robot = observation.T_odom_robot};
+  timed.duration = std::chrono::steady_clock::now() - start;
+  for (StepSink* sink : run.sinks) sink->Take(timed);
+}
+
+}  // namespace
+
+ReplayResult Replay(ScanSource& source,
+                    std::span<const MappingRun> runs,
+                    const std::function<bool()>& stop) {
+  while (!stop()) {
+    std::optional<Observation> observation;
+    try {
+      observation = source.Next();
+    } catch (const io::LogError& error) {
+      return {.end = ReplayEnd::kSourceFailed, .failure = error.what()};
+    }
+    if (!observation) return {.end = ReplayEnd::kExhausted, .failure = {}};
+    for (const MappingRun& run : runs) Answer(*observation, run);
+  }
+  return {.end = ReplayEnd::kInterrupted, .failure = {}};
+}
+
+}  // namespace qwsm::pipeline

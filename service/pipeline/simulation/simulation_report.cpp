@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/simulation/simulation_report.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace qwsm::pipeline {
+namespace {
+
+double SimulatedTime_s(const sim::Simulation& simulation) {
+  return std::chrono::duration<double>(simulation.now()).count();
+}
+
+}  // namespace
+
+std::string SimulationJson(const sim::Simulation& simulation, const SimulatedLogs& logs) {
+  nlohmann::ordered_json json;
+  json["simulated_s"] = SimulatedTime_s(simulation);
+  json["robots"] = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    const Pose2 error = logs[i]->OdometryError();
+    nlohmann::ordered_json robot;
+    robot["name"] = simulation.robots()[i].options().name;
+    robot["scans"] = logs[i]->scans();
+    robot["path_length_m"] = logs[i]->path_length_m();
+    robot["odometry_error_m"] = error.translation_m().norm();
+    robot["odometry_error_deg"] = RadiansToDegrees(std::abs(error.theta_rad));
+    robot["arrived"] = simulation.robots()[i].driver().has_arrived();
+    json["robots"].push_back(robot);
+  }
+  return json.dump(2) + "\n";
+}
+
+std::string SimulationSummary(const sim::Simulation& simulation, const SimulatedLogs& logs) {
+  std::string text = fmt::format("simulated      {:.0f} s\n", SimulatedTime_s(simulation));
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    const Pose2 error = logs[i]->OdometryError();
+    const sim::Robot& robot = simulation.robots()[i];
+    text += fmt::format(
+        "{:<14} {} scans, {:.1f} m; odometry is off by {:.2f} m and {:.1f} deg at the end{}\n",
+        robot.options().name,
+        logs[i]->scans(),
+        logs[i]->path_length_m(),
+        error.translation_m().norm(),
+        RadiansToDegrees(std::abs(error.theta_rad)),
+        robot.driver().has_arrived() ? "" : "; it did not arrive");
+  }
+  return text;
+}
+
+}  // namespace qwsm::pipeline

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/team/team_log.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace qwsm::pipeline {
+
+void TeamLog::TakeEvent(const team::TeamEvent& event) {
+  const std::string subject = event.robot ? team::DisplayName(*event.robot) + ": " : "";
+  const std::string text = subject + std::string(event.text);
+  const std::optional<std::size_t> held_back = repeats_.Pass(text, RepeatFilter::Clock::now());
+  if (!held_back) return;
+  spdlog::log(event.is_warning ? spdlog::level::warn : spdlog::level::info,
+              "{}{}",
+              text,
+              *held_back > 0 ? fmt::format(" ({} times more since)", *held_back) : "");
+}
+
+void TeamLog::TakeStatus(const team::TeamStatus& status) {
+  std::uint64_t dropped = 0;
+  for (const team::RobotStatus& robot : status.robots) dropped += robot.counts.dropped;
+  if (dropped == dropped_ || !repeats_.Pass("dropped", RepeatFilter::Clock::now())) return;
+  spdlog::warn("{} scans were dropped: more arrive than can be matched", dropped - dropped_);
+  dropped_ = dropped;
+}
+
+}  // namespace qwsm::pipeline

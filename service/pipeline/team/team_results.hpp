@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "qwsm/mapping/occupancy_grid.hpp"
+#include "service/pipeline/results/results_folder.hpp"
+#include "service/team/team_service.hpp"
+#include "service/team/team_sink.hpp"
+
+namespace qwsm::pipeline {
+
+/// Leaves what `qwsm map` leaves, for every robot of a team: paths and tables as it goes, pictures
+/// at the end. A robot without a namespace has the folder itself, others a folder of their name in
+/// it.
+///
+/// Where the disk is full the results end there, with a message; the service goes on.
+class TeamResults final : public team::TeamSink {
+ public:
+  TeamResults(const ResultsFolder& folder, const OccupancyGridOptions& rendering);
+  ~TeamResults() override;
+
+  void TakeAnswer(const team::RobotAnswer& answer) override;
+  void TakeReport(const team::RobotAnswer&) override {}
+  void TakeRelevantScan(const team::TeamScan&) override {}
+  void TakeNewPoints(const team::NewPoints&) override {}
+  void TakeMap(const team::MapPicture&) override {}
+  void TakeStatus(const team::TeamStatus&) override {}
+  void TakeEvent(const team::TeamEvent&) override {}
+
+  /// Writes what can only be known at the end, on all cores, for who stops a service waits.
+  /// @pre the service has stopped.
+  /// @throws io::WriteError.
+  void Finish(team::TeamService& service);
+
+ private:
+  class RobotResults;
+
+  RobotResults& ResultsOf(const std::string& robot);
+  std::optional<OccupancyGrid> Draw(team::TeamService& service, const std::string& robot) const;
+
+  ResultsFolder folder_;
+  OccupancyGridOptions rendering_;
+  std::mutex mutex_;  // Of the list; each robot is answered by one thread at a time.
+  std::map<std::string, std::unique_ptr<RobotResults>> robots_;
+};
+
+}  // namespace qwsm::pipeline
