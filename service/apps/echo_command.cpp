@@ -18,7 +18,7 @@
 #include "service/io/files/atomic_file.hpp"
 #include "service/io/trajectories/trajectory_file.hpp"
 #include "service/pipeline/run/interruption.hpp"
-#include "service/team/team_status.hpp"
+#include "service/team/sinks/team_status.hpp"
 
 namespace qwsm::apps {
 namespace {

@@ -16,7 +16,7 @@
 #include "service/pipeline/team/team_log.hpp"
 #include "service/pipeline/team/team_results.hpp"
 #include "service/pipeline/team/team_sinks.hpp"
-#include "service/team/team_service.hpp"
+#include "service/team/service/team_service.hpp"
 
 namespace qwsm::apps {
 namespace {

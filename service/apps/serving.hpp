@@ -14,7 +14,7 @@
 #include "service/apps/service_manager.hpp"
 #include "service/pipeline/results/results_folder.hpp"
 #include "service/pipeline/run/interruption.hpp"
-#include "service/team/team_status.hpp"
+#include "service/team/sinks/team_status.hpp"
 
 namespace qwsm::apps {
 

@@ -8,7 +8,7 @@
 #include "qwsm/mapping/occupancy_grid.hpp"
 #include "service/config/describe.hpp"
 #include "service/dds/entities/network_options.hpp"
-#include "service/team/team_options.hpp"
+#include "service/team/service/team_options.hpp"
 
 namespace qwsm::options {
 

@@ -16,8 +16,8 @@
 #include "qwsm/mapping/robot_tracker.hpp"
 #include "service/io/journal/journal_file.hpp"
 #include "service/io/journal/scan_codec.hpp"
-#include "service/team/latency_histogram.hpp"
-#include "service/team/team_map.hpp"
+#include "service/team/map/team_map.hpp"
+#include "service/team/session/latency_histogram.hpp"
 #include "tests/support/room_drive.hpp"
 #include "tests/support/temporary_folder.hpp"
 

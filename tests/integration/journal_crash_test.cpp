@@ -17,7 +17,7 @@
 #include "service/io/journal/scan_codec.hpp"
 #include "service/io/journal/sqlite_database.hpp"
 #include "service/io/maps/map_file.hpp"
-#include "service/team/team_service.hpp"
+#include "service/team/service/team_service.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/support/recording_sink.hpp"
 #include "tests/support/room_drive.hpp"

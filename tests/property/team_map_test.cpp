@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Laws of a map that is read and extended by many at once.
-#include "service/team/team_map.hpp"
+#include "service/team/map/team_map.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 #include "qwsm/mapping/occupancy_grid.hpp"
 #include "qwsm/mapping/robot_tracker.hpp"
 #include "service/io/maps/map_file.hpp"
-#include "service/team/worker_pool.hpp"
+#include "service/team/session/worker_pool.hpp"
 #include "tests/support/room_drive.hpp"
 
 namespace qwsm::team {

@@ -16,7 +16,7 @@
 
 #include "qwsm/metrics/error_statistics.hpp"
 #include "service/config/options_io.hpp"
-#include "service/team/team_service.hpp"
+#include "service/team/service/team_service.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/recording_sink.hpp"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "service/team/team_sink.hpp"
+#include "service/team/sinks/team_sink.hpp"
 
 namespace qwsm::test {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "service/team/robot_positions.hpp"
+#include "service/team/map/robot_positions.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,10 +8,10 @@
 #include <numbers>
 #include <random>
 
-#include "service/team/latency_histogram.hpp"
-#include "service/team/odometry_buffer.hpp"
-#include "service/team/scan_queue.hpp"
-#include "service/team/stamp_guard.hpp"
+#include "service/team/session/latency_histogram.hpp"
+#include "service/team/session/odometry_buffer.hpp"
+#include "service/team/session/scan_queue.hpp"
+#include "service/team/session/stamp_guard.hpp"
 
 namespace qwsm::team {
 namespace {

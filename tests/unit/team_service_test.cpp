@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "service/team/team_service.hpp"
+#include "service/team/service/team_service.hpp"
 
 #include <gtest/gtest.h>
 

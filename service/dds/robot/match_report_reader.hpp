@@ -10,7 +10,7 @@
 #include "service/dds/entities/participant.hpp"
 #include "service/dds/wire/match_report.hpp"
 #include "service/dds/wire/registration_report.hpp"
-#include "service/team/sensor_kind.hpp"
+#include "service/team/scans/sensor_kind.hpp"
 
 namespace qwsm::dds {
 

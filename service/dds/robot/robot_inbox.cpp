@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "service/dds/wire/wire_kind.hpp"
-#include "service/team/team_scan.hpp"
+#include "service/team/scans/team_scan.hpp"
 
 namespace qwsm::dds {
 namespace {

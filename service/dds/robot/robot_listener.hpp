@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "service/team/sensor_kind.hpp"
+#include "service/team/scans/sensor_kind.hpp"
 
 namespace qwsm::dds {
 

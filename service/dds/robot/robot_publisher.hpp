@@ -8,7 +8,7 @@
 
 #include "service/dds/entities/participant.hpp"
 #include "service/dds/wire/robot_names.hpp"
-#include "service/team/sensor_kind.hpp"
+#include "service/team/scans/sensor_kind.hpp"
 
 namespace qwsm::dds {
 

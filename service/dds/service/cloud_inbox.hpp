@@ -4,7 +4,7 @@
 
 #include "service/dds/service/cloud_outbox.hpp"
 #include "service/dds/service/service_inbox.hpp"
-#include "service/team/cloud_service.hpp"
+#include "service/team/service/cloud_service.hpp"
 
 namespace qwsm::dds {
 

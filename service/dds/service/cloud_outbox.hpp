@@ -8,7 +8,7 @@
 #include "service/dds/entities/participant.hpp"
 #include "service/dds/service/other_services.hpp"
 #include "service/dds/wire/refusals.hpp"
-#include "service/team/cloud_sink.hpp"
+#include "service/team/sinks/cloud_sink.hpp"
 
 namespace qwsm::dds {
 

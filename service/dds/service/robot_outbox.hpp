@@ -6,7 +6,7 @@
 
 #include "service/dds/service/other_services.hpp"
 #include "service/dds/service/pose_publisher.hpp"
-#include "service/team/team_sink.hpp"
+#include "service/team/sinks/team_sink.hpp"
 
 namespace qwsm::dds {
 

@@ -8,7 +8,7 @@
 
 #include "service/dds/service/service_inbox.hpp"
 #include "service/dds/service/team_outbox.hpp"
-#include "service/team/team_service.hpp"
+#include "service/team/service/team_service.hpp"
 
 namespace qwsm::dds {
 

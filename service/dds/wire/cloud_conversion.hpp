@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "service/dds/entities/wire_types.hpp"
-#include "service/team/cloud_scan.hpp"
+#include "service/team/scans/cloud_scan.hpp"
 
 /// Clouds on the wire. What comes from there is never trusted: a layout that does not fit its own
 /// data is refused before a byte of it is read.

@@ -10,7 +10,7 @@
 
 #include "service/dds/entities/wire_types.hpp"
 #include "service/dds/wire/refusals.hpp"
-#include "service/team/team_status.hpp"
+#include "service/team/sinks/team_status.hpp"
 
 namespace qwsm::dds {
 

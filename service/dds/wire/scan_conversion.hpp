@@ -7,7 +7,7 @@
 
 #include "qwsm/sensor/laser_scan.hpp"
 #include "service/dds/entities/wire_types.hpp"
-#include "service/team/team_scan.hpp"
+#include "service/team/scans/team_scan.hpp"
 
 /// Scans on the wire. What comes from there is never trusted: here is checked what only the wire
 /// can get wrong, the rest where the service takes the scan (team::ObjectionTo).

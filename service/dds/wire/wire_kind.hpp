@@ -12,7 +12,7 @@
 #include "service/dds/wire/robot_names.hpp"
 #include "service/dds/wire/scan_conversion.hpp"
 #include "service/dds/wire/spatial.hpp"
-#include "service/team/sensor_kind.hpp"
+#include "service/team/scans/sensor_kind.hpp"
 
 namespace qwsm::dds {
 

@@ -5,7 +5,7 @@
 #include "service/dds/entities/network_options.hpp"
 #include "service/options/slam6d/registration_options.hpp"
 #include "service/options/slam6d/simulation_options.hpp"
-#include "service/team/cloud_options.hpp"
+#include "service/team/service/cloud_options.hpp"
 
 namespace slam6d::options {
 

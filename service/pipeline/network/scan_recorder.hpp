@@ -9,7 +9,7 @@
 
 #include "service/dds/robot/robot_listener.hpp"
 #include "service/io/logs/carmen_writer.hpp"
-#include "service/team/odometry_buffer.hpp"
+#include "service/team/session/odometry_buffer.hpp"
 
 namespace qwsm::pipeline {
 

@@ -8,7 +8,7 @@
 
 #include "service/pipeline/results/results_folder.hpp"
 #include "service/pipeline/slam6d/registration.hpp"
-#include "service/team/cloud_service.hpp"
+#include "service/team/service/cloud_service.hpp"
 
 namespace slam6d::pipeline {
 

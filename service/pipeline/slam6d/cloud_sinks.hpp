@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "service/pipeline/team/team_log.hpp"
-#include "service/team/cloud_sink.hpp"
+#include "service/team/sinks/cloud_sink.hpp"
 
 namespace slam6d::pipeline {
 

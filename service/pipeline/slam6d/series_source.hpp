@@ -10,7 +10,7 @@
 
 #include "service/pipeline/run/scan_source.hpp"
 #include "service/pipeline/slam6d/scan_series.hpp"
-#include "service/team/cloud_scan.hpp"
+#include "service/team/scans/cloud_scan.hpp"
 
 namespace slam6d::pipeline {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "service/pipeline/team/repeat_filter.hpp"
-#include "service/team/team_sink.hpp"
+#include "service/team/sinks/team_sink.hpp"
 
 namespace qwsm::pipeline {
 

@@ -10,8 +10,8 @@
 
 #include "qwsm/mapping/occupancy_grid.hpp"
 #include "service/pipeline/results/results_folder.hpp"
-#include "service/team/team_service.hpp"
-#include "service/team/team_sink.hpp"
+#include "service/team/service/team_service.hpp"
+#include "service/team/sinks/team_sink.hpp"
 
 namespace qwsm::pipeline {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "service/team/team_sink.hpp"
+#include "service/team/sinks/team_sink.hpp"
 
 namespace qwsm::pipeline {
 

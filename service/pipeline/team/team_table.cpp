@@ -9,7 +9,7 @@
 
 #include "qwsm/geometry/angle.hpp"
 #include "service/config/text_table.hpp"
-#include "service/team/team_status.hpp"
+#include "service/team/sinks/team_status.hpp"
 
 namespace qwsm::pipeline {
 namespace {

@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/team/journal/journal.hpp"
+
+#include <chrono>
+#include <stdexcept>
+#include <utility>
+
+#include "service/io/files/atomic_file.hpp"
+
+namespace qwsm::team {
+namespace {
+
+// How often a disk that cannot be written is tried again.
+constexpr std::chrono::milliseconds kRetryPeriod{500};
+}  // namespace
+
+Journal::Journal(Names names) : names_(std::move(names)) {
+  try {
+    Open();
+  } catch (const io::WriteError& error) {
+    Fail(error.what());
+  }
+  if (file_) names_.identity = file_->identity();
+}
+
+Journal::~Journal() { Stop(); }
+
+void Journal::Stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    thread_.request_stop();
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+std::size_t Journal::Restore(const std::function<void(io::JournalEntry)>& take) {
+  std::size_t damaged = 0;
+  std::optional<io::JournalFile> read_only;
+  std::error_code error;
+  if (!file_ && std::filesystem::exists(names_.file, error)) {
+    read_only = io::JournalFile::Read(names_.file, names_.kind);
+    names_.identity = read_only->identity();
+  }
+  if (io::JournalFile* const source = file_ ? &*file_ : read_only ? &*read_only : nullptr) {
+    while (std::optional<io::JournalEntry> entry = source->Next()) {
+      take(std::move(*entry));
+      ++stored_;
+    }
+    damaged = source->damaged();
+  }
+  thread_ = std::jthread([this](const std::stop_token& stop) { Work(stop); });
+  return damaged;
+}
+
+void Journal::Append(io::JournalEntry entry, std::function<void()> settled) {
+  Take({.entry = std::move(entry), .settled = std::move(settled)});
+}
+
+void Journal::Tell(std::function<void()> tell) {
+  Take({.entry = std::nullopt, .settled = std::move(tell)});
+}
+
+void Journal::Take(Order order) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (order.entry) ++waiting_;
+    orders_.push_back(std::move(order));
+  }
+  changed_.notify_all();
+}
+
+void Journal::Work(const std::stop_token& stop) {
+  while (true) {
+    std::vector<Order> orders = WaitForOrders(stop);
+    for (Order& order : orders) {
+      if (order.entry) unstored_.push_back(std::move(*order.entry));
+    }
+    if (stop.stop_requested() || Clock::now() >= next_try_) Store();
+    for (const Order& order : orders) {
+      if (order.settled) order.settled();
+    }
+    if (orders.empty() && stop.stop_requested()) return;
+  }
+}
+
+/// Returns none where the thread is to stop, or to try a disk again.
+std::vector<Journal::Order> Journal::WaitForOrders(const std::stop_token& stop) {
+  const auto has_orders = [this] { return !orders_.empty(); };
+  std::unique_lock lock(mutex_);
+  is_settling_ = false;
+  changed_.notify_all();
+  if (unstored_.empty()) {
+    changed_.wait(lock, stop, has_orders);
+  } else {
+    changed_.wait_until(lock, stop, next_try_, has_orders);
+  }
+  is_settling_ = true;
+  return std::exchange(orders_, {});
+}
+
+void Journal::Store() {
+  if (unstored_.empty()) return;
+  try {
+    if (!file_) Open();
+    file_->Append(unstored_);
+  } catch (const std::runtime_error& error) {
+    return Fail(error.what());
+  }
+  const std::lock_guard lock(mutex_);
+  stored_ += unstored_.size();
+  waiting_ -= unstored_.size();
+  trouble_.clear();
+  unstored_.clear();
+}
+
+void Journal::Open() {
+  file_ = io::JournalFile::Continue(names_.file, names_.kind, names_.identity);
+}
+
+void Journal::Fail(const std::string& trouble) {
+  file_.reset();
+  next_try_ = Clock::now() + kRetryPeriod;
+  const std::lock_guard lock(mutex_);
+  trouble_ = trouble;
+}
+
+void Journal::WaitUntilSettled() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return orders_.empty() && !is_settling_; });
+}
+
+JournalStatus Journal::Status() const {
+  const std::lock_guard lock(mutex_);
+  return {
+      .file = names_.file.string(), .trouble = trouble_, .stored = stored_, .waiting = waiting_};
+}
+
+}  // namespace qwsm::team

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "service/io/journal/journal_file.hpp"
+#include "service/team/sinks/team_status.hpp"
+
+namespace qwsm::team {
+
+/// Keeps relevant scans on disk, in a thread of its own: whoever appends never waits for the disk,
+/// and what is to be told of an entry is told once it is safe. What has come meanwhile is stored
+/// together, so a slow disk is waited for less often, not longer.
+///
+/// While the disk is full or may not be written, entries wait in memory and are tried again; none
+/// is given up. Knows nothing of what the scans are.
+class Journal {
+ public:
+  struct Names {
+    std::filesystem::path file;
+    std::string kind;      ///< Of contents.
+    std::string identity;  ///< If the journal is new.
+  };
+
+  /// Opens the journal, or begins one. One that cannot be written now is tried again later.
+  /// @throws io::JournalError where it is no journal, is damaged, or in use.
+  explicit Journal(Names names);
+  /// Stops.
+  ~Journal();
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
+
+  /// Whose journal it is.
+  const std::string& identity() const { return names_.identity; }
+
+  /// Gives every entry that was in the file when it was opened to `take`, in order, and begins to
+  /// store. To be called once. @return entries that were damaged.
+  std::size_t Restore(const std::function<void(io::JournalEntry)>& take);
+
+  /// Stores the entry, later. @param settled is called once it is safely on disk, or has to wait
+  /// for a disk that cannot be written.
+  void Append(io::JournalEntry entry, std::function<void()> settled);
+  /// Calls `tell` once all that was appended before is settled. What is told keeps its order.
+  void Tell(std::function<void()> tell);
+
+  /// Stores what waits, unless the disk cannot be written, tells it, and then nothing more.
+  void Stop();
+  /// Waits until all is stored, or nothing can be, and told.
+  void WaitUntilSettled();
+  JournalStatus Status() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Order {
+    std::optional<io::JournalEntry> entry;
+    std::function<void()> settled;
+  };
+
+  void Take(Order order);
+  void Work(const std::stop_token& stop);
+  std::vector<Order> WaitForOrders(const std::stop_token& stop);
+  void Store();
+  void Open();
+  void Fail(const std::string& trouble);
+
+  Names names_;
+
+  mutable std::mutex mutex_;  // Guards what follows.
+  std::condition_variable_any changed_;
+  std::vector<Order> orders_;
+  bool is_settling_ = false;  // Orders that were taken from the list.
+  std::string trouble_;
+  std::uint64_t stored_ = 0;
+  std::uint64_t waiting_ = 0;
+
+  // Of the thread, once it runs.
+  std::optional<io::JournalFile> file_;  // None where it cannot be.
+  std::vector<io::JournalEntry> unstored_;
+  Clock::time_point next_try_{};  // Of a disk that cannot be written.
+
+  std::jthread thread_;  // Last: it uses all of the above.
+};
+
+}  // namespace qwsm::team

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/team/map/team_map.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace qwsm::team {
+
+TeamMap::TeamMap(const ScanMapOptions& options)
+    : state_(ScanMap(options),
+             [](ScanMap& map, const MapAddition& addition) { map.Add(addition); }) {}
+
+std::shared_ptr<const MapAddition> TeamMap::Insert(const TeamScan& scan,
+                                                   std::span<const ScanPoint> points) {
+  if (!Register(scan)) return nullptr;
+  return state_.Write(
+      [&](const ScanMap& map) { return map.Prepare(scan.scan, points, scan.map_robot); });
+}
+
+bool TeamMap::Register(const TeamScan& scan) {
+  const std::lock_guard lock(register_);
+  if (!known_.insert(scan.key).second) return false;
+  has_begun_ = true;
+  const auto [known, is_first] = last_by_robot_.try_emplace(scan.key.robot);
+  TeamScan& last = known->second;
+  std::uint64_t& sequence = last_sequence_[{scan.key.service, scan.key.robot}];
+  sequence = std::max(sequence, scan.key.sequence);
+  // Scans of several services come in any order.
+  const bool is_newer = last.key.service == scan.key.service ? last.key.sequence < scan.key.sequence
+                                                             : last.scan.stamp < scan.scan.stamp;
+  if (!is_first && !is_newer) return true;
+  last = {.key = scan.key,
+          .scan = {.stamp = scan.scan.stamp, .geometry = scan.scan.geometry, .ranges_m = {}},
+          .map_robot = scan.map_robot,
+          .T_odom_robot = scan.T_odom_robot};
+  return true;
+}
+
+std::optional<TeamScan> TeamMap::LastOf(std::string_view robot) const {
+  const std::lock_guard lock(register_);
+  const auto last = last_by_robot_.find(robot);
+  return last == last_by_robot_.end() ? std::nullopt : std::optional(last->second);
+}
+
+std::uint64_t TeamMap::LastSequence(std::string_view service, std::string_view robot) const {
+  const std::lock_guard lock(register_);
+  const auto last = last_sequence_.find({std::string(service), std::string(robot)});
+  return last == last_sequence_.end() ? 0 : last->second;
+}
+
+}  // namespace qwsm::team

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_set>
+#include <utility>
+
+#include "qwsm/mapping/scan_map.hpp"
+#include "service/team/map/robot_positions.hpp"
+#include "service/team/map/twin_state.hpp"
+#include "service/team/scans/team_scan.hpp"
+
+namespace qwsm::team {
+
+/// The one map of a team: many robots match against it while others extend it, and none waits for
+/// another. All functions may be called from any thread.
+///
+/// What is guaranteed about two maps that were given the same scans:
+/// * They hold the same relevant scans, each once, whatever was repeated and in whatever order; so
+///   the occupancy grids drawn of them are equal.
+/// * In the same order they are equal bit for bit, down to the ids of points. That is how a map
+///   comes back from the journal.
+/// * In another order they may keep different points for the same surface: a point is not stored
+///   where older scans have put enough (InsertionRule::kNewSurface), and the older scan is then
+///   another one. With InsertionRule::kEveryPoint the points are the same in any order.
+class TeamMap {
+ public:
+  using State = TwinState<ScanMap, MapAddition>;
+
+  explicit TeamMap(const ScanMapOptions& options = {});
+
+  /// The map as it is now; see TwinState::View.
+  State::View Read() const { return state_.Read(); }
+
+  /// Adds a scan. @return what was added; null if the map knows the scan already.
+  /// @param points the scan's points, as ToPoints() gives them. @pre ObjectionTo(scan).empty()
+  std::shared_ptr<const MapAddition> Insert(const TeamScan& scan,
+                                            std::span<const ScanPoint> points);
+
+  /// Where those who are matched against this map are at the moment.
+  RobotPositions& robots() { return robots_; }
+
+  /// Whether the caller, who does not know where its robot is, may be the one to begin the map
+  /// there and so define its frame. True once.
+  bool Begin() { return !has_begun_.exchange(true); }
+
+  /// The last relevant scan of the robot: where it was and what its odometry said. No ranges.
+  std::optional<TeamScan> LastOf(std::string_view robot) const;
+  /// The largest sequence number that the service gave a scan of the robot; 0 if none.
+  std::uint64_t LastSequence(std::string_view service, std::string_view robot) const;
+
+ private:
+  bool Register(const TeamScan& scan);
+
+  State state_;
+  RobotPositions robots_;
+  std::atomic<bool> has_begun_ = false;
+  mutable std::mutex register_;
+  std::unordered_set<ScanKey, ScanKeyHash> known_;
+  std::map<std::string, TeamScan, std::less<>> last_by_robot_;
+  std::map<std::pair<std::string, std::string>, std::uint64_t> last_sequence_;
+};
+
+}  // namespace qwsm::team

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "service/team/scans/scan_key.hpp"
+#include "service/team/service/cloud_options.hpp"
+#include "service/team/session/session_intake.hpp"
+#include "service/team/sinks/cloud_sink.hpp"
+
+namespace qwsm::team {
+
+/// What a session for clouds is given by the service that keeps it.
+struct CloudContext {
+  const slam6d::LoopCloser& closer;
+  CloudSink& sink;
+  /// Puts a scan that has been registered into the journal.
+  std::function<void(const KeptCloud&)> keep;
+  /// Tells of an answer once what it says is safe.
+  std::function<void(const CloudAnswer&)> report;
+};
+
+/// One robot with a 3D scanner: takes its messages from any thread, registers its scans one by one
+/// in a worker, each into the robot's own model.
+///
+/// The model begins where the robot is told to be, else where its odometry has it. Where odometry
+/// is missing or begins anew, the motion before goes on. Scans from the journal are registered once
+/// more, before all others.
+class CloudSession final : public Lane {
+ public:
+  CloudSession(std::string name,
+               const CloudTeamOptions& options,
+               const slam6d::SlamOptions& slam,
+               const CloudContext& context);
+
+  const std::string& name() const { return intake_.name(); }
+
+  /// A scan of the journal, to be registered before those that come. @pre no worker runs yet.
+  void Restore(KeptCloud kept);
+  /// Where the robot is now; counts until its first scan.
+  void PlaceAt(const slam6d::UncertainPose3& map_robot);
+  void Join();
+  void Lose();
+  void HandOver();
+  /// @return false if it was refused. A scan that is taken may still be dropped for newer ones.
+  bool TakeScan(CloudScan scan);
+  void TakeOdometry(Timestamp stamp, const slam6d::Pose3& T_odom_robot) {
+    intake_.TakeOdometry(stamp, T_odom_robot);
+  }
+  void ExpectOdometry(bool expected) { intake_.ExpectOdometry(expected); }
+
+  RobotStatus Status() const { return intake_.Status(); }
+  std::optional<Time> ReadyAt() const override;
+  void RunOne() override;
+
+  /// The model, if it has changed since the last call.
+  std::optional<CloudMap> NewMap();
+  /// Fits all scans to each other. @pre no worker runs.
+  slam6d::RefinementResult Refine() { return slam_.Refine(); }
+  /// Scans of the model, and points of all of them, thinned.
+  MapStatus ModelStatus() const;
+
+ private:
+  using Work = SessionIntake<Spatial>::Work;
+
+  /// What is kept of a scan for the merged cloud.
+  struct Stop {
+    Timestamp stamp{};
+    slam6d::Pose3 T_robot_sensor;
+    std::shared_ptr<const slam6d::PointCloud> thinned;
+  };
+
+  bool RestoreOne();
+  slam6d::Pose3 EstimateSensor(const Work& work);
+  slam6d::Pose3 EstimateFirst(const Work& work);
+  /// Registers the scan, beginning at T_odom_sensor_last_.
+  CloudAnswer Register(std::shared_ptr<const CloudScan> scan);
+  void Draw(const CloudScan& scan);
+  void Note(const Work& work, const CloudAnswer& answer);
+  void Tell(bool is_warning, std::string_view text) const;
+
+  const slam6d::ReductionOptions thinning_;
+  const CloudContext context_;
+  SessionIntake<Spatial> intake_;
+
+  // Of the worker alone.
+  slam6d::Slam slam_;
+  slam6d::Pose3 T_odom_sensor_last_;          // As it was given to slam_.
+  std::optional<slam6d::Pose3> T_slam_odom_;  // Where odometry began anew, or the start was told.
+  std::uint64_t sequence_ = SequenceOfNow();
+
+  mutable std::mutex mutex_;  // Guards what follows.
+  std::deque<KeptCloud> to_restore_;
+  std::optional<slam6d::Pose3> T_map_start_;
+  std::vector<Stop> stops_;
+  std::vector<slam6d::Pose3> T_map_sensor_;
+  bool is_map_new_ = false;
+};
+
+}  // namespace qwsm::team

@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/team/service/robot_session.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "qwsm/mapping/place_finder.hpp"
+
+namespace qwsm::team {
+namespace {
+
+using std::chrono::steady_clock;
+
+// A robot without a place is looked for in the map not more often than this.
+constexpr std::chrono::nanoseconds kSearchPeriod = std::chrono::seconds(2);
+// How far a robot may have been pushed while nobody looked, and how exact a found place is.
+constexpr double kPushed_m = 0.3;
+constexpr double kPushed_rad = 0.1;
+
+UncertainPose2 Loosened(UncertainPose2 pose) {
+  pose.covariance.diagonal() += Eigen::Vector3d(kPushed_m, kPushed_m, kPushed_rad).cwiseAbs2();
+  return pose;
+}
+
+}  // namespace
+
+RobotSession::RobotSession(std::string name,
+                           const SessionOptions& options,
+                           const MapperOptions& mapper,
+                           SessionContext context)
+    : context_(std::move(context)),
+      intake_(std::move(name), options),
+      tracker_(mapper),
+      sequence_(
+          std::max(context_.map.LastSequence(context_.service, this->name()), SequenceOfNow())) {}
+
+void RobotSession::SetStart(const UncertainPose2& map_robot) {
+  const std::lock_guard lock(mutex_);
+  start_ = map_robot;
+}
+
+void RobotSession::Join() {
+  if (intake_.Join()) Tell(false, "joined");
+}
+
+void RobotSession::Lose() {
+  if (intake_.Lose()) Tell(true, "is lost: nobody publishes its scans any more");
+}
+
+void RobotSession::HandOver() {
+  intake_.HandOver();
+  Tell(false, "is answered by another service");
+}
+
+bool RobotSession::TakeScan(LaserScan scan) {
+  Join();
+  return intake_.TakeScan(std::move(scan));
+}
+
+void RobotSession::PlaceAt(const UncertainPose2& map_robot) {
+  const std::string_view objection = ObjectionTo(map_robot);
+  if (!objection.empty()) return Tell(true, objection);
+  {
+    const std::lock_guard lock(mutex_);
+    told_ = map_robot;
+  }
+  Tell(false, "was told where it is");
+}
+
+RobotStatus RobotSession::Status() const {
+  RobotStatus status = intake_.Status();
+  const std::lock_guard lock(mutex_);
+  status.map_robot = map_robot_;
+  return status;
+}
+
+void RobotSession::RunOne() {
+  std::optional<Work> work = intake_.Take();
+  if (!work) return;
+  HideTeammates(*work);
+  const std::vector<ScanPoint> points = ToPoints(work->scan);
+  Answer(*work, points);
+}
+
+void RobotSession::Answer(Work& work, std::span<const ScanPoint> points) {
+  const auto begun = steady_clock::now();
+  const Observation observation{.scan = std::move(work.scan), .T_odom_robot = work.T_odom_robot};
+  work.scan.stamp = observation.scan.stamp;
+  MappingStep step;
+  {
+    const TeamMap::State::View map = context_.map.Read();
+    is_placed_ = is_placed_ && !work.was_elsewhere;
+    is_placed_ = Place(*map, work, points);
+    if (!is_placed_) return intake_.NoteUnplaced();
+    // Odometry that moves faster than any robot has begun anew; after an interruption it may have.
+    const bool may_be_new = work.odometry_goes_on && work.is_interrupted;
+    if (work.odometry_jumped || may_be_new) tracker_.DoubtOdometry();
+    step = tracker_.Track(*map, observation, points);
+  }
+  const auto answered = steady_clock::now();
+  Note(work, step, answered - begun);
+  context_.map.robots().Report(name(), step.map_robot.T_a_b.translation_m(), answered);
+  const SessionCounts counts = intake_.Status().counts;
+  const RobotAnswer answer{.robot = name(),
+                           .step = step,
+                           .T_odom_robot = work.T_odom_robot,
+                           .matching = answered - begun,
+                           .latency = answered - work.arrived,
+                           .scans = counts.scans,
+                           .dropped = counts.dropped};
+  context_.sink.TakeAnswer(answer);
+  if (step.relevant) {
+    context_.extend({.key = {.service = context_.service, .robot = name(), .sequence = ++sequence_},
+                     .scan = step.relevant_scan,
+                     .map_robot = step.map_robot,
+                     .T_odom_robot = work.T_odom_robot},
+                    ToPoints(step.relevant_scan));
+  }
+  context_.report(answer);
+}
+
+bool RobotSession::Place(const ScanMap& map, const Work& work, std::span<const ScanPoint> points) {
+  std::optional<UncertainPose2> told;
+  std::optional<UncertainPose2> start;
+  {
+    const std::lock_guard lock(mutex_);
+    told = std::exchange(told_, std::nullopt);
+    start = start_;
+  }
+  if (told) {
+    tracker_.PlaceAt(*told);
+    return true;
+  }
+  if (is_placed_) return true;
+  if (const std::optional<TeamScan> last = context_.map.LastOf(name())) {
+    tracker_.PlaceAt(Loosened(last->map_robot), last->T_odom_robot);
+    tracker_.DoubtOdometry();
+    return true;
+  }
+  if (start) {
+    tracker_.PlaceAt(*start);
+    return true;
+  }
+  if (!map.empty()) return FindPlaceIn(map, work.scan.stamp, points);
+  return context_.map.Begin();
+}
+
+bool RobotSession::FindPlaceIn(const ScanMap& map,
+                               Timestamp stamp,
+                               std::span<const ScanPoint> points) {
+  if (looked_for_place_ && stamp - *looked_for_place_ < kSearchPeriod) return false;
+  looked_for_place_ = stamp;
+  const std::optional<FoundPlace> found = FindPlace(map, points);
+  if (!found || found->rival) {
+    Tell(true,
+         found ? "fits several places in the map: an initial pose would tell which"
+               : "fits nowhere in the map: an initial pose would tell where it is");
+    return false;
+  }
+  tracker_.PlaceAt(Loosened({.T_a_b = found->best.T_map_robot}));
+  Tell(false, "was found in the map");
+  return true;
+}
+
+// To a robot in a corridor, another one that comes along is the only thing that tells how far it
+// has gone: wrongly, for it moves.
+void RobotSession::HideTeammates(Work& work) {
+  const std::optional<Pose2> T_odom_last = std::exchange(T_odom_last_, work.T_odom_robot);
+  if (!is_placed_) return;
+  const bool is_motion_known = work.T_odom_robot && T_odom_last && work.odometry_goes_on;
+  const Pose2 T_last_robot =
+      is_motion_known ? T_odom_last->Inverse() * *work.T_odom_robot : Pose2{};
+  HideRobots(context_.map.robots().OthersThan(name(), steady_clock::now()),
+             context_.teammate_radius_m,
+             tracker_.map_robot().T_a_b * T_last_robot,
+             work.scan);
+}
+
+void RobotSession::Note(const Work& work,
+                        const MappingStep& step,
+                        std::chrono::nanoseconds matching) {
+  intake_.NoteAnswer({.stamp = step.stamp,
+                      .arrived = work.arrived,
+                      .working = matching,
+                      .is_dead_reckoned = step.status == StepStatus::kDeadReckoned,
+                      .is_relevant = step.relevant,
+                      .has_odometry = work.T_odom_robot.has_value()});
+  const std::lock_guard lock(mutex_);
+  map_robot_ = step.map_robot;
+}
+
+void RobotSession::Tell(bool is_warning, std::string_view text) const {
+  context_.sink.TakeEvent({.robot = name(), .is_warning = is_warning, .text = text});
+}
+
+}  // namespace qwsm::team

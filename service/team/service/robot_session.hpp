@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "qwsm/mapping/robot_tracker.hpp"
+#include "service/team/map/team_map.hpp"
+#include "service/team/session/session_intake.hpp"
+#include "service/team/session/session_options.hpp"
+#include "service/team/session/worker_pool.hpp"
+#include "service/team/sinks/team_sink.hpp"
+
+namespace qwsm::team {
+
+/// What a session is given by the service that keeps it.
+struct SessionContext {
+  std::string service;  ///< For the keys of its relevant scans.
+  TeamMap& map;
+  TeamSink& sink;
+  double teammate_radius_m = 0.0;  ///< See TeamOptions.
+  /// Puts a relevant scan into the map, the journal and the network.
+  std::function<void(const TeamScan&, std::span<const ScanPoint>)> extend;
+  /// Tells of an answer once what it says is safe.
+  std::function<void(const RobotAnswer&)> report;
+};
+
+/// One robot: takes its messages from any thread, answers its scans one by one in a worker.
+///
+/// Where it starts: as told; else where it was last, if the map has scans of it; else as
+/// configured; else, where the map is empty, at the origin of its odometry; else where its scan
+/// fits the map and fits nowhere else. Until one of these tells, its scans are counted but not
+/// answered.
+class RobotSession final : public Lane {
+ public:
+  RobotSession(std::string name,
+               const SessionOptions& options,
+               const MapperOptions& mapper,
+               SessionContext context);
+
+  const std::string& name() const { return intake_.name(); }
+
+  /// Where the robot starts if nothing better is known.
+  void SetStart(const UncertainPose2& map_robot);
+  /// Its publisher is there, again.
+  void Join();
+  /// Its publisher is gone: it will come back where it left.
+  void Lose();
+  /// Another service answers it from now on. If it joins again, it is where the map says by then.
+  void HandOver();
+
+  /// @return false if it was refused. A scan that is taken may still be dropped for newer ones.
+  bool TakeScan(LaserScan scan);
+  void TakeOdometry(Timestamp stamp, const Pose2& T_odom_robot) {
+    intake_.TakeOdometry(stamp, T_odom_robot);
+  }
+  /// Whether scans are to wait for odometry. They are, from the first reading on.
+  void ExpectOdometry(bool expected) { intake_.ExpectOdometry(expected); }
+  /// Somebody says where the robot is now.
+  void PlaceAt(const UncertainPose2& map_robot);
+
+  RobotStatus Status() const;
+
+  std::optional<Time> ReadyAt() const override { return intake_.ReadyAt(); }
+  void RunOne() override;
+
+ private:
+  using Work = SessionIntake<Planar>::Work;
+
+  void Answer(Work& work, std::span<const ScanPoint> points);
+  bool Place(const ScanMap& map, const Work& work, std::span<const ScanPoint> points);
+  bool FindPlaceIn(const ScanMap& map, Timestamp stamp, std::span<const ScanPoint> points);
+  void HideTeammates(Work& work);
+  void Note(const Work& work, const MappingStep& step, std::chrono::nanoseconds matching);
+  void Tell(bool is_warning, std::string_view text) const;
+
+  const SessionContext context_;
+  SessionIntake<Planar> intake_;
+
+  mutable std::mutex mutex_;  // Guards what follows.
+  std::optional<UncertainPose2> told_;
+  std::optional<UncertainPose2> start_;
+  UncertainPose2 map_robot_;
+
+  // Of the worker alone.
+  RobotTracker tracker_;
+  bool is_placed_ = false;
+  std::optional<Pose2> T_odom_last_;
+  std::optional<Timestamp> looked_for_place_;
+  std::uint64_t sequence_ = 0;
+};
+
+}  // namespace qwsm::team

@@ -1,0 +1,224 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/team/session/session_intake.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "service/team/scans/team_scan.hpp"
+
+namespace qwsm::team {
+namespace {
+
+using std::chrono::steady_clock;
+
+// Odometry this far behind the scans is not worth waiting for.
+constexpr std::chrono::nanoseconds kOdometryGone = std::chrono::seconds(1);
+// What odometry may jump by in no time.
+constexpr double kJump_m = 0.5;
+constexpr double kJump_rad = 0.5;
+
+double LengthM(const Pose2& motion) { return motion.translation_m().norm(); }
+double LengthM(const slam6d::Pose3& motion) { return motion.translation_m.norm(); }
+double TurnRad(const Pose2& motion) { return std::abs(motion.theta_rad); }
+double TurnRad(const slam6d::Pose3& motion) { return slam6d::RotationAngle(motion.rotation); }
+
+LatencySummary Summarize(const LatencyHistogram& histogram) {
+  return {.median = histogram.Quantile(0.5),
+          .p99 = histogram.Quantile(0.99),
+          .longest = histogram.longest()};
+}
+
+}  // namespace
+
+template <class Kind>
+SessionIntake<Kind>::SessionIntake(std::string name, const SessionOptions& options)
+    : name_(std::move(name)),
+      options_(options),
+      queue_(static_cast<std::size_t>(options.queue_scans)) {}
+
+template <class Kind>
+bool SessionIntake<Kind>::Join() {
+  const std::lock_guard lock(mutex_);
+  if (IsHere()) return false;
+  is_interrupted_ = true;
+  hears_odometry_ = false;
+  first_arrived_.reset();
+  const bool goes_on = state_ == RobotState::kLost && counts_.answered > 0;
+  state_ = goes_on ? RobotState::kTracked : RobotState::kUnplaced;
+  return true;
+}
+
+template <class Kind>
+bool SessionIntake<Kind>::Lose() {
+  const std::lock_guard lock(mutex_);
+  if (!IsHere()) return false;
+  state_ = RobotState::kLost;
+  return true;
+}
+
+template <class Kind>
+void SessionIntake<Kind>::HandOver() {
+  const std::lock_guard lock(mutex_);
+  state_ = RobotState::kElsewhere;
+  was_elsewhere_ = true;
+  while (!queue_.empty()) queue_.Pop();
+}
+
+template <class Kind>
+bool SessionIntake<Kind>::IsHere() const {
+  return state_ == RobotState::kUnplaced || state_ == RobotState::kTracked;
+}
+
+template <class Kind>
+bool SessionIntake<Kind>::TakeScan(Scan scan) {
+  const bool is_malformed = !ObjectionTo(scan).empty();
+  const std::lock_guard lock(mutex_);
+  ++counts_.scans;
+  if (is_malformed) {
+    ++counts_.malformed;
+    return false;
+  }
+  switch (guard_.Judge(scan.stamp)) {
+    case StampVerdict::kDuplicate:
+      ++counts_.duplicates;
+      return false;
+    case StampVerdict::kWrongTime:
+      ++counts_.wrong_time;
+      return false;
+    case StampVerdict::kLate:
+      ++counts_.late;
+      break;
+    case StampVerdict::kClockReset:
+      ++counts_.clock_resets;
+      is_interrupted_ = true;
+      break;
+    case StampVerdict::kInOrder:
+      break;
+  }
+  const Lane::Time now = steady_clock::now();
+  if (!first_arrived_) first_arrived_ = now;
+  queue_.Push({.scan = std::move(scan), .arrived = now});
+  counts_.dropped = queue_.dropped();
+  return true;
+}
+
+template <class Kind>
+void SessionIntake<Kind>::TakeOdometry(Timestamp stamp, const Pose& T_odom_robot) {
+  const std::lock_guard lock(mutex_);
+  ++counts_.odometry_readings;
+  expects_odometry_ = true;
+  hears_odometry_ = true;
+  if (!odometry_.Add(stamp, T_odom_robot)) ++counts_.odometry_refused;
+}
+
+template <class Kind>
+void SessionIntake<Kind>::ExpectOdometry(bool expected) {
+  const std::lock_guard lock(mutex_);
+  expects_odometry_ = expected;
+}
+
+template <class Kind>
+void SessionIntake<Kind>::GoOnFrom(Timestamp stamp, const std::optional<Pose>& T_odom_robot) {
+  const std::lock_guard lock(mutex_);
+  static_cast<void>(guard_.Judge(stamp));  // If it comes once more it is a duplicate.
+  last_stamp_ = stamp;
+  T_odom_last_ = T_odom_robot;
+}
+
+template <class Kind>
+std::optional<Lane::Time> SessionIntake<Kind>::ReadyAt() const {
+  const std::lock_guard lock(mutex_);
+  if (queue_.empty()) return std::nullopt;
+  const Arrival& next = queue_.front();
+  return std::max(next.arrived, AwaitsOdometryUntil(next));
+}
+
+// Without odometry nobody knows how far a robot has come since it was heard last, so its first
+// scans wait longer: they may have come just before who publishes odometry knew of this service.
+template <class Kind>
+Lane::Time SessionIntake<Kind>::AwaitsOdometryUntil(const Arrival& next) const {
+  const Timestamp stamp = next.scan.stamp;
+  if (!expects_odometry_ || odometry_.Covers(stamp)) return next.arrived;
+  const auto wait = std::chrono::duration_cast<std::chrono::nanoseconds>(
+      std::chrono::duration<double>(options_.odometry_wait_s));
+  if (!hears_odometry_)
+    return first_arrived_.value_or(next.arrived) + std::max(wait, kOdometryGone);
+  return next.arrived + (odometry_.Covers(stamp - kOdometryGone) ? wait : wait.zero());
+}
+
+template <class Kind>
+std::optional<typename SessionIntake<Kind>::Work> SessionIntake<Kind>::Take() {
+  const std::lock_guard lock(mutex_);
+  DropScansBeforeOdometry();
+  if (queue_.empty()) return std::nullopt;
+  Arrival next = queue_.Pop();
+  Work work{.scan = std::move(next.scan), .arrived = next.arrived, .T_odom_robot = {}};
+  work.T_odom_robot = odometry_.At(work.scan.stamp);
+  work.is_interrupted = std::exchange(is_interrupted_, false);
+  work.was_elsewhere = std::exchange(was_elsewhere_, false);
+  WatchOdometry(work);
+  return work;
+}
+
+// Whoever has only just found the robot may have missed the odometry of its first scan, which then
+// tells less of where the robot is than the next one.
+template <class Kind>
+void SessionIntake<Kind>::DropScansBeforeOdometry() {
+  while (expects_odometry_ && !queue_.empty() && odometry_.BeginsAfter(queue_.front().scan.stamp)) {
+    queue_.Pop();
+    ++counts_.unplaced;
+  }
+}
+
+template <class Kind>
+void SessionIntake<Kind>::WatchOdometry(Work& work) {
+  const Timestamp stamp = work.scan.stamp;
+  work.odometry_goes_on = work.T_odom_robot && T_odom_last_;
+  if (work.odometry_goes_on) {
+    const Pose moved = T_odom_last_->Inverse() * *work.T_odom_robot;
+    const double elapsed_s = std::abs(std::chrono::duration<double>(stamp - last_stamp_).count());
+    work.odometry_jumped = LengthM(moved) > kJump_m + options_.max_speed_mps * elapsed_s ||
+                           TurnRad(moved) > kJump_rad + options_.max_turn_rate_radps * elapsed_s;
+    if (work.odometry_jumped) ++counts_.odometry_jumps;
+  }
+  T_odom_last_ = work.T_odom_robot;
+  last_stamp_ = stamp;
+}
+
+template <class Kind>
+void SessionIntake<Kind>::NoteUnplaced() {
+  const std::lock_guard lock(mutex_);
+  ++counts_.unplaced;
+}
+
+template <class Kind>
+void SessionIntake<Kind>::NoteAnswer(const Answer& answer) {
+  const std::lock_guard lock(mutex_);
+  if (state_ == RobotState::kUnplaced) state_ = RobotState::kTracked;
+  ++counts_.answered;
+  if (answer.is_dead_reckoned) ++counts_.dead_reckoned;
+  if (answer.is_relevant) ++counts_.relevant;
+  if (!answer.has_odometry) ++counts_.without_odometry;
+  working_.Add(answer.working);
+  latency_.Add(steady_clock::now() - answer.arrived);
+  answered_stamp_ = answer.stamp;
+}
+
+template <class Kind>
+RobotStatus SessionIntake<Kind>::Status() const {
+  const std::lock_guard lock(mutex_);
+  return {.name = name_,
+          .state = state_,
+          .stamp = answered_stamp_,
+          .waiting = queue_.size(),
+          .counts = counts_,
+          .matching = Summarize(working_),
+          .latency = Summarize(latency_)};
+}
+
+template class SessionIntake<Planar>;
+template class SessionIntake<Spatial>;
+
+}  // namespace qwsm::team

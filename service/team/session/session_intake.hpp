@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "service/team/scans/sensor_kind.hpp"
+#include "service/team/session/latency_histogram.hpp"
+#include "service/team/session/odometry_buffer.hpp"
+#include "service/team/session/scan_queue.hpp"
+#include "service/team/session/session_options.hpp"
+#include "service/team/session/stamp_guard.hpp"
+#include "service/team/session/worker_pool.hpp"
+#include "service/team/sinks/team_status.hpp"
+
+namespace qwsm::team {
+
+/// What becomes of one robot's messages before its scans are worked on, and the account of it:
+/// taken from any thread, refused, kept in order, joined with odometry, dropped where there are too
+/// many.
+/// @tparam Kind Planar or Spatial.
+template <class Kind>
+class SessionIntake {
+ public:
+  using Scan = typename Kind::Scan;
+  using Pose = typename Kind::Pose;
+
+  /// A scan and what is known of its moment.
+  struct Work {
+    Scan scan;
+    Lane::Time arrived{};
+    std::optional<Pose> T_odom_robot;
+    bool is_interrupted = false;    ///< The robot, or its clock, was away since the last scan.
+    bool was_elsewhere = false;     ///< Another service knows better where it is.
+    bool odometry_jumped = false;   ///< It moved faster than any robot: it began anew.
+    bool odometry_goes_on = false;  ///< The scan before had odometry, too.
+  };
+
+  /// How a scan was answered.
+  struct Answer {
+    Timestamp stamp{};
+    Lane::Time arrived{};
+    std::chrono::nanoseconds working{};
+    bool is_dead_reckoned = false;
+    bool is_relevant = false;
+    bool has_odometry = false;
+  };
+
+  SessionIntake(std::string name, const SessionOptions& options);
+
+  const std::string& name() const { return name_; }
+
+  /// The robot's publisher is there, again. @return whether that is news.
+  bool Join();
+  /// It is gone. @return whether that is news.
+  bool Lose();
+  /// Another service answers it from now on, until it joins again.
+  void HandOver();
+
+  /// @return false if it was refused. A scan that is taken may still be dropped for newer ones.
+  bool TakeScan(Scan scan);
+  void TakeOdometry(Timestamp stamp, const Pose& T_odom_robot);
+  /// Whether scans are to wait for odometry. They are, from the first reading on.
+  void ExpectOdometry(bool expected);
+
+  /// A run before this one took a scan of that stamp, with that odometry: it goes on from there.
+  void GoOnFrom(Timestamp stamp, const std::optional<Pose>& T_odom_robot);
+
+  /// From when on there is work; nothing where there is none.
+  std::optional<Lane::Time> ReadyAt() const;
+  /// The oldest scan that waits and can be used. To be called by one thread at a time.
+  std::optional<Work> Take();
+
+  /// Nobody knows where the robot is: its scan was left unanswered.
+  void NoteUnplaced();
+  void NoteAnswer(const Answer& answer);
+
+  RobotStatus Status() const;
+
+ private:
+  struct Arrival {
+    Scan scan;
+    Lane::Time arrived{};
+  };
+
+  bool IsHere() const;
+  Lane::Time AwaitsOdometryUntil(const Arrival& next) const;
+  void DropScansBeforeOdometry();
+  void WatchOdometry(Work& work);
+
+  const std::string name_;
+  const SessionOptions options_;
+
+  mutable std::mutex mutex_;  // Guards what follows.
+  RobotState state_ = RobotState::kExpected;
+  StampGuard guard_;
+  OdometryBuffer<Pose> odometry_;
+  bool expects_odometry_ = false;
+  bool hears_odometry_ = false;              // Since the robot joined.
+  std::optional<Lane::Time> first_arrived_;  // Of its scans, since then.
+  ScanQueue<Arrival> queue_;
+  bool is_interrupted_ = false;
+  bool was_elsewhere_ = false;
+  std::optional<Pose> T_odom_last_;  // Of the scan taken last.
+  Timestamp last_stamp_{};
+  SessionCounts counts_;
+  LatencyHistogram working_;
+  LatencyHistogram latency_;
+  Timestamp answered_stamp_{};
+};
+
+extern template class SessionIntake<Planar>;
+extern template class SessionIntake<Spatial>;
+
+}  // namespace qwsm::team

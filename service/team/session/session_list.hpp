@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "service/team/session/worker_pool.hpp"
+#include "service/team/sinks/team_status.hpp"
+
+namespace qwsm::team {
+
+/// The sessions of all robots of a service, and the threads that work on their scans. All functions
+/// may be called from any thread. A robot joins with its first message, whatever that is.
+/// @tparam Session a Lane with name() and Status(), and what robots say: see the functions here.
+template <class Session>
+class SessionList {
+ public:
+  using Make = std::function<std::shared_ptr<Session>(std::string robot)>;
+
+  explicit SessionList(Make make) : make_(std::move(make)) {}
+
+  /// Starts to work. @param threads 0: as many as the computer has cores.
+  void Start(int threads) {
+    const std::lock_guard lock(mutex_);
+    const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    workers_ = std::make_unique<WorkerPool>(threads > 0 ? threads : cores);
+    for (const auto& [robot, session] : sessions_) workers_->Add(session);
+  }
+  /// Finishes what is at work. What waits is left out.
+  void Stop() {
+    if (workers_) workers_->Stop();
+  }
+  void WaitUntilIdle() {
+    if (workers_) workers_->WaitUntilIdle();
+  }
+
+  /// The robot's session, a new one if need be; null where there are more than any team has.
+  std::shared_ptr<Session> Of(std::string_view robot) {
+    const std::lock_guard lock(mutex_);
+    if (const auto known = sessions_.find(robot); known != sessions_.end()) return known->second;
+    if (sessions_.size() >= kMaxRobots) return nullptr;
+    const std::shared_ptr<Session> session = make_(std::string(robot));
+    if (workers_) workers_->Add(session);
+    return sessions_[session->name()] = session;
+  }
+
+  void Join(std::string_view robot) {
+    if (const auto session = Of(robot)) session->Join();
+  }
+  /// One that is not known cannot be lost.
+  void Lose(std::string_view robot) {
+    if (const auto session = Find(robot)) session->Lose();
+  }
+  void HandOver(std::string_view robot) {
+    if (const auto session = Find(robot)) session->HandOver();
+  }
+  template <class Scan>
+  bool TakeScan(std::string_view robot, Scan scan) {
+    const auto session = Of(robot);
+    if (!session || !session->TakeScan(std::move(scan))) return false;
+    Wake();
+    return true;
+  }
+  template <class Stamp, class Pose>
+  void TakeOdometry(std::string_view robot, Stamp stamp, const Pose& T_odom_robot) {
+    const auto session = Of(robot);
+    if (!session) return;
+    session->TakeOdometry(stamp, T_odom_robot);
+    Wake();
+  }
+  void ExpectOdometry(std::string_view robot, bool expected) {
+    if (const auto session = Of(robot)) session->ExpectOdometry(expected);
+  }
+  template <class UncertainPose>
+  void PlaceAt(std::string_view robot, const UncertainPose& map_robot) {
+    if (const auto session = Of(robot)) session->PlaceAt(map_robot);
+  }
+
+  std::vector<std::shared_ptr<Session>> All() const {
+    const std::lock_guard lock(mutex_);
+    std::vector<std::shared_ptr<Session>> all;
+    for (const auto& [robot, session] : sessions_) all.push_back(session);
+    return all;
+  }
+  std::vector<RobotStatus> Statuses() const {
+    std::vector<RobotStatus> all;
+    for (const auto& session : All()) all.push_back(session->Status());
+    return all;
+  }
+
+ private:
+  static constexpr std::size_t kMaxRobots = 256;  // More come from a mistake or an attack.
+
+  std::shared_ptr<Session> Find(std::string_view robot) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = sessions_.find(robot);
+    return found == sessions_.end() ? nullptr : found->second;
+  }
+  void Wake() {
+    const std::lock_guard lock(mutex_);
+    if (workers_) workers_->Wake();
+  }
+
+  Make make_;
+  mutable std::mutex mutex_;  // Of the list; sessions look after themselves.
+  std::map<std::string, std::shared_ptr<Session>, std::less<>> sessions_;
+  std::unique_ptr<WorkerPool> workers_;
+};
+
+}  // namespace qwsm::team
