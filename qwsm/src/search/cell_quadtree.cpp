@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "qwsm/search/cell_quadtree.hpp"
+#include "qwsm/search/detail/cell_quadtree.hpp"
 
 #include <algorithm>
 #include <cassert>

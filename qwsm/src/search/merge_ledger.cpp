@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "qwsm/search/merge_ledger.hpp"
+#include "qwsm/search/detail/merge_ledger.hpp"
 
 #include <cassert>
 

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "qwsm/search/detail/paged_pool.hpp"
 #include "qwsm/search/likelihood_pyramid.hpp"
-#include "qwsm/search/paged_pool.hpp"
 #include "qwsm/search/point_quadtree.hpp"
 #include "qwsm/sensor/scan_points.hpp"
 

@@ -10,8 +10,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "qwsm/search/likelihood_tile.hpp"
-#include "qwsm/search/paged_pool.hpp"
+#include "qwsm/search/detail/likelihood_tile.hpp"
+#include "qwsm/search/detail/paged_pool.hpp"
 
 namespace qwsm {
 
@@ -31,6 +31,12 @@ void Describe(Visitor& visit, LikelihoodPyramidOptions& o) {
          .min = 0.005,
          .max = 1});
 }
+
+/// A cell of a LikelihoodPyramid; of level 0 where nothing else is said.
+struct GridCell {
+  int x = 0;
+  int y = 0;
+};
 
 /// How likely a beam ends in each cell, at the levels a coarse-to-fine search visits.
 ///

@@ -9,9 +9,9 @@
 #include <optional>
 #include <vector>
 
-#include "qwsm/search/cell_quadtree.hpp"
-#include "qwsm/search/merge_ledger.hpp"
-#include "qwsm/search/quadtree_traversal.hpp"
+#include "qwsm/search/detail/cell_quadtree.hpp"
+#include "qwsm/search/detail/merge_ledger.hpp"
+#include "qwsm/search/detail/quadtree_traversal.hpp"
 #include "qwsm/search/search_cursor.hpp"
 
 namespace qwsm {

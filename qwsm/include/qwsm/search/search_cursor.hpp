@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "qwsm/search/quadtree_layout.hpp"
+#include "qwsm/search/detail/quadtree_layout.hpp"
 
 namespace qwsm {
 

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "slam6d/cloud/point_cloud.hpp"
-#include "slam6d/search/kd_tree_layout.hpp"
+#include "slam6d/search/detail/kd_tree_layout.hpp"
 #include "slam6d/search/simd_level.hpp"
 
 namespace slam6d {

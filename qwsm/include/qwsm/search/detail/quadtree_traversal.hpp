@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "qwsm/search/cell_quadtree.hpp"
+#include "qwsm/search/detail/cell_quadtree.hpp"
 
 namespace qwsm::quadtree {
 

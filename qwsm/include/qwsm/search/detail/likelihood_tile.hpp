@@ -9,12 +9,6 @@
 
 namespace qwsm {
 
-/// A cell of a LikelihoodPyramid; of level 0 where nothing else is said.
-struct GridCell {
-  int x = 0;
-  int y = 0;
-};
-
 /// A square of a LikelihoodPyramid: its cells at every level.
 class LikelihoodTile {
  public:

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "qwsm/search/paged_pool.hpp"
-#include "qwsm/search/quadtree_layout.hpp"
+#include "qwsm/search/detail/paged_pool.hpp"
+#include "qwsm/search/detail/quadtree_layout.hpp"
 
 namespace qwsm::quadtree {
 
