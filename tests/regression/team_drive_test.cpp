@@ -69,9 +69,7 @@ UncertainPose2 StartOf(const sim::Reading& first, const ToldStart& told, std::mt
   if (is_told_poorly) {
     error = {sigma_m * normal(random), sigma_m * normal(random), sigma_rad * normal(random)};
   }
-  UncertainPose2 start{.T_a_b = first.T_world_robot * error};
-  start.covariance.diagonal() = Eigen::Vector3d(sigma_m, sigma_m, sigma_rad).cwiseAbs2();
-  return start;
+  return UncertainPose2::WithSigmas(first.T_world_robot * error, sigma_m, sigma_rad);
 }
 
 /// The root mean square of the errors of each robot's positions, in the frame of the world.

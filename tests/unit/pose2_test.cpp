@@ -50,6 +50,21 @@ TEST(Pose2, ObeysTheGroupLaws) {
   }
 }
 
+TEST(RigidTransform2, MapsAsThePoseDoes) {
+  const Pose2 T_map_robot{1.0, -2.0, 0.7};
+  const RigidTransform2 transform(T_map_robot);
+  const Eigen::Vector2d p_robot(3.0, 0.5);
+  EXPECT_NEAR((transform * p_robot - T_map_robot * p_robot).norm(), 0.0, 1e-15);
+}
+
+TEST(UncertainPose2, SigmasAreReadBack) {
+  const UncertainPose2 pose = UncertainPose2::WithSigmas({1.0, 2.0, 0.3}, 0.1, 0.02);
+  EXPECT_EQ(pose.T_a_b, (Pose2{1.0, 2.0, 0.3}));
+  EXPECT_DOUBLE_EQ(pose.SigmaXY_m(), 0.1);
+  EXPECT_DOUBLE_EQ(pose.SigmaTheta_rad(), 0.02);
+  EXPECT_TRUE(pose.covariance.isDiagonal());
+}
+
 TEST(UncertainPose2, HeadingErrorGrowsThePositionErrorWithTheArm) {
   const UncertainPose2 turned{.T_a_b = {}, .covariance = Eigen::Vector3d(0, 0, 0.01).asDiagonal()};
   const UncertainPose2 ten_metres_ahead{.T_a_b = {10.0, 0.0, 0.0}};

@@ -48,6 +48,18 @@ TEST(Pose3, ObeysTheGroupLaws) {
   }
 }
 
+TEST(Pose3, ABlockRotationTurnsTranslationAndRotationAlike) {
+  std::mt19937 random(9);
+  const Pose3 pose = DrawPose(random);
+  const Eigen::Vector3d v = Draw(random, 1.0);
+  const Eigen::Vector3d w = Draw(random, 1.0);
+  Vector6d both;
+  both << v, w;
+  const Vector6d turned = BlockRotation(pose.rotation) * both;
+  EXPECT_NEAR((turned.head<3>() - pose.rotation * v).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((turned.tail<3>() - pose.rotation * w).norm(), 0.0, 1e-15);
+}
+
 TEST(Pose3, PitchIsNoseDown) {
   const Eigen::Matrix3d R = RotationFromRollPitchYaw({0.0, 0.1, 0.0});
   EXPECT_LT((R * Eigen::Vector3d::UnitX()).z(), 0.0);

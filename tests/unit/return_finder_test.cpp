@@ -28,10 +28,7 @@ class BackAtAKnownPlace : public testing::Test {
   }
 
   static UncertainPose2 WithSigma(const Pose2& pose, double sigma_m) {
-    const double sigma_rad = 0.05 * sigma_m;
-    UncertainPose2 uncertain{.T_a_b = pose};
-    uncertain.covariance.diagonal() = Eigen::Vector3d(sigma_m, sigma_m, sigma_rad).cwiseAbs2();
-    return uncertain;
+    return UncertainPose2::WithSigmas(pose, sigma_m, 0.05 * sigma_m);
   }
 
   double Error_m(const MatchResult& found) const {

@@ -30,10 +30,7 @@ ScanMap MapOf(const LaserScan& scan, const Pose2& T_map_robot) {
 }
 
 UncertainPose2 Expected(const Pose2& pose, double sigma_m) {
-  const double sigma_rad = 0.3 * sigma_m;
-  UncertainPose2 expected{.T_a_b = pose};
-  expected.covariance.diagonal() = Eigen::Vector3d(sigma_m, sigma_m, sigma_rad).cwiseAbs2();
-  return expected;
+  return UncertainPose2::WithSigmas(pose, sigma_m, 0.3 * sigma_m);
 }
 
 /// Someone who stood at 3 m has walked further than the robot has driven.

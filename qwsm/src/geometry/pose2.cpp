@@ -33,6 +33,12 @@ bool IsFinite(const Pose2& pose) {
   return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.theta_rad);
 }
 
+UncertainPose2 UncertainPose2::WithSigmas(const Pose2& T_a_b, double sigma_m, double sigma_rad) {
+  UncertainPose2 uncertain{.T_a_b = T_a_b};
+  uncertain.covariance.diagonal() = Eigen::Vector3d(sigma_m, sigma_m, sigma_rad).cwiseAbs2();
+  return uncertain;
+}
+
 double UncertainPose2::SigmaXY_m() const {
   return std::sqrt(0.5 * (covariance(0, 0) + covariance(1, 1)));
 }

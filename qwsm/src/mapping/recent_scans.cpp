@@ -41,18 +41,17 @@ std::vector<ScanPoint> RecentScans::PointsAround(const Pose2& T_map_robot) const
   struct Seen {
     std::uint64_t cell;
     std::size_t number;  // The latest scan's points come first.
-    const Pose2* T_robot_then;
+    const RigidTransform2* T_robot_then;
     const ScanPoint* point;
   };
-  std::vector<Pose2> T_robot_then;
+  std::vector<RigidTransform2> T_robot_then;
   T_robot_then.reserve(scans_.size());
   std::vector<Seen> seen;
   seen.reserve(points_);
   for (auto scan = scans_.rbegin(); scan != scans_.rend(); ++scan) {
-    T_robot_then.push_back(T_map_robot.Inverse() * scan->T_map_robot);
-    const Eigen::Matrix2d R = T_robot_then.back().Rotation();
+    T_robot_then.emplace_back(T_map_robot.Inverse() * scan->T_map_robot);
     for (const ScanPoint& point : scan->points) {
-      const Eigen::Vector2d now = R * point.p_robot_m + T_robot_then.back().translation_m();
+      const Eigen::Vector2d now = T_robot_then.back() * point.p_robot_m;
       seen.push_back({.cell = CellOf(now, options_.spacing_m),
                       .number = seen.size(),
                       .T_robot_then = &T_robot_then.back(),

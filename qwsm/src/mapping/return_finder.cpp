@@ -21,18 +21,16 @@ double Distance_m(const Pose2& a, const Pose2& b) {
   return (a.translation_m() - b.translation_m()).norm();
 }
 
-UncertainPose2 WithSigmas(const Pose2& pose, double sigma_m, double sigma_rad) {
-  UncertainPose2 uncertain{.T_a_b = pose};
-  uncertain.covariance.diagonal() = Eigen::Vector3d(sigma_m, sigma_m, sigma_rad).cwiseAbs2();
-  return uncertain;
-}
-
 // A place found by a search over many scans, as exact as such a search is.
 constexpr double kFoundSigma_m = 0.1;
-UncertainPose2 FoundAt(const Pose2& place) { return WithSigmas(place, kFoundSigma_m, 0.02); }
+UncertainPose2 FoundAt(const Pose2& place) {
+  return UncertainPose2::WithSigmas(place, kFoundSigma_m, 0.02);
+}
 
 // How wrong recent scans lie to one another.
-Eigen::Matrix3d CovarianceOfSurroundings() { return WithSigmas({}, 0.05, 0.01).covariance; }
+Eigen::Matrix3d CovarianceOfSurroundings() {
+  return UncertainPose2::WithSigmas({}, 0.05, 0.01).covariance;
+}
 
 // The least of what pairs say of the position in any direction, beside the most, were the heading
 // known.
@@ -73,12 +71,11 @@ KnownSurroundings SurroundingsOf(const LikelihoodPyramid& map,
                                  double reach_m,
                                  double max_drift_m2) {
   const std::uint8_t max_code = LikelihoodPyramid::DriftCode(max_drift_m2);
-  const Eigen::Matrix2d R_map_robot = T_map_robot.Rotation();
+  const RigidTransform2 to_map(T_map_robot);
   KnownSurroundings known;
   int count = 0;
   for (const ScanPoint& point : points) {
-    const Eigen::Vector2d p_map = R_map_robot * point.p_robot_m + T_map_robot.translation_m();
-    const std::uint8_t code = SmallestDriftAround(map, p_map, reach_m);
+    const std::uint8_t code = SmallestDriftAround(map, to_map * point.p_robot_m, reach_m);
     if (code > max_code) continue;
     ++count;
     known.mean_drift_m2 += LikelihoodPyramid::DriftOf(code);

@@ -39,13 +39,12 @@ MapAddition ScanMap::Prepare(const LaserScan& scan,
   if (!empty()) addition.own_error = OwnError(map_robot, CovarianceUnder(points, map_robot.T_a_b));
   addition.points.reserve(points.size());
   const FrameCovariance covariance = FrameCovariance::Of(map_robot);
-  const Eigen::Matrix2d R_map_robot = map_robot.T_a_b.Rotation();
+  const RigidTransform2 to_map(map_robot.T_a_b);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector2d p_map =
-        R_map_robot * points[i].p_robot_m + map_robot.T_a_b.translation_m();
+    const Eigen::Vector2d p_map = to_map * points[i].p_robot_m;
     if (options_.insertion == InsertionRule::kNewSurface && !IsNewSurface(p_map)) continue;
     addition.points.push_back({.p_map_m = p_map,
-                               .normal_map = R_map_robot * points[i].normal_robot,
+                               .normal_map = to_map.R_a_b * points[i].normal_robot,
                                .spacing_m = points[i].spacing_m,
                                .drift_m2 = covariance.PositionVariance(p_map)});
   }
@@ -73,11 +72,10 @@ void ScanMap::ForgetPoints() { surfaces_ = SurfaceMap(options_.surfaces); }
 FrameCovariance ScanMap::CovarianceUnder(std::span<const ScanPoint> points,
                                          const Pose2& T_map_robot,
                                          double max_drift_m2) const {
-  const Eigen::Matrix2d R_map_robot = T_map_robot.Rotation();
+  const RigidTransform2 to_map(T_map_robot);
   std::vector<ScanId> under;
   for (const ScanPoint& point : ThinOut(points, kReferenceSpacing_m)) {
-    const auto nearest = surfaces_.quadtree().Nearest(
-        R_map_robot * point.p_robot_m + T_map_robot.translation_m(), kReferenceReach_m);
+    const auto nearest = surfaces_.quadtree().Nearest(to_map * point.p_robot_m, kReferenceReach_m);
     if (nearest && surfaces_.Drift_m2(nearest->id) <= max_drift_m2) {
       under.push_back(surfaces_.quadtree().Scan(nearest->id));
     }

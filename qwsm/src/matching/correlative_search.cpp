@@ -98,10 +98,8 @@ class BeamEnds {
     auto cell = cells_.begin();
     const Pose2& center = window.predicted.T_a_b;
     for (int heading = -headings_; heading <= headings_; ++heading) {
-      const Pose2 turned{center.x_m, center.y_m, center.theta_rad + TurnOf(heading)};
-      const Eigen::Matrix2d R = turned.Rotation();
-      const Eigen::Vector2d t = turned.translation_m();
-      for (const Eigen::Vector2d& p_robot : points_robot_m) *cell++ = map.CellAt(R * p_robot + t);
+      const RigidTransform2 turned({center.x_m, center.y_m, center.theta_rad + TurnOf(heading)});
+      for (const Eigen::Vector2d& p_robot : points_robot_m) *cell++ = map.CellAt(turned * p_robot);
     }
   }
 

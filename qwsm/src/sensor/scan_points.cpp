@@ -200,13 +200,12 @@ std::vector<ScanPoint> ToPoints(const LaserScan& scan) {
   return points;
 }
 
-ScanPoint operator*(const Pose2& T_other_robot, const ScanPoint& point) {
-  const Eigen::Matrix2d R_other_robot = T_other_robot.Rotation();
+ScanPoint operator*(const RigidTransform2& T_other_robot, const ScanPoint& point) {
   ScanPoint seen = point;
-  seen.p_robot_m = R_other_robot * point.p_robot_m + T_other_robot.translation_m();
-  seen.beam_robot = R_other_robot * point.beam_robot;
-  seen.normal_robot = R_other_robot * point.normal_robot;
-  seen.to_mean_robot_m = R_other_robot * point.to_mean_robot_m;
+  seen.p_robot_m = T_other_robot * point.p_robot_m;
+  seen.beam_robot = T_other_robot.R_a_b * point.beam_robot;
+  seen.normal_robot = T_other_robot.R_a_b * point.normal_robot;
+  seen.to_mean_robot_m = T_other_robot.R_a_b * point.to_mean_robot_m;
   return seen;
 }
 

@@ -71,10 +71,9 @@ void NetworkRobot::Take(const sim::Reading& reading) {
 bool NetworkRobot::HasBegun(const sim::Reading& reading) {
   if (has_begun_) return true;
   if (publisher_.has_pose_listener()) {
-    UncertainPose2 start{.T_a_b = reading.T_world_robot};
-    start.covariance.diagonal() =
-        Eigen::Vector3d(kStartSigma_m, kStartSigma_m, kStartSigma_rad).cwiseAbs2();
-    publisher_.TellPose(reading.scan.stamp, start);
+    publisher_.TellPose(
+        reading.scan.stamp,
+        UncertainPose2::WithSigmas(reading.T_world_robot, kStartSigma_m, kStartSigma_rad));
     has_begun_ = true;
     return false;
   }

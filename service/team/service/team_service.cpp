@@ -43,10 +43,8 @@ TeamScan FromJournal(const io::JournalEntry& entry) {
 }
 
 UncertainPose2 StartOf(const RobotStartOptions& robot) {
-  UncertainPose2 start{.T_a_b = {robot.x_m, robot.y_m, NormalizeAngle(robot.heading_rad)}};
-  start.covariance.diagonal() =
-      Eigen::Vector3d(robot.sigma_m, robot.sigma_m, robot.sigma_rad).cwiseAbs2();
-  return start;
+  return UncertainPose2::WithSigmas(
+      {robot.x_m, robot.y_m, NormalizeAngle(robot.heading_rad)}, robot.sigma_m, robot.sigma_rad);
 }
 
 }  // namespace

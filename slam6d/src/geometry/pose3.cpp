@@ -27,6 +27,13 @@ Eigen::Matrix3d Skew(const Eigen::Vector3d& a) {
   return Eigen::Matrix3d{{0.0, -a.z(), a.y()}, {a.z(), 0.0, -a.x()}, {-a.y(), a.x(), 0.0}};
 }
 
+Matrix6d BlockRotation(const Eigen::Matrix3d& R) {
+  Matrix6d both = Matrix6d::Zero();
+  both.topLeftCorner<3, 3>() = R;
+  both.bottomRightCorner<3, 3>() = R;
+  return both;
+}
+
 Eigen::Matrix3d RotationFromVector(const Eigen::Vector3d& rotation_vector_rad) {
   const double angle_rad = rotation_vector_rad.norm();
   if (angle_rad == 0.0) return Eigen::Matrix3d::Identity();
@@ -98,12 +105,9 @@ bool IsFinite(const Pose3& pose) {
 
 UncertainPose3 operator*(const UncertainPose3& a_b, const UncertainPose3& b_c) {
   UncertainPose3 a_c{.T_a_b = a_b.T_a_b * b_c.T_a_b};
-  const Eigen::Matrix3d& R = a_b.T_a_b.rotation;
   Matrix6d by_b = Matrix6d::Identity();  // A turn of b moves c on a lever.
   by_b.topRightCorner<3, 3>() = -Skew(a_c.T_a_b.translation_m - a_b.T_a_b.translation_m);
-  Matrix6d by_c = Matrix6d::Zero();
-  by_c.topLeftCorner<3, 3>() = R;
-  by_c.bottomRightCorner<3, 3>() = R;
+  const Matrix6d by_c = BlockRotation(a_b.T_a_b.rotation);
   a_c.covariance =
       by_b * a_b.covariance * by_b.transpose() + by_c * b_c.covariance * by_c.transpose();
   return a_c;

@@ -74,9 +74,7 @@ class JointMinimizer final : public IcpMinimizer {
   Matrix6d Covariance() const override {
     Matrix6d information = Matrix6d::Zero();
     for (const Member& member : pairs_) {
-      Matrix6d R_map_ref = Matrix6d::Zero();
-      R_map_ref.topLeftCorner<3, 3>() = member.T_map_ref.rotation;
-      R_map_ref.bottomRightCorner<3, 3>() = member.T_map_ref.rotation;
+      const Matrix6d R_map_ref = BlockRotation(member.T_map_ref.rotation);
       information += R_map_ref * member.with_ref->Information() * R_map_ref.transpose();
     }
     return Pairs::Covariance(sums_, information, options_);

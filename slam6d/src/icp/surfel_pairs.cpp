@@ -100,9 +100,7 @@ NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
 }
 
 NormalEquations NormalEquations::In(const Pose3& T_map_ref) const {
-  Matrix6d R = Matrix6d::Zero();
-  R.topLeftCorner<3, 3>() = T_map_ref.rotation;
-  R.bottomRightCorner<3, 3>() = T_map_ref.rotation;
+  const Matrix6d R = BlockRotation(T_map_ref.rotation);
   NormalEquations moved = *this;
   moved.A = R * A * R.transpose();
   moved.b = R * b;

@@ -77,9 +77,7 @@ bool IsWithinReach(const Pose3& T_map_guess, const Pose3& T_map_cur, const Overl
 
 /// The same covariance along the axes of another frame.
 Matrix6d Turned(const Eigen::Matrix3d& R_a_b, const Matrix6d& covariance_b) {
-  Matrix6d R = Matrix6d::Zero();
-  R.topLeftCorner<3, 3>() = R_a_b;
-  R.bottomRightCorner<3, 3>() = R_a_b;
+  const Matrix6d R = BlockRotation(R_a_b);
   return R * covariance_b * R.transpose();
 }
 

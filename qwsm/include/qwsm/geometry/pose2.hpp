@@ -31,6 +31,18 @@ Eigen::Vector2d operator*(const Pose2& T_a_b, const Eigen::Vector2d& p_b_m);
 /// Whether all three numbers are finite.
 bool IsFinite(const Pose2& pose);
 
+/// A pose made ready to map many points: its sine and cosine are computed once.
+struct RigidTransform2 {
+  explicit RigidTransform2(const Pose2& T_a_b)
+      : R_a_b(T_a_b.Rotation()), t_a_b_m(T_a_b.translation_m()) {}
+
+  /// p_a = T_a_b * p_b, in metres.
+  Eigen::Vector2d operator*(const Eigen::Vector2d& p_b_m) const { return R_a_b * p_b_m + t_a_b_m; }
+
+  Eigen::Matrix2d R_a_b;    ///< Turns directions of frame b into frame a.
+  Eigen::Vector2d t_a_b_m;  ///< The origin of frame b in frame a.
+};
+
 /// A pose and how far it may be from the truth.
 ///
 /// `covariance` is of (x, y, theta) in m^2, m rad and rad^2, the translation along the axes of the
@@ -38,6 +50,10 @@ bool IsFinite(const Pose2& pose);
 struct UncertainPose2 {
   Pose2 T_a_b;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+
+  /// A pose known to these standard deviations: the first of x and of y, the second of the heading;
+  /// their errors are independent of each other.
+  static UncertainPose2 WithSigmas(const Pose2& T_a_b, double sigma_m, double sigma_rad);
 
   double SigmaXY_m() const;  ///< Of both axes together: the root of their mean variance.
   double SigmaTheta_rad() const;

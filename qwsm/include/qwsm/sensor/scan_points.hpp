@@ -33,7 +33,7 @@ struct ScanPoint {
 std::vector<ScanPoint> ToPoints(const LaserScan& scan);
 
 /// The point as another robot pose sees it.
-ScanPoint operator*(const Pose2& T_other_robot, const ScanPoint& point);
+ScanPoint operator*(const RigidTransform2& T_other_robot, const ScanPoint& point);
 
 /// Points at least `spacing_m` apart, walking along the scan: near surfaces, on which beams crowd,
 /// count no more than far ones.

@@ -36,6 +36,9 @@ struct UncertainPose3 {
 /// The matrix with `Skew(a) * b == a.cross(b)`.
 Eigen::Matrix3d Skew(const Eigen::Vector3d& a);
 
+/// Turns vectors of (translation, rotation): R twice on the diagonal.
+Matrix6d BlockRotation(const Eigen::Matrix3d& R);
+
 /// The rotation by |v| about v (Rodrigues), and its inverse with |v| in [0, pi].
 Eigen::Matrix3d RotationFromVector(const Eigen::Vector3d& rotation_vector_rad);
 Eigen::Vector3d RotationVector(const Eigen::Matrix3d& rotation);
