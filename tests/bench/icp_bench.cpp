@@ -17,7 +17,8 @@ struct Outcome {
   double ms = 0.0;
 };
 
-/// Moments as the paper writes them: centroids first (Eq. 3), then the centred points (Eqs. 4, 6).
+/// Moments as Nüchter et al. (2007) write them: centroids first (Eq. 3), then the centred points
+/// (Eqs. 4 and 6).
 PairMoments MomentsOf(const std::vector<Eigen::Vector3d>& ref,
                       const std::vector<Eigen::Vector3d>& cur) {
   PairMoments moments{.count = static_cast<double>(ref.size())};

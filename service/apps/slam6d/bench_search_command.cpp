@@ -64,7 +64,8 @@ Command AddBenchSearchCommand(CLI::App& program) {
   auto arguments = std::make_shared<BenchArguments>();
   parser->footer(
       "  slam6d bench-search dat/                   a table for the first two scans\n"
-      "  slam6d bench-search dat/ --output figure5  and pictures like the paper's Figure 5");
+      "  slam6d bench-search dat/ --output figure5  and pictures like Figure 5 of Nüchter et al. "
+      "(2007)");
   parser->add_option("SCANS", arguments->scans, "a folder of scans, or two files")
       ->required()
       ->type_name("");

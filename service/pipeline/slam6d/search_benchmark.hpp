@@ -29,8 +29,8 @@ struct SearchTask {
   Pose3 T_ref_cur_guess;
 };
 
-/// The experiment of Figure 5 of the paper: registers two scans point to point for every bucket
-/// size, and times the searches of every iteration from the root and with the cache.
+/// The experiment of Figure 5 of Nüchter et al. (2007): registers two scans point to point for
+/// every bucket size, and times the searches of every iteration from the root and with the cache.
 std::vector<SearchTimes> BenchSearch(const SearchTask& task,
                                      std::span<const int> bucket_sizes,
                                      double max_distance_m);

@@ -13,8 +13,9 @@ namespace {
 /// Below this share of the largest singular value the second one is rounding: a line of points.
 constexpr double kLineShare = 1e-12;
 
-/// Arun et al. (1987), paper section 3.3: H = U Lambda V^T, R = V U^T. The factor in the middle
-/// keeps a reflection out, which noise can make the better fit for points near a plane.
+/// Arun et al. (1987) as in Nüchter et al. (2007), section 3.3: H = U Lambda V^T, R = V U^T. The
+/// factor in the middle keeps a reflection out, which noise can make the better fit for points near
+/// a plane.
 Eigen::Matrix3d RotationBySvd(const Eigen::Matrix3d& H) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(H, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Matrix3d& U = svd.matrixU();
@@ -134,7 +135,8 @@ std::optional<Pose3> AlignPairs(const PairMoments& moments, ClosedForm form) {
     case ClosedForm::kDualQuaternion:
       return AlignByDualQuaternion(moments);
   }
-  motion.translation_m = moments.center_ref_m - motion.rotation * moments.center_cur_m;  // Eq. 5
+  // Nüchter et al. (2007), Eq. 5: t = c_m - R c_d.
+  motion.translation_m = moments.center_ref_m - motion.rotation * moments.center_cur_m;
   return motion;
 }
 

@@ -72,6 +72,8 @@ IcpResult Align(std::span<const IcpReference> references,
   IcpResult result{.T_ref_cur = T_map_cur_guess};
   if (trace != nullptr) trace->assign(1, T_map_cur_guess);
   for (result.iterations = 1; result.iterations <= options.max_iterations; ++result.iterations) {
+    // Nüchter et al. (2007), Algorithm 1, lines 2-13: pairs, from the root in the first iteration
+    // and from the cache in later ones, and the motion that they ask for.
     const IcpStep step = minimizer->Iterate(result.T_ref_cur, result.iterations);
     result.pairs = step.pairs;
     result.rms_residual_m = step.rms_residual_m;
@@ -81,7 +83,7 @@ IcpResult Align(std::span<const IcpReference> references,
     if (!step.motion_map) return Stop(result, IcpStatus::kDegenerate, *minimizer);
 
     const Pose3 before = result.T_ref_cur;
-    result.T_ref_cur = *step.motion_map * before;
+    result.T_ref_cur = *step.motion_map * before;  // Line 14.
     result.T_ref_cur.rotation = NearestRotation(result.T_ref_cur.rotation);
     if (trace != nullptr) trace->push_back(result.T_ref_cur);
     if (step.settled && IsSmall(before, result.T_ref_cur, options)) {

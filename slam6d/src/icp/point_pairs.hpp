@@ -15,7 +15,7 @@ struct PointSums {
   PointSums& operator+=(const PointSums& other);
 };
 
-/// Point to point: nearest points, closed form (paper Eqs. 2-6).
+/// Point to point: nearest points, closed form (Nüchter et al. 2007, Eqs. 2-6).
 class PointPairs {
  public:
   using Sums = PointSums;

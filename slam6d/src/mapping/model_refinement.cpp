@@ -136,6 +136,7 @@ RefinementResult RefineModel(std::span<const ModelScan> scans,
     if (scans[scan].scan.model != nullptr) queue.Add(scan);
   }
   RefinementResult result{.T_map_scan = {}};
+  // Nüchter et al. (2007), section 3.5, steps 1 to 3.
   while (queue.size() > 0) {
     const std::size_t current = queue.Pop();                                        // 1.
     const std::vector<std::size_t> neighbors = Neighbors(model, current, options);  // 2.

@@ -136,8 +136,9 @@ std::vector<IcpReference> Slam::ModelsOf(std::span<const std::size_t> scans) con
   return models;
 }
 
-/// Paper sections 3.2 and 3.3. ICP comes first here, and the octrees are asked for a better guess
-/// only where it does not convince: they cost four times as much as all the rest of a scan
+/// Nüchter et al. (2007), sections 3.2 and 3.3. ICP comes first here, and the octrees are asked for
+/// a better guess only where it does not convince: they cost four times as much as all the rest of
+/// a scan
 /// (`slam6d register --set slam.guess.needed_below=1` asks them every time).
 Slam::Registration Slam::Register(std::span<const std::size_t> references,
                                   const Entry& cur,
@@ -237,7 +238,8 @@ void Slam::Constrain(std::size_t from, std::size_t to, const UncertainPose3& T_m
        .covariance = Turned(T_map_from.rotation.transpose(), T_map_to.covariance)});
 }
 
-/// Paper section 3.4.
+/// Nüchter et al. (2007), section 3.4: hypotheses from range and pose, revised by the octrees, then
+/// registered; the error of each loop found is spread over all scans.
 void Slam::CloseLoops(SlamStep& step) {
   const std::size_t scan = entries_.size() - 1;
   const Entry& cur = *entries_[scan];

@@ -17,7 +17,7 @@ namespace slam6d {
 
 /// What is minimised.
 enum class IcpMetric {
-  kPointToPoint,  ///< Paper Eq. 1, in closed form.
+  kPointToPoint,  ///< Nüchter et al. (2007), Eq. 1, in closed form.
   kPointToPlane,  ///< Distance of the points from the reference's surfels (Chen & Medioni 1991).
   /// Distance between surfels along the mean of their normals (as Rusinkiewicz 2019), weighted by
   /// the scatter of both (as GICP: Segal, Haehnel & Thrun 2009).
@@ -121,7 +121,8 @@ struct [[nodiscard]] IcpResult {
 /// Pose after each iteration, the guess first.
 using IcpTrace = std::vector<Pose3>;
 
-/// Aligns `cur` with `ref`, beginning at a guess (paper section 3.3, Algorithm 1).
+/// Aligns `cur` with `ref`, beginning at a guess (Nüchter et al. 2007, section 3.3 and
+/// Algorithm 1).
 IcpResult Align(const ScanModel& ref,
                 const ScanModel& cur,
                 const Pose3& T_ref_cur_guess,

@@ -10,7 +10,7 @@
 
 namespace slam6d {
 
-/// Which earlier scans may show the same place again (paper section 3.4).
+/// Which earlier scans may show the same place again (Nüchter et al. 2007, section 3.4).
 struct LoopOptions {
   bool enabled = true;
   int min_scans_between = 10;  ///< Nearer ones in the sequence are no loop.

@@ -11,12 +11,13 @@
 
 namespace slam6d {
 
+/// When and how scans are fitted to each other (Nüchter et al. 2007, section 3.5).
 struct RefinementOptions {
   bool enabled = true;
-  int min_pairs = 250;                    ///< p of the paper: scans with more pairs overlap.
+  int min_pairs = 250;                    ///< p in section 3.5: scans with more pairs overlap.
   double max_distance_m = 0.25;           ///< Of a pair; the poses are good by now.
   int max_neighbors = 8;                  ///< The nearest of the scans that overlap.
-  double translation_tolerance_m = 1e-3;  ///< A scan that moves less than both stays as it is.
+  double translation_tolerance_m = 1e-3;  ///< A scan that moves less than both moves no others.
   double rotation_tolerance_rad = 1e-4;
   int max_visits = 5;  ///< Of a scan.
 };
@@ -31,10 +32,10 @@ void Describe(Visitor& visit, RefinementOptions& o) {
         {.help = "a scan is fitted to the nearest of those it overlaps", .min = 1, .max = 1e6});
   visit("translation_tolerance_m",
         o.translation_tolerance_m,
-        {.help = "smaller motions are none", .min = 0, .max = 1});
+        {.help = "a scan that moves less lets its neighbours rest", .min = 0, .max = 1});
   visit("rotation_tolerance_rad",
         o.rotation_tolerance_rad,
-        {.help = "smaller motions are none", .min = 0, .max = 1});
+        {.help = "a scan that moves less lets its neighbours rest", .min = 0, .max = 1});
   visit("max_visits", o.max_visits, {.help = "fits of each scan, at most", .min = 0, .max = 1e6});
 }
 
@@ -58,9 +59,9 @@ struct ModelScan {
   IcpMetric metric = IcpMetric::kPlaneToPlane;  ///< By which it is fitted to others.
 };
 
-/// Simultaneous matching (paper section 3.5, after Pulli 1999): each scan is fitted to all it
-/// overlaps, and where it moves, these are fitted again, until nothing moves. The first scan, the
-/// master, stays where it is.
+/// Simultaneous matching (Nüchter et al. 2007, section 3.5, after Pulli 1999): each scan is fitted
+/// to all it overlaps, and where it moves, these are fitted again, until nothing moves. The first
+/// scan, the master, stays where it is.
 ///
 /// Departures from the paper: the queue begins with all scans, as one that already fits would hide
 /// those behind it; a scan's neighbours are the nearest ones only, so that the time grows with the

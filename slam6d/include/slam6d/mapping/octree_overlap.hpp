@@ -14,8 +14,8 @@
 
 namespace slam6d {
 
-/// The heuristic for an initial guess (paper section 3.2). What is searched lies within the ranges
-/// about the guess; the steps follow from the size of the cubes.
+/// The heuristic for an initial guess (Nüchter et al. 2007, section 3.2). What is searched lies
+/// within the ranges about the guess; the steps follow from the size of the cubes.
 struct OverlapOptions {
   double cube_m = 0.2;  ///< Edge of the smallest cubes.
   int levels = 3;       ///< The search begins with cubes twice as large for each level above one.

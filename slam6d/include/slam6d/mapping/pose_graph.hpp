@@ -23,8 +23,8 @@ struct PoseGraph {
   std::vector<PoseConstraint> constraints;  ///< The one that closed a loop last is the last.
 };
 
-/// Spreads the error of a loop over its scans (paper section 3.4). The first scan stays where it
-/// is.
+/// Spreads the error of a loop over its scans (Nüchter et al. 2007, section 3.4). The first scan
+/// stays where it is.
 class LoopCloser {
  public:
   LoopCloser() = default;

@@ -76,13 +76,15 @@ struct SlamStep {
   std::vector<std::size_t> loops_to{};  ///< Earlier scans with which a loop was closed.
 };
 
-/// The pose of scan n + 1 from that of scan n and the odometry of both (paper section 3.1): the
-/// change that odometry saw in the plane happens in the plane in which the robot really stands.
+/// The pose of scan n + 1 from that of scan n and the odometry of both (Nüchter et al. 2007,
+/// section 3.1): the change that odometry saw in the plane happens in the plane in which the robot
+/// really stands.
 Pose3 ExtrapolateOdometry(const Pose3& T_map_last,
                           const Pose3& T_odom_last,
                           const Pose3& T_odom_scan);
 
-/// 6D SLAM (paper section 3): scans taken one after the other, in one consistent model.
+/// 6D SLAM (Nüchter et al. 2007, section 3): scans taken one after the other, in one consistent
+/// model.
 class Slam {
  public:
   /// @param closer outlives this.

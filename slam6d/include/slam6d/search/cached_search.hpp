@@ -13,7 +13,7 @@ namespace slam6d {
 
 /// Where the searches of later iterations begin.
 enum class SearchStart {
-  kCache,  ///< Paper section 4.1.
+  kCache,  ///< At the leaf of the neighbour before: Nüchter et al. (2007), section 4.1.
   kRoot,   ///< As if every iteration were the first: the yardstick.
 };
 
@@ -22,7 +22,8 @@ struct CachedSearchOptions {
   SearchStart start = SearchStart::kCache;
 };
 
-/// The nearest neighbours of a cloud that moves a little between calls (paper section 4.1).
+/// The nearest neighbours of a cloud that moves a little between calls: the cached kd-tree search
+/// of Nüchter et al. (2007), section 4.1.
 ///
 /// For every query it keeps where the query was when the tree was last searched, the neighbour
 /// found then, and a distance no *other* point was nearer than. While

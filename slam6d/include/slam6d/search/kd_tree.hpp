@@ -43,8 +43,8 @@ void Describe(Visitor& visit, KdTreeOptions& o) {
   visit("simd", o.simd, {.help = "instructions of the searches; the results are the same"});
 }
 
-/// A kd-tree with buckets over a fixed cloud (Friedman, Bentley & Finkel 1977; paper section 4):
-/// the longest side of the box of a node's points is cut at its middle.
+/// A kd-tree with buckets over a fixed cloud (Friedman, Bentley & Finkel 1977; Nüchter et al.
+/// 2007, section 4): the longest side of the box of a node's points is cut at its middle.
 ///
 /// Points that are not finite are left out; equal points are stored once, so that thousands of
 /// copies cost nothing. Searching is const and safe from any number of threads. All distances

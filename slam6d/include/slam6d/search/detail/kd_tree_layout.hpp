@@ -35,14 +35,16 @@ struct KdNode {
   std::uint32_t parent = 0;       ///< The root is its own parent.
 };
 
-/// A kd-tree as the searches read it. Node 0 is the root; slot s is place s % 8 of block s / 8.
+/// A kd-tree as the searches read it: with the limits of its points and a pointer to the
+/// predecessor in each node, as a cached search needs them (Nüchter et al. 2007, section 4.1). Node
+/// 0 is the root; slot s is place s % 8 of block s / 8.
 struct KdTreeLayout {
   static constexpr std::uint32_t kNoSlot = std::numeric_limits<std::uint32_t>::max();
   /// No path from the root is longer; the searches' stacks rely on it.
   static constexpr int kMaxDepth = 96;
 
   std::vector<KdNode> nodes;
-  std::vector<Box> limits;  ///< Per node, the box of the points really in it (Figure 3b).
+  std::vector<Box> limits;  ///< Per node, the box of the points really in it.
   std::vector<Box> cells;   ///< Per node, the part of space its cuts leave it; the root's is all.
   std::vector<PointBlock> blocks;
   std::vector<std::uint32_t> index_of_slot;  ///< The point's place in the cloud.
