@@ -7,8 +7,7 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "qwsm/mapping/scan_map.hpp"
-#include "qwsm/matching/weighted_scan_matcher.hpp"
+#include "qwsm/match_scans.hpp"
 
 namespace {
 
@@ -33,27 +32,15 @@ qwsm::LaserScan ScanRoom(const qwsm::Pose2& T_room_robot) {
 
 int main() {
   const qwsm::Pose2 T_ref_cur_true{0.20, 0.05, qwsm::DegreesToRadians(6.0)};
-  const qwsm::LaserScan reference_scan = ScanRoom({});
-  const qwsm::LaserScan current_scan = ScanRoom(T_ref_cur_true);
+  // Odometry, if there were any, would be the third argument.
+  const qwsm::MatchResult match = qwsm::MatchScans(ScanRoom({}), ScanRoom(T_ref_cur_true));
 
-  qwsm::ScanMap reference;
-  reference.Insert(reference_scan, qwsm::ToPoints(reference_scan), {});
-
-  // Odometry says the robot stood still, give or take 20 cm and 6 degrees.
-  qwsm::MatchPrior prior;
-  prior.start_error = {.translation_m = 0.2};
-  prior.predicted.covariance.diagonal() << 0.04, 0.04, 0.01;
-  const qwsm::MatchResult match =
-      qwsm::WeightedScanMatcher().Match(reference.surfaces(), qwsm::ToPoints(current_scan), prior);
-
-  const Eigen::Vector3d sigma = match.covariance.diagonal().cwiseSqrt();
+  const qwsm::UncertainPose2 motion{match.T_ref_cur, match.covariance};
   const qwsm::Pose2 error = T_ref_cur_true.Inverse() * match.T_ref_cur;
-  std::cout << Name(match.status) << " after " << match.iterations << " iterations, " << match.pairs
-            << " pairs\n"
-            << "x " << match.T_ref_cur.x_m << " +- " << sigma.x() << " m, y " << match.T_ref_cur.y_m
-            << " +- " << sigma.y() << " m, heading "
-            << qwsm::RadiansToDegrees(match.T_ref_cur.theta_rad) << " +- "
-            << qwsm::RadiansToDegrees(sigma.z()) << " deg\n"
+  std::cout << Name(match.status) << ": x " << motion.T_a_b.x_m << ", y " << motion.T_a_b.y_m
+            << " +- " << motion.SigmaXY_m() << " m, heading "
+            << qwsm::RadiansToDegrees(motion.T_a_b.theta_rad) << " +- "
+            << qwsm::RadiansToDegrees(motion.SigmaTheta_rad()) << " deg\n"
             << "off by " << 1e3 * error.translation_m().norm() << " mm\n";
   return error.translation_m().norm() < 0.01 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
