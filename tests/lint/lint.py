@@ -22,6 +22,9 @@ CHECKS = {
     "scripts": sources.check_scripts,
     "build": sources.check_build,
     "links": documents.check_links,
+    "figures": documents.check_figures,
+    "layer_table": documents.check_layer_table,
+    "citations": documents.check_citations,
     "standalone_headers": headers.check_standalone_headers,
 }
 NEEDS_BUILD = {"standalone_headers"}

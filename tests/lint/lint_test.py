@@ -100,5 +100,56 @@ class Files(unittest.TestCase):
         self.assertEqual(len(findings(documents.check_links, files)), 2)
 
 
+class Figures(unittest.TestCase):
+    RESULTS = "# Results\n| log | Q-WSM, m |\n|---|---|\n| intel | 0.0179 |\n| aces | 0.0488 |\n"
+
+    def complaints(self, *rows):
+        table = "| | intel | aces |\n|---|---|---|\n" + "\n".join(rows)
+        readme = f"| | intel |\n|---|---|\n| other, m | 7 |\n## Results\n{table}\n## Formats\n"
+        files = {"README.md": readme, "docs/results.md": self.RESULTS}
+        return findings(documents.check_figures, files)
+
+    def test_figures_may_be_rounded_and_the_table_turned(self):
+        self.assertEqual(self.complaints("| Q-WSM, m | 0.018 | 0.05 |"), [])
+
+    def test_figures_that_parted_are_found_with_their_line(self):
+        self.assertEqual(
+            self.complaints("| Q-WSM, m | 0.018 | 0.055 |"),
+            ["README.md:7: 'aces' of 'Q-WSM, m' is 0.055, in docs/results.md it is 0.0488"])
+
+    def test_a_figure_that_nobody_measured_is_found(self):
+        self.assertEqual(len(self.complaints("| WSM, m | 0.018 | - |")), 1)
+
+
+class LayerTable(unittest.TestCase):
+    def complaints(self, *rows):
+        table = "| folder | holds | may use |\n|---|---|---|\n" + "\n".join(rows)
+        text = "# A\n## Folders\n" + table + "\n## Next\n"
+        return findings(documents.check_layer_table, {"docs/architecture.md": text})
+
+    def test_a_row_that_contradicts_the_lint_is_found(self):
+        right = "| `service/graph` | loops | Ceres, `slam6d` |"
+        wrong = "| `service/graph` | loops | Ceres, `slam6d`, `qwsm` |"
+        self.assertEqual(len(self.complaints(wrong)) - len(self.complaints(right)), 1)
+
+    def test_a_layer_without_a_row_is_found(self):
+        self.assertIn("docs/architecture.md:1: the table of folders has no row for sim",
+                      self.complaints("| `qwsm/` | 2D | Eigen |"))
+
+
+class Citations(unittest.TestCase):
+    def complaints(self, comment):
+        entry = '@book{n07,\n  author = {Andreas N{\\"u}chter and Kai Lingemann},\n  year = {2007}\n}\n'
+        return findings(documents.check_citations, {"docs/references.bib": entry, "a.hpp": comment})
+
+    def test_a_cited_paper_is_known_by_any_of_its_authors(self):
+        self.assertEqual(self.complaints("/// As in Nüchter et al. (2007), Eq. 3."), [])
+        self.assertEqual(self.complaints("// (Nüchter & Lingemann 2007)"), [])
+
+    def test_a_paper_that_is_not_listed_is_found(self):
+        self.assertEqual(self.complaints("// Horn (1987)"),
+                         ["a.hpp:1: docs/references.bib does not have Horn 1987"])
+
+
 if __name__ == "__main__":
     unittest.main()
