@@ -18,6 +18,7 @@ namespace qwsm::config {
 /// What Describe() says about a field. Bounds are inclusive and in the unit of the struct.
 struct FieldInfo {
   std::string_view help;
+  std::string_view formerly{};  ///< Name in earlier releases, which is refused with the new one.
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
 };
@@ -32,6 +33,7 @@ class FieldCollector {
   void operator()(std::string_view name, Value& value, const FieldInfo& info) {
     Field field;
     field.name = YamlName(name);
+    field.formerly = YamlName(info.formerly);
     field.help = info.help;
     field.min = info.min;
     field.max = info.max;
@@ -65,6 +67,7 @@ class FieldCollector {
     list.example = [item = std::make_shared<Item>()] { return GroupOf(*item); };
     Field field;
     field.name = name;
+    field.formerly = info.formerly;
     field.help = info.help;
     field.value = std::move(list);
     group_.fields.push_back(std::move(field));

@@ -99,6 +99,8 @@ std::string UnknownOption(const std::string& name,
   return "unknown option here; did you mean '" + namesakes.front() + "'?";
 }
 
+std::string NewName(const std::string& key) { return "is now called '" + key + "'"; }
+
 // What cannot be resolved is left as it is: reading it tells what is wrong with it.
 fs::path Resolved(const fs::path& file) {
   std::error_code error;
@@ -146,14 +148,19 @@ void Loader::Set(const std::string& setting) {
   if (equals == std::string::npos) return Report(at, "", "expected key=value");
 
   OptionGroup* group = &root_;
+  std::string new_key;            // With the names of this release.
   std::deque<OptionGroup> items;  // Of lists on the way down; they live until the value is set.
   std::size_t begin = 0;
   while (true) {
     const std::size_t dot = key.find('.', begin);
-    const Step step = StepOf(key.substr(begin, dot == std::string::npos ? dot : dot - begin));
+    const std::string text = key.substr(begin, dot == std::string::npos ? dot : dot - begin);
+    const Step step = StepOf(text);
     Field* field = group->Find(step.name);
+    if (field == nullptr) field = group->FindFormer(step.name);
     if (field == nullptr) return Report(at, "", UnknownOption(step.name, *group, root_));
+    new_key += (begin == 0 ? "" : ".") + field->name + text.substr(step.name.size());
     if (dot == std::string::npos) {
+      if (new_key != key) return Report(at, "", NewName(new_key));
       YamlNode value;
       value.text = setting.substr(equals + 1);
       if (!value.text.empty()) value.kind = YamlNode::Kind::kPlain;
@@ -212,18 +219,24 @@ void Loader::ReadMap(const YamlNode& map, OptionGroup& group, const std::string&
 void Loader::ReadEntry(const YamlEntry& entry, OptionGroup& group, const std::string& prefix) {
   const std::string& name = entry.key.text;
   if (prefix.empty() && name == kBaseKey) return;  // Read first, in ReadRoot().
-  Field* field = group.Find(name);
-  if (field == nullptr) {
-    return Report(At(entry.key), prefix + name, UnknownOption(name, group, root_));
+  if (Field* field = group.Find(name)) return ReadValue(entry, *field, prefix + name);
+  if (Field* field = group.FindFormer(name)) {
+    Report(At(entry.key), prefix + name, NewName(prefix + field->name));
+    // Read all the same, for what else is wrong with it.
+    return ReadValue(entry, *field, prefix + field->name);
   }
-  if (auto* nested = std::get_if<OptionGroup>(&field->value)) {
-    return ReadMap(entry.value, *nested, prefix + name + ".");
+  Report(At(entry.key), prefix + name, UnknownOption(name, group, root_));
+}
+
+void Loader::ReadValue(const YamlEntry& entry, Field& field, const std::string& key) {
+  if (auto* nested = std::get_if<OptionGroup>(&field.value)) {
+    return ReadMap(entry.value, *nested, key + ".");
   }
-  if (const auto* list = std::get_if<ListField>(&field->value)) {
-    return ReadList(entry.value, *list, prefix + name);
+  if (const auto* list = std::get_if<ListField>(&field.value)) {
+    return ReadList(entry.value, *list, key);
   }
   const bool has_value = entry.value.kind != YamlNode::Kind::kNothing;
-  Assign({*field, prefix + name}, entry.value, At(has_value ? entry.value : entry.key));
+  Assign({field, key}, entry.value, At(has_value ? entry.value : entry.key));
 }
 
 void Loader::ReadList(const YamlNode& list, const ListField& field, const std::string& key) {

@@ -43,6 +43,7 @@ class Loader {
   void ReadRoot(const YamlNode& document);
   void ReadMap(const YamlNode& map, OptionGroup& group, const std::string& prefix);
   void ReadEntry(const YamlEntry& entry, OptionGroup& group, const std::string& prefix);
+  void ReadValue(const YamlEntry& entry, Field& field, const std::string& key);
   void ReadList(const YamlNode& list, const ListField& field, const std::string& key);
   void Assign(const Slot& slot, const YamlNode& value, const Location& at);
   void Check(const OptionGroup& group, const std::string& prefix);

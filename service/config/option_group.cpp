@@ -47,6 +47,12 @@ Field* OptionGroup::Find(std::string_view name) {
   return found == fields.end() ? nullptr : &*found;
 }
 
+Field* OptionGroup::FindFormer(std::string_view name) {
+  if (name.empty()) return nullptr;
+  const auto found = std::ranges::find(fields, name, &Field::formerly);
+  return found == fields.end() ? nullptr : &*found;
+}
+
 std::vector<std::string> OptionGroup::Names() const {
   std::vector<std::string> names;
   for (const Field& field : fields) names.push_back(field.name);

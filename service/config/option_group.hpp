@@ -25,6 +25,8 @@ struct OptionGroup {
   std::function<void(const FieldReport&)> validate;  ///< The struct's Validate(), if it has one.
 
   Field* Find(std::string_view name);
+  /// The field that an earlier release called so.
+  Field* FindFormer(std::string_view name);
   std::vector<std::string> Names() const;
 };
 
@@ -50,7 +52,8 @@ struct ListField {
 
 /// One option: where its value is and what its Describe() says of it.
 struct Field {
-  std::string name;  ///< As written in YAML: `_deg` where the struct has `_rad`.
+  std::string name;      ///< As written in YAML: `_deg` where the struct has `_rad`.
+  std::string formerly;  ///< What an earlier release called it; empty if nothing else.
   std::string help;
   double min = -std::numeric_limits<double>::infinity();  ///< In the unit of the struct: radians.
   double max = std::numeric_limits<double>::infinity();

@@ -28,7 +28,9 @@ struct LaserOptions {
 template <class Visitor>
 void Describe(Visitor& visit, LaserOptions& o) {
   visit("range_min_m", o.range_min_m, {.help = "readings below are dropped", .min = 0.0});
-  visit("range_max_m", o.range_max_m, {.help = "readings above are misses", .max = 1000.0});
+  visit("range_max_m",
+        o.range_max_m,
+        {.help = "readings above are misses", .formerly = "reach_m", .max = 1000.0});
   visit("field_of_view_rad",
         o.field_of_view_rad,
         {.help = "of one sweep", .min = 0.0, .max = 2.0 * std::numbers::pi});
@@ -51,7 +53,7 @@ void Describe(Visitor& visit, RobotOptions& o) {
   visit("max_iterations", o.max_iterations, {.help = "upper bound", .min = 1, .max = 1000});
   visit("verbose", o.verbose, {.help = "say more"});
   visit("drive", o.drive, {.help = "how it is pushed"});
-  visit("laser", o.laser, {.help = "the front scanner"});
+  visit("laser", o.laser, {.help = "the front scanner", .formerly = "scanner"});
 }
 
 }  // namespace qwsm::test

@@ -100,6 +100,15 @@ TEST(Loader, NamesTheGroupOfAMisplacedOption) {
             "robot.yaml:1:1: range_min_m: unknown option here; did you mean 'laser.range_min_m'?");
 }
 
+TEST(Loader, NamesWhatAnOptionIsCalledNow) {
+  EXPECT_EQ(Complaint("scanner:\n  reach_m: 8\n  range_min_m: low\n"),
+            "robot.yaml:1:1: scanner: is now called 'laser'\n"
+            "robot.yaml:2:3: laser.reach_m: is now called 'laser.range_max_m'\n"
+            "robot.yaml:3:16: laser.range_min_m: expected a number, got 'low'");
+  EXPECT_EQ(Complaint("", {"scanner.reach_m=8"}),
+            "--set scanner.reach_m: is now called 'laser.range_max_m'");
+}
+
 TEST(Loader, RefusesDuplicates) {
   EXPECT_EQ(Complaint("verbose: true\nmax_iterations: 2\nverbose: false\n"),
             "robot.yaml:3:1: verbose: given twice; first in line 1");

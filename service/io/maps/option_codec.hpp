@@ -3,11 +3,13 @@
 #pragma once
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "service/io/files/binary.hpp"
@@ -19,6 +21,7 @@ using OptionValues = std::map<std::string, std::variant<double, std::string>, st
 
 struct OptionFieldInfo {
   std::string_view help;
+  std::string_view formerly{};  ///< Name in files of earlier releases.
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
 };
@@ -50,7 +53,8 @@ class OptionCollector {
 };
 
 /// Gives an options struct the values that were collected, taking each out as it is used: what is
-/// left is unknown to the struct. Fields that are not among them keep their value.
+/// left is unknown to the struct. Fields that are not among them keep their value. A value under
+/// the name that an earlier release gave its field is taken as well.
 /// @throws BinaryError where a value is not one the field can have.
 class OptionRestorer {
  public:
@@ -59,6 +63,7 @@ class OptionRestorer {
   template <class Value>
   void operator()(std::string_view name, Value& value, const OptionFieldInfo& info) {
     const std::string key = prefix_ + std::string(name);
+    if (!info.formerly.empty()) Rename(prefix_ + std::string(info.formerly), key);
     if constexpr (std::is_arithmetic_v<Value>) {
       OptionFieldInfo bounds = info;
       bounds.min = std::max(info.min, static_cast<double>(std::numeric_limits<Value>::lowest()));
@@ -85,6 +90,21 @@ class OptionRestorer {
   }
 
  private:
+  /// Of the value of that name, and of all values of a group of that name.
+  void Rename(const std::string& from, const std::string& to) {
+    for (auto found = values_.lower_bound(from);
+         found != values_.end() && found->first.starts_with(from);) {
+      const auto next = std::next(found);
+      const std::string rest = found->first.substr(from.size());
+      if (rest.empty() || rest.front() == '.') {
+        auto node = values_.extract(found);
+        node.key() = to + rest;
+        values_.insert(std::move(node));
+      }
+      found = next;
+    }
+  }
+
   template <class Store>
   void Restore(const std::string& key, const OptionFieldInfo& bounds, Store store) {
     const auto found = values_.find(key);
