@@ -85,14 +85,15 @@ TEST(Usage, RefusesLogsWithoutScans) {
 TEST(Usage, ReportsAllConfigurationProblemsBeforeAnythingIsDone) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "robot.yaml";
-  std::ofstream(file) << "mapper:\n  matchr: wsm\n  extend_below_overlap: 7\n";
+  std::ofstream(file) << "mapper:\n  matchr: wsm\n  extended_below_overlap: 7\n";
   const std::filesystem::path results = folder.path() / "results";
   const Outcome outcome = RunProgram(
       {"map", "room.log", "-o", results, "--config", file, "--set", "mapper.matcher=wms"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(outcome.errors,
             file.string() + ":2:3: mapper.matchr: unknown option; did you mean 'matcher'?\n" +
-                file.string() + ":3:25: mapper.extend_below_overlap: must be between 0 and 1, got 7\n" +
+                file.string() +
+                ":3:27: mapper.extended_below_overlap: must be between 0 and 1, got 7\n" +
                 "--set mapper.matcher: must be one of q-wsm, wsm, icp, got 'wms'; "
                 "did you mean 'wsm'?\n");
   EXPECT_FALSE(std::filesystem::exists(results));

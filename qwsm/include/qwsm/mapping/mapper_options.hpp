@@ -40,7 +40,7 @@ struct MapperOptions {
   FreeSpaceOptions free_space;
   double relevant_translation_m = 0.5;
   double relevant_rotation_rad = 0.35;
-  double extend_below_overlap = 0.6;
+  double extended_below_overlap = 0.6;
   double match_floor_m = 0.0002;
   double match_floor_rad = 0.00005;
   bool extend_map = true;
@@ -62,9 +62,12 @@ void Describe(Visitor& visit, MapperOptions& o) {
   visit("relevant_rotation_rad",
         o.relevant_rotation_rad,
         {.help = "or turned this far", .min = 0, .max = 3.2});
-  visit("extend_below_overlap",
-        o.extend_below_overlap,
-        {.help = "or when less than this share of it agrees with the map", .min = 0, .max = 1});
+  visit("extended_below_overlap",
+        o.extended_below_overlap,
+        {.help = "a match of less of the scan is told as 'extended'; odometry does not adapt to it",
+         .formerly = "extend_below_overlap",
+         .min = 0,
+         .max = 1});
   visit("match_floor_m",
         o.match_floor_m,
         {.help = "sigma that no match of a position goes below", .min = 0, .max = 1});

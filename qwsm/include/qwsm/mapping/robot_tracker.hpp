@@ -54,6 +54,7 @@ class RobotTracker {
              std::span<const ScanPoint> points,
              const Eigen::Matrix3d& motion_covariance,
              MappingStep& step) const;
+  StepStatus StatusOf(const MatchResult& match) const;
   bool HasMovedOn(std::span<const ScanPoint> points, const MappingStep& step) const;
   void FindReturn(const ScanMap& map, std::span<const ScanPoint> points, MappingStep& step);
   void Remember(const Observation& observation, const MappingStep& step);

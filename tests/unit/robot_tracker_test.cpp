@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "qwsm/mapping/robot_tracker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tests/support/simulated_laser.hpp"
+
+namespace qwsm::test {
+namespace {
+
+/// A room of 10 m by 7 m with pillars.
+World Room() {
+  return {.walls = {{.from_m = {-2.0, -3.0}, .to_m = {8.0, -3.0}},
+                    {.from_m = {8.0, -3.0}, .to_m = {8.0, 4.0}},
+                    {.from_m = {8.0, 4.0}, .to_m = {-2.0, 4.0}},
+                    {.from_m = {-2.0, 4.0}, .to_m = {-2.0, -3.0}}},
+          .columns = {{.center_m = {4.0, 2.0}, .radius_m = 0.3},
+                      {.center_m = {6.0, -1.0}, .radius_m = 0.2}}};
+}
+
+LaserScan ScanFrom(const Pose2& T_world_robot, const World& world = Room(), unsigned seed = 3) {
+  std::mt19937_64 random(seed);
+  return Measure({.beams = 361, .range_max_m = 20.0}, world, T_world_robot, random);
+}
+
+UncertainPose2 WithSigmas(const Pose2& pose, double sigma_m, double sigma_rad) {
+  UncertainPose2 uncertain{.T_a_b = pose};
+  uncertain.covariance.diagonal() = Eigen::Vector3d(sigma_m, sigma_m, sigma_rad).cwiseAbs2();
+  return uncertain;
+}
+
+/// A map of the room, made when the pose of the robot was exact.
+ScanMap MapFrom(const Pose2& T_map_robot) {
+  ScanMap map;
+  const LaserScan scan = ScanFrom(T_map_robot);
+  map.Insert(scan, ToPoints(scan), WithSigmas(T_map_robot, 0.01, 0.001));
+  return map;
+}
+
+const Pose2 kStart{0.5, -0.2, 0.1};
+
+TEST(RobotTracker, HasTheStatusOfTheLoopClosureThatReplacesABadMatch) {
+  const ScanMap map = MapFrom(kStart);
+  MapperOptions options;
+  options.locator.matcher.max_prior_sigmas = 1.5;  // The scan fits further from the estimate.
+  RobotTracker tracker(options);
+  const Pose2 drifted{kStart.x_m + 0.6, kStart.y_m + 0.7, kStart.theta_rad + 0.01};
+  tracker.PlaceAt(WithSigmas(drifted, 0.4, 0.02));
+
+  const LaserScan scan = ScanFrom(kStart, Room(), 4);
+  const MappingStep step = tracker.Track(map, {.scan = scan, .T_odom_robot = {}}, ToPoints(scan));
+  EXPECT_EQ(step.reason, "back at a known place");
+  EXPECT_EQ(step.status, StepStatus::kMatched);
+  EXPECT_EQ(step.match.status, MatchStatus::kConverged);
+  EXPECT_EQ(step.map_robot.T_a_b, step.match.T_ref_cur);
+  EXPECT_LT((step.map_robot.T_a_b.translation_m() - kStart.translation_m()).norm(), 0.05);
+}
+
+TEST(RobotTracker, FindsAScanRelevantByMotionAloneHoweverLittleOfItAgreesWithTheMap) {
+  const ScanMap map = MapFrom(kStart);
+  MapperOptions options;
+  options.extended_below_overlap = 1.0;
+  options.relevant_translation_m = 0.5;
+  RobotTracker tracker(options);
+  tracker.PlaceAt(WithSigmas(kStart, 0.01, 0.001), Pose2{});
+  World rearranged = Room();
+  rearranged.columns.push_back({.center_m = {2.5, 0.5}, .radius_m = 0.4});
+  Pose2 T_map_relevant;
+  for (int i = 0; i < 12; ++i) {
+    SCOPED_TRACE(i);
+    const Pose2 T_start_robot{0.1 * i, 0.0, 0.0};
+    const LaserScan scan = ScanFrom(kStart * T_start_robot, rearranged);
+    const MappingStep step =
+        tracker.Track(map, {.scan = scan, .T_odom_robot = T_start_robot}, ToPoints(scan));
+    EXPECT_EQ(step.status, StepStatus::kExtended);
+    const Pose2 moved = T_map_relevant.Inverse() * step.map_robot.T_a_b;
+    EXPECT_EQ(step.relevant, i == 0 || moved.translation_m().norm() > 0.5);
+    if (step.relevant) T_map_relevant = step.map_robot.T_a_b;
+  }
+}
+
+}  // namespace
+}  // namespace qwsm::test
