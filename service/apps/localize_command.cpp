@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "qwsm/geometry/angle.hpp"
-#include "qwsm/mapping/place_finder.hpp"
+#include "qwsm/mapping/relocalization.hpp"
 #include "service/apps/command.hpp"
 #include "service/apps/messages.hpp"
 #include "service/apps/run_session.hpp"
@@ -52,7 +52,7 @@ UncertainPose2 FindStart(const LocalizeArguments& arguments,
     start.T_a_b = {at[0], at[1], NormalizeAngle(DegreesToRadians(at[2]))};
     return start;
   }
-  const std::optional<FoundPlace> place = FindPlace(map, ToPoints(first));
+  const std::optional<RelocalizationResult> place = Relocalize(map, ToPoints(first));
   if (!place) {
     throw UsageError(
         "the first scan fits nowhere in the map; is it the right map? --at X Y DEG says where the "

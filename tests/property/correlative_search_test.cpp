@@ -33,7 +33,7 @@ Points AnyPoints(Random& random, int count, double extent_m) {
   return points_m;
 }
 
-/// Mean likelihood of the beam ends less the price of the way, as the search defines it.
+/// Mean likelihood of the beam ends less the cost of the prior, as the search defines it.
 double ScoreAt(const LikelihoodPyramid& map,
                const Points& points_robot_m,
                const Pose2& T_map_turned,
@@ -65,9 +65,9 @@ double BestOfAll(const LikelihoodPyramid& map,
   const int reach = static_cast<int>(std::ceil(window.translation_m / cell_m));
   const Eigen::Matrix3d information = window.predicted.covariance.inverse();
   const Pose2& center = window.predicted.T_a_b;
-  const double price =
-      options.prior_points / std::min(static_cast<double>(points_robot_m.size()),
-                                      static_cast<double>(options.independent_points));
+  const double cost =
+      options.prior_cost_points / std::min(static_cast<double>(points_robot_m.size()),
+                                           static_cast<double>(options.independent_points));
   double best = window.min_score;
   for (int heading = -headings; heading <= headings; ++heading) {
     const Pose2 turned{center.x_m, center.y_m, center.theta_rad + heading * step_rad};
@@ -80,7 +80,7 @@ double BestOfAll(const LikelihoodPyramid& map,
         if (is_excluded) continue;
         const Eigen::Vector3d way(x * cell_m, y * cell_m, heading * step_rad);
         const double score = ScoreAt(map, points_robot_m, turned, x, y, window.max_drift_code) -
-                             price * way.dot(information * way);
+                             cost * way.dot(information * way);
         best = std::max(best, score);
       }
     }
@@ -118,7 +118,7 @@ TEST(CorrelativeSearch, FindsTheBestOfAllPosesOfTheWindow) {
       window.exclude = T_map_robot;
       window.exclude_m = 0.25;
     }
-    const CorrelativeSearchOptions options{.prior_points = seed % 2 == 0 ? 0.4 : 2.0};
+    const CorrelativeSearchOptions options{.prior_cost_points = seed % 2 == 0 ? 0.4 : 2.0};
     const double best = BestOfAll(map, scan_m, window, options);
     const auto found = SearchPose(map, scan_m, window, options);
     ASSERT_EQ(found.has_value(), best > window.min_score);

@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-#include "qwsm/mapping/place_finder.hpp"
+#include "qwsm/mapping/relocalization.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/simulated_drive.hpp"
 
@@ -133,44 +133,44 @@ TEST(Mapper, LocalizesWithoutExtendingTheMap) {
   EXPECT_LT(ErrorAtTheEnd_m(again, steps), 0.05);
 }
 
-TEST(PlaceFinder, FindsWhereAScanWasTakenInTheWholeMap) {
+TEST(Relocalize, FindsWhereAScanWasTakenInTheWholeMap) {
   const SimulatedDrive drive = RoomDrive(80);
   Mapper mapper;
   const auto steps = MapAll(drive.observations, mapper);
   for (const std::size_t i : {5, 25, 45, 65}) {
     SCOPED_TRACE(i);
-    const auto place = FindPlace(mapper.map(), ToPoints(drive.observations[i].scan));
+    const auto place = Relocalize(mapper.map(), ToPoints(drive.observations[i].scan));
     ASSERT_TRUE(place);
     const Pose2 off = steps[i].map_robot.T_a_b.Inverse() * place->best.T_map_robot;
     EXPECT_LT(off.translation_m().norm(), 0.2);
     EXPECT_LT(std::abs(off.theta_rad), 0.1);
   }
-  EXPECT_FALSE(FindPlace(mapper.map(), {}));
-  EXPECT_FALSE(FindPlace(ScanMap(), ToPoints(drive.observations[0].scan)));
+  EXPECT_FALSE(Relocalize(mapper.map(), {}));
+  EXPECT_FALSE(Relocalize(ScanMap(), ToPoints(drive.observations[0].scan)));
 }
 
-TEST(RecentScans, KeepsTheLastOnesOnePointPerCell) {
-  RecentScans recent({.count = 2, .points = 0, .spacing_m = 0.4});
+TEST(LocalSubmap, KeepsTheLastOnesOnePointPerCell) {
+  LocalSubmap submap({.count = 2, .points = 0, .spacing_m = 0.4});
   const auto point = [](double x_m, double y_m) {
     return std::vector<ScanPoint>{{.p_robot_m = {x_m, y_m}, .beam_robot = {1.0, 0.0}}};
   };
-  recent.Add({}, point(1.0, 0.0));
-  recent.Add({1.0, 0.0, 0.0}, point(1.0, 0.0));
-  recent.Add({1.0, 0.0, 0.0}, point(1.05, 0.0));  // In the same cell; the first scan is forgotten.
-  const auto points = recent.PointsAround({1.0, 0.0, 0.0});
+  submap.Add({}, point(1.0, 0.0));
+  submap.Add({1.0, 0.0, 0.0}, point(1.0, 0.0));
+  submap.Add({1.0, 0.0, 0.0}, point(1.05, 0.0));  // In the same cell; the first scan is forgotten.
+  const auto points = submap.PointsAround({1.0, 0.0, 0.0});
   ASSERT_EQ(points.size(), 1U);
   EXPECT_NEAR(points[0].p_robot_m.x(), 1.05, 1e-12) << "the latest stays";
-  recent.Clear();
-  EXPECT_TRUE(recent.PointsAround({}).empty());
+  submap.Clear();
+  EXPECT_TRUE(submap.PointsAround({}).empty());
 }
 
-TEST(RecentScans, KeepsMoreScansWhereLittleIsInView) {
-  RecentScans recent({.count = 2, .points = 5, .spacing_m = 0.4});
+TEST(LocalSubmap, KeepsMoreScansWhereLittleIsInView) {
+  LocalSubmap submap({.count = 2, .points = 5, .spacing_m = 0.4});
   for (int scan = 0; scan < 20; ++scan) {
-    recent.Add({1.0 * scan, 0.0, 0.0},
+    submap.Add({1.0 * scan, 0.0, 0.0},
                std::vector<ScanPoint>{{.p_robot_m = {2.0, 0.0}, .beam_robot = {1.0, 0.0}}});
   }
-  EXPECT_EQ(recent.PointsAround({}).size(), 5U);
+  EXPECT_EQ(submap.PointsAround({}).size(), 5U);
 }
 
 }  // namespace

@@ -168,22 +168,22 @@ TEST(WeightedScanMatcher, NoiseOfNormalsIsNoHoldAlongACorridor) {
     const LaserScan ref = Measure(laser, scene.world, T_world_robot, random);
     const LaserScan cur = Measure(laser, scene.world, T_world_robot * Pose2{0.2, 0.0, 0.0}, random);
     const MatchResult result = Match(MapOf(ref, {}), cur, prior);
-    EXPECT_LT(HoldOf(result.information).weakest_information, kMostInformation);
+    EXPECT_LT(DegeneracyOf(result.pair_information).weakest_information, kMostInformation);
   }
 }
 
 // Seen from anywhere in a room, and whether the map was seen once or many times.
 TEST(WeightedScanMatcher, PairsTellHowFarOffAMatchIs) {
   const Scene scene = FurnishedRoom();
-  for (const int looks : {1, 3}) {
-    SCOPED_TRACE(looks);
+  for (const int observations : {1, 3}) {
+    SCOPED_TRACE(observations);
     Random random(7);
     std::vector<double> nees;
     for (int i = 0; i < 150; ++i) {
       const Eigen::Vector2d place_m = scene.route_m[i % scene.route_m.size()];
       const Pose2 T_world_map{place_m.x(), place_m.y(), 0.04 * i};
       ScanMap map;
-      for (int look = 0; look < looks; ++look) {
+      for (int i = 0; i < observations; ++i) {
         const Pose2 T_map_robot = AnyPose(random, 0.2, 0.1);
         const LaserScan scan = Measure({}, scene.world, T_world_map * T_map_robot, random);
         map.Insert(scan, ToPoints(scan), {.T_a_b = T_map_robot});
@@ -191,7 +191,7 @@ TEST(WeightedScanMatcher, PairsTellHowFarOffAMatchIs) {
       const Pose2 T_map_robot = AnyPose(random, 0.2, 0.1);
       const LaserScan scan = Measure({}, scene.world, T_world_map * T_map_robot, random);
       const MatchResult result = Match(map, scan, WeakPriorAt(T_map_robot));
-      nees.push_back(*Nees({result.T_ref_cur, result.information.inverse()}, T_map_robot));
+      nees.push_back(*Nees({result.T_ref_cur, result.pair_information.inverse()}, T_map_robot));
     }
     const double mean = SummarizeNees(nees).mean;
     EXPECT_GT(mean, 2.0);

@@ -36,10 +36,10 @@ Eigen::Vector2d Towards(double bearing_rad, double range_m) {
   return range_m * Eigen::Vector2d(std::cos(bearing_rad), std::sin(bearing_rad));
 }
 
-bool SawThrough(const FreeSpaceFan& fan, const Eigen::Vector2d& p_map_m) {
+bool SawThrough(const FreeRangeImage& image, const Eigen::Vector2d& p_map_m) {
   const ScanPoint point{.p_robot_m = p_map_m, .beam_robot = Eigen::Vector2d::UnitX()};
   std::uint8_t seen_through = 0;
-  fan.MarkSeenThrough(std::span(&point, 1), {}, std::span(&seen_through, 1));
+  image.MarkSeenThrough(std::span(&point, 1), {}, std::span(&seen_through, 1));
   return seen_through != 0;
 }
 
@@ -49,14 +49,14 @@ struct Turning {
   double last_rad;
 };
 
-class FreeSpaceFanOf : public testing::TestWithParam<Turning> {};
+class FreeRangeImageOf : public testing::TestWithParam<Turning> {};
 
-TEST_P(FreeSpaceFanOf, SawThroughAllBeforeItsBeamsEndedAndNothingElse) {
+TEST_P(FreeRangeImageOf, SawThroughAllBeforeItsBeamsEndedAndNothingElse) {
   const Turning& turning = GetParam();
   const Pose2 T_map_robot{2.0, -3.0, 2.5};
   const Pose2 T_robot_laser{0.3, 0.1, -1.0};
   const LaserScan scan = InARoundRoom(turning.first_rad, turning.last_rad, 361, T_robot_laser);
-  const FreeSpaceFan fan(scan, T_map_robot, {});
+  const FreeRangeImage image(scan, T_map_robot, {});
   const Pose2 T_map_laser = T_map_robot * T_robot_laser;
   const double middle_rad = 0.5 * (turning.first_rad + turning.last_rad);
   const double half_rad = 0.5 * std::abs(turning.last_rad - turning.first_rad);
@@ -66,31 +66,31 @@ TEST_P(FreeSpaceFanOf, SawThroughAllBeforeItsBeamsEndedAndNothingElse) {
     if (!is_in_view && std::abs(off_rad) < half_rad + kBorder_rad) continue;
     SCOPED_TRACE(off_rad);
     const double bearing_rad = middle_rad + off_rad;
-    EXPECT_EQ(SawThrough(fan, T_map_laser * Towards(bearing_rad, 4.6)), is_in_view);
-    EXPECT_FALSE(SawThrough(fan, T_map_laser * Towards(bearing_rad, 4.8)));  // Within the margin.
-    EXPECT_FALSE(SawThrough(fan, T_map_laser * Towards(bearing_rad, 5.5)));
+    EXPECT_EQ(SawThrough(image, T_map_laser * Towards(bearing_rad, 4.6)), is_in_view);
+    EXPECT_FALSE(SawThrough(image, T_map_laser * Towards(bearing_rad, 4.8)));  // Within the margin.
+    EXPECT_FALSE(SawThrough(image, T_map_laser * Towards(bearing_rad, 5.5)));
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Lasers,
-                         FreeSpaceFanOf,
+                         FreeRangeImageOf,
                          testing::Values(Turning{"Forwards", -0.5 * kPi, 0.5 * kPi},
                                          Turning{"Clockwise", 0.75 * kPi, -0.75 * kPi},
                                          Turning{"AllAround", -kPi, kPi},
                                          Turning{"FromZero", 0.0, 2.0 * kPi}),
                          [](const auto& tested) { return tested.param.name; });
 
-TEST(FreeSpaceFan, KnowsNothingWhereABeamNearbyBroughtNoEcho) {
+TEST(FreeRangeImage, KnowsNothingWhereABeamNearbyBroughtNoEcho) {
   LaserScan scan = InARoundRoom(-1.0, 1.0, 201);
   scan.ranges_m[100] = std::numeric_limits<float>::quiet_NaN();
-  const FreeSpaceFan fan(scan, {}, {.margin_beams = 2});
-  EXPECT_FALSE(SawThrough(fan, Towards(0.0, 2.0)));
-  EXPECT_FALSE(SawThrough(fan, Towards(0.02, 2.0)));
-  EXPECT_TRUE(SawThrough(fan, Towards(0.05, 2.0)));
+  const FreeRangeImage image(scan, {}, {.margin_beams = 2});
+  EXPECT_FALSE(SawThrough(image, Towards(0.0, 2.0)));
+  EXPECT_FALSE(SawThrough(image, Towards(0.02, 2.0)));
+  EXPECT_TRUE(SawThrough(image, Towards(0.05, 2.0)));
 }
 
-TEST(FreeSpaceFan, IsNotMistakenAtTheLaserItself) {
-  EXPECT_TRUE(SawThrough(FreeSpaceFan(InARoundRoom(-kPi, kPi, 361), {}, {}), {0.0, 0.0}));
+TEST(FreeRangeImage, IsNotMistakenAtTheLaserItself) {
+  EXPECT_TRUE(SawThrough(FreeRangeImage(InARoundRoom(-kPi, kPi, 361), {}, {}), {0.0, 0.0}));
 }
 
 class WhoWalksIn : public testing::Test {

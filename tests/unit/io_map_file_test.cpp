@@ -19,7 +19,7 @@ using test::ObservationInRoom;
 
 ScanMap MapOfRoom() {
   MapperOptions options;
-  options.map.crowd_points = 4;
+  options.map.max_density_points = 4;
   Mapper mapper(options);
   for (int scan = 0; scan < 40; ++scan) static_cast<void>(mapper.Process(ObservationInRoom(scan)));
   return mapper.map();
@@ -40,7 +40,7 @@ TEST(MapFile, GivesTheSameMapBack) {
   const std::string bytes = EncodeMap(map);
   const ScanMap loaded = DecodeMap(bytes, "room.map");
   EXPECT_EQ(EncodeMap(loaded), bytes);
-  EXPECT_EQ(loaded.options().crowd_points, 4);
+  EXPECT_EQ(loaded.options().max_density_points, 4);
   EXPECT_EQ(loaded.scans().size(), map.scans().size());
   EXPECT_EQ(loaded.surfaces().quadtree().size(), map.surfaces().quadtree().size());
 }

@@ -26,9 +26,9 @@ class Drive {
                        error_sigma * normal_(random_)};
       odometry_ = odometry_ * told;
       MatchResult found{.status = MatchStatus::kConverged, .T_ref_cur = {kStep_m, 0.0, 0.0}};
-      found.information = information.asDiagonal();
+      found.pair_information = information.asDiagonal();
       found.covariance = kMatchSigma * kMatchSigma * Eigen::Matrix3d::Identity();
-      model_.Learn(model_.Predict(odometry_).learned, found, odometry_);
+      model_.Adapt(model_.Predict(odometry_).adapted, found, odometry_);
       model_.Remember(found.T_ref_cur, odometry_);
     }
   }
@@ -45,47 +45,47 @@ class Drive {
 double SigmaAlong(const UncertainPose2& pose) { return std::sqrt(pose.covariance(0, 0)); }
 double SigmaAcross(const UncertainPose2& pose) { return std::sqrt(pose.covariance(1, 1)); }
 
-const Eigen::Vector3d kHeldEverywhere(1e5, 1e5, 1e6);
-const Eigen::Vector3d kHeldAcrossOnly(1e3, 1e5, 1e6);
+const Eigen::Vector3d kToldEverywhere(1e5, 1e5, 1e6);
+const Eigen::Vector3d kToldAcrossOnly(1e3, 1e5, 1e6);
 
-TEST(MotionModel, LearnsHowGoodOdometryIs) {
+TEST(MotionModel, AdaptsToHowGoodOdometryIs) {
   MotionModel model;
   Drive drive(model);
   const PosePrediction before = drive.Next();
-  drive.Go(300, 0.008, kHeldEverywhere);
+  drive.Go(300, 0.008, kToldEverywhere);
   const PosePrediction after = drive.Next();
-  EXPECT_EQ(SigmaAlong(before.learned), SigmaAlong(before.cautious));
-  EXPECT_NEAR(SigmaAlong(after.learned), 0.008, 0.004);
-  EXPECT_NEAR(SigmaAcross(after.learned), 0.008, 0.004);
+  EXPECT_EQ(SigmaAlong(before.adapted), SigmaAlong(before.conservative));
+  EXPECT_NEAR(SigmaAlong(after.adapted), 0.008, 0.004);
+  EXPECT_NEAR(SigmaAcross(after.adapted), 0.008, 0.004);
   // The wheels may slip all the same.
-  EXPECT_NEAR(SigmaAlong(after.cautious), SigmaAlong(before.cautious), 1e-9);
+  EXPECT_NEAR(SigmaAlong(after.conservative), SigmaAlong(before.conservative), 1e-9);
 }
 
 TEST(MotionModel, BelievesOdometryLessThatIsWorseThanModelled) {
   MotionModel model;
   Drive drive(model);
   const PosePrediction before = drive.Next();
-  drive.Go(300, 0.15, kHeldEverywhere);
-  EXPECT_GT(SigmaAlong(drive.Next().cautious), 2.0 * SigmaAlong(before.cautious));
+  drive.Go(300, 0.15, kToldEverywhere);
+  EXPECT_GT(SigmaAlong(drive.Next().conservative), 2.0 * SigmaAlong(before.conservative));
 }
 
-TEST(MotionModel, LearnsNothingAboutADirectionThatFewPairsHold) {
+TEST(MotionModel, DoesNotAdaptToADirectionThatPairsTellLittleOf) {
   MotionModel model;
   Drive drive(model);
   const PosePrediction before = drive.Next();
-  drive.Go(300, 0.15, kHeldAcrossOnly);
+  drive.Go(300, 0.15, kToldAcrossOnly);
   const PosePrediction after = drive.Next();
-  EXPECT_NEAR(SigmaAlong(after.learned), SigmaAlong(before.learned), 1e-6);
-  EXPECT_GT(SigmaAcross(after.learned), 1.5 * SigmaAcross(before.learned));
+  EXPECT_NEAR(SigmaAlong(after.adapted), SigmaAlong(before.adapted), 1e-6);
+  EXPECT_GT(SigmaAcross(after.adapted), 1.5 * SigmaAcross(before.adapted));
 }
 
 TEST(MotionModel, WithoutOdometryExpectsTheLastMotionAndIsMoreUncertain) {
   MotionModel model;
   model.Remember({kStep_m, 0.02, 0.1}, std::nullopt);
   const PosePrediction predicted = model.Predict(std::nullopt);
-  EXPECT_EQ(predicted.cautious.T_a_b, (Pose2{kStep_m, 0.02, 0.1}));
-  EXPECT_EQ(predicted.learned.T_a_b, predicted.cautious.T_a_b);
-  EXPECT_GT(SigmaAlong(predicted.cautious), MotionNoise{}.translation_floor_m);
+  EXPECT_EQ(predicted.conservative.T_a_b, (Pose2{kStep_m, 0.02, 0.1}));
+  EXPECT_EQ(predicted.adapted.T_a_b, predicted.conservative.T_a_b);
+  EXPECT_GT(SigmaAlong(predicted.conservative), MotionNoise{}.translation_floor_m);
 }
 
 }  // namespace

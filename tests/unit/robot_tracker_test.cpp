@@ -53,7 +53,7 @@ TEST(RobotTracker, HasTheStatusOfTheLoopClosureThatReplacesABadMatch) {
 
   const LaserScan scan = ScanFrom(kStart, Room(), 4);
   const MappingStep step = tracker.Track(map, {.scan = scan, .T_odom_robot = {}}, ToPoints(scan));
-  EXPECT_EQ(step.reason, "back at a known place");
+  EXPECT_EQ(step.reason, "loop closed");
   EXPECT_EQ(step.status, StepStatus::kMatched);
   EXPECT_EQ(step.match.status, MatchStatus::kConverged);
   EXPECT_EQ(step.map_robot.T_a_b, step.match.T_ref_cur);

@@ -45,7 +45,7 @@ double UncertainPose2::SigmaXY_m() const {
 
 double UncertainPose2::SigmaTheta_rad() const { return std::sqrt(covariance(2, 2)); }
 
-UncertainPose2 UncertainPose2::Widened(double factor) const {
+UncertainPose2 UncertainPose2::Inflated(double factor) const {
   return {.T_a_b = T_a_b, .covariance = factor * factor * covariance};
 }
 

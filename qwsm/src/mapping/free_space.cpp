@@ -65,9 +65,9 @@ std::ptrdiff_t NearestBeam(const LaserScan& scan, double bearing_rad) {
 
 }  // namespace
 
-FreeSpaceFan::FreeSpaceFan(const LaserScan& scan,
-                           const Pose2& T_map_robot,
-                           const FreeSpaceOptions& options) {
+FreeRangeImage::FreeRangeImage(const LaserScan& scan,
+                               const Pose2& T_map_robot,
+                               const FreeSpaceOptions& options) {
   static const std::vector<double> kBearings_rad = BearingsOf(kDirections);
   const Pose2 T_map_laser = T_map_robot * scan.geometry.T_robot_laser;
   T_laser_map_ = T_map_laser.Inverse();
@@ -82,9 +82,9 @@ FreeSpaceFan::FreeSpaceFan(const LaserScan& scan,
 }
 
 // A few points at a time, so that the compiler computes them side by side.
-void FreeSpaceFan::MarkSeenThrough(std::span<const ScanPoint> points,
-                                   const Pose2& T_map_robot,
-                                   std::span<std::uint8_t> seen_through) const {
+void FreeRangeImage::MarkSeenThrough(std::span<const ScanPoint> points,
+                                     const Pose2& T_map_robot,
+                                     std::span<std::uint8_t> seen_through) const {
   constexpr std::size_t kAtATime = 32;
   const Pose2 T_laser_robot = T_laser_map_ * T_map_robot;
   const Eigen::Matrix2f R = T_laser_robot.Rotation().cast<float>();
@@ -111,14 +111,15 @@ void FreeSpaceFan::MarkSeenThrough(std::span<const ScanPoint> points,
 }
 
 void FreeSpace::Add(const LaserScan& scan, const Pose2& T_map_robot) {
-  fans_.emplace_back(scan, T_map_robot, options_);
-  if (fans_.size() > static_cast<std::size_t>(options_.scans)) fans_.pop_front();
+  images_.emplace_back(scan, T_map_robot, options_);
+  if (images_.size() > static_cast<std::size_t>(options_.scans)) images_.pop_front();
 }
 
 std::vector<ScanPoint> FreeSpace::WithoutMoving(std::span<const ScanPoint> points,
                                                 const Pose2& T_map_robot) const {
   std::vector<std::uint8_t> seen_through(points.size());
-  for (const FreeSpaceFan& fan : fans_) fan.MarkSeenThrough(points, T_map_robot, seen_through);
+  for (const FreeRangeImage& image : images_)
+    image.MarkSeenThrough(points, T_map_robot, seen_through);
   std::vector<ScanPoint> still;
   still.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -8,11 +8,14 @@
 namespace qwsm {
 namespace {
 
-constexpr double kWellHeld = 0.25;    // Share of the best held direction's information.
-constexpr double kForgetting = 0.05;  // Share of the newest lesson in what was learned;
-constexpr double kFirstLessons =
-    4.0;  // the first ones count for more, as in a mean with this many.
-constexpr double kLargestMisfit = 9.0;   // One jump of the odometry is not to count for a hundred.
+// A direction counts if the pairs tell at least this share of what they tell of the strongest one.
+constexpr double kMinInformationRatio = 0.25;
+// Share of the newest innovation in a scale: it forgets with a time constant of twenty scans.
+constexpr double kForgettingFactor = 0.05;
+// The model counts as so many innovations: the first ones do not replace it.
+constexpr double kPriorSamples = 4.0;
+// One jump of the odometry, by more than three sigmas, is not to count for a hundred.
+constexpr double kLargestChi2 = 9.0;
 constexpr double kSmallestScale = 0.02;  // Odometry is never believed to the last.
 constexpr double kLargestScale = 25.0;
 
@@ -41,53 +44,63 @@ PosePrediction MotionModel::Predict(const std::optional<Pose2>& T_odom_robot) co
     const UncertainPose2 as_before{
         .T_a_b = T_last_robot_,
         .covariance = Diagonal(noise_.without_odometry * ModelledSigmas(T_last_robot_))};
-    return {.cautious = as_before, .learned = as_before};
+    return {.conservative = as_before, .adapted = as_before};
   }
   const Pose2 motion = T_odom_last_->Inverse() * *T_odom_robot;
   const Eigen::Array33d sigmas = ModelledSigmas(motion);
-  return {.cautious = {.T_a_b = motion,
-                       .covariance = Diagonal(sigmas * learned_scale_.max(1.0).sqrt())},
-          .learned = {.T_a_b = motion, .covariance = Diagonal(sigmas * learned_scale_.sqrt())}};
+  return {.conservative = {.T_a_b = motion,
+                           .covariance = Diagonal(sigmas * adapted_scale_.max(1.0).sqrt())},
+          .adapted = {.T_a_b = motion, .covariance = Diagonal(sigmas * adapted_scale_.sqrt())}};
 }
 
-void MotionModel::Learn(const UncertainPose2& predicted,
+void MotionModel::Adapt(const UncertainPose2& predicted,
                         const MatchResult& found,
                         const std::optional<Pose2>& T_odom_robot) {
   if (!T_odom_robot || !T_odom_last_) return;
   const Pose2 motion = T_odom_last_->Inverse() * *T_odom_robot;
-  const Eigen::Array33d sigmas = ModelledSigmas(motion) * learned_scale_.sqrt();
+  const Eigen::Array33d sigmas = ModelledSigmas(motion) * adapted_scale_.sqrt();
   const Eigen::Matrix3d noise = Diagonal(sigmas);
   const Eigen::Array33d shares = sigmas.colwise() / sigmas.rowwise().sum();
 
-  // Found without regard to the prediction, the pose misses it by the errors of both.
+  // Covariance of the innovation: found without regard to the prediction, the pose misses it by the
+  // errors of both.
   const Eigen::Matrix3d expected = predicted.covariance + found.covariance;
   const double turn_rad = NormalizeAngle(found.T_ref_cur.theta_rad - predicted.T_a_b.theta_rad);
-  Teach(2, shares, turn_rad * turn_rad / expected(2, 2), noise(2, 2) / expected(2, 2));
+  UpdateScale(2, shares, turn_rad * turn_rad / expected(2, 2), noise(2, 2) / expected(2, 2));
 
   const Eigen::Matrix2d R_last_ref = (predicted.T_a_b * motion.Inverse()).Rotation().transpose();
-  const Eigen::Vector2d way_m = found.T_ref_cur.translation_m() - predicted.T_a_b.translation_m();
-  const PositionHold hold = HoldOf(found.information);
-  const Eigen::Vector2d strongest(-hold.weakest.y(), hold.weakest.x());
-  for (const Eigen::Vector2d& direction : {strongest, hold.weakest}) {
-    if (direction == hold.weakest && hold.share() < kWellHeld) continue;
+  const Eigen::Vector2d innovation_m =
+      found.T_ref_cur.translation_m() - predicted.T_a_b.translation_m();
+  const Degeneracy degeneracy = DegeneracyOf(found.pair_information);
+  const Eigen::Vector2d& weakest = degeneracy.weakest_direction;
+  const Eigen::Vector2d strongest(-weakest.y(), weakest.x());
+  for (const Eigen::Vector2d& direction : {strongest, weakest}) {
+    if (direction == weakest && degeneracy.ratio() < kMinInformationRatio) continue;
     const Eigen::Vector2d in_last = R_last_ref * direction;
     const double expected_m2 = direction.dot(expected.topLeftCorner<2, 2>() * direction);
     const double noise_m2 = in_last.dot(noise.topLeftCorner<2, 2>() * in_last);
-    const double misfit = std::pow(direction.dot(way_m), 2) / expected_m2;
+    const double innovation_chi2 = std::pow(direction.dot(innovation_m), 2) / expected_m2;
     for (const int axis : {0, 1}) {
-      Teach(axis, shares, misfit, std::pow(in_last(axis), 2) * noise_m2 / expected_m2);
+      UpdateScale(
+          axis, shares, innovation_chi2, std::pow(in_last(axis), 2) * noise_m2 / expected_m2);
     }
   }
 }
 
-// Each part of an axis' noise learns by its share of it.
-void MotionModel::Teach(int axis, const Eigen::Array33d& shares, double misfit, double weight) {
+// Scales each part of an axis' noise by its share in the innovation.
+// @param innovation_chi2 squared innovation over its expected variance, the normalised innovation
+//   squared: 1 on average where the noise is as modelled.
+// @param weight share of the axis' noise in that variance.
+void MotionModel::UpdateScale(int axis,
+                              const Eigen::Array33d& shares,
+                              double innovation_chi2,
+                              double weight) {
   using Row = Eigen::Array<double, 1, 3>;
-  const Row lesson = weight * shares.row(axis);
-  lessons_.row(axis) += lesson;
-  const Row rate = (lessons_.row(axis) + kFirstLessons).inverse().max(kForgetting);
-  learned_scale_.row(axis) *= 1.0 + rate * lesson * (std::min(misfit, kLargestMisfit) - 1.0);
-  learned_scale_.row(axis) = learned_scale_.row(axis).max(kSmallestScale).min(kLargestScale).eval();
+  const Row sample = weight * shares.row(axis);
+  samples_.row(axis) += sample;
+  const Row rate = (samples_.row(axis) + kPriorSamples).inverse().max(kForgettingFactor);
+  adapted_scale_.row(axis) *= 1.0 + rate * sample * (std::min(innovation_chi2, kLargestChi2) - 1.0);
+  adapted_scale_.row(axis) = adapted_scale_.row(axis).max(kSmallestScale).min(kLargestScale).eval();
 }
 
 void MotionModel::Remember(const Pose2& T_last_robot, const std::optional<Pose2>& T_odom_robot) {

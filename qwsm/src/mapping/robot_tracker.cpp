@@ -19,12 +19,12 @@ ScanLocatorOptions LocatorOptions(const MapperOptions& options) {
   return locator;
 }
 
-// No motion, and next to no error: what is told of a robot is told of its next scan.
+// No motion, and next to no error: the initial pose is that of the next scan.
 PosePrediction Unmoved() {
   constexpr double kSigma = 0.001;  // m, rad.
   const UncertainPose2 there{.T_a_b = {},
                              .covariance = kSigma * kSigma * Eigen::Matrix3d::Identity()};
-  return {.cautious = there, .learned = there};
+  return {.conservative = there, .adapted = there};
 }
 
 // Covariance of a matched pose: as uncertain as the part of the map it was matched to, plus what is
@@ -58,20 +58,20 @@ RobotTracker::RobotTracker(const MapperOptions& options)
     : options_(options),
       motion_(options.motion),
       locator_(LocatorOptions(options)),
-      return_finder_(locator_.options()),
-      recent_(options.surroundings),
+      loop_detector_(locator_.options()),
+      submap_(options.submap),
       seen_free_(options.free_space) {}
 
 void RobotTracker::PlaceAt(const UncertainPose2& map_robot,
                            const std::optional<Pose2>& T_odom_robot) {
   motion_.Remember({}, T_odom_robot);
-  recent_.Clear();
+  submap_.Clear();
   seen_free_.Clear();
   map_last_ = map_robot;
   local_last_ = map_robot;
   T_map_remembered_.reset();
-  is_told_ = true;
-  is_told_now_ = !T_odom_robot;
+  has_initial_pose_ = true;
+  stands_at_initial_pose_ = !T_odom_robot;
 }
 
 MappingStep RobotTracker::Track(const ScanMap& map,
@@ -89,7 +89,7 @@ MappingStep RobotTracker::Track(const ScanMap& map,
   const bool has_moved_on = HasMovedOn(points, step);
   step.relevant = has_moved_on && (options_.extend_map || step.status == StepStatus::kFirst);
   if (step.relevant) {
-    FindReturn(map, points, step);
+    CloseLoop(map, points, step);
     step.relevant_scan = seen_free_.WithoutMoving(observation.scan, points, step.map_robot.T_a_b);
   }
   if (has_moved_on) {
@@ -104,10 +104,11 @@ MappingStep RobotTracker::Track(const ScanMap& map,
 void RobotTracker::Begin(const Observation& observation,
                          std::span<const ScanPoint> points,
                          MappingStep& step) const {
-  // Unless it was told, the first pose is the odometry's, so that both frames begin together.
+  // Without an initial pose the first one is the odometry's, so that both frames begin together.
   step.reason = "first scan";
-  step.map_robot =
-      is_told_ ? map_last_ : UncertainPose2{.T_a_b = observation.T_odom_robot.value_or(Pose2{})};
+  step.map_robot = has_initial_pose_
+                       ? map_last_
+                       : UncertainPose2{.T_a_b = observation.T_odom_robot.value_or(Pose2{})};
   step.match.T_ref_cur = step.map_robot.T_a_b;
   if (points.empty()) step.local_covariance = step.map_robot.covariance;
 }
@@ -116,23 +117,24 @@ void RobotTracker::Locate(const ScanMap& map,
                           const Observation& observation,
                           std::span<const ScanPoint> points,
                           MappingStep& step) {
-  PosePrediction last_robot = is_told_now_ ? Unmoved() : motion_.Predict(observation.T_odom_robot);
-  step.match = locator_.Locate(map, points, local_last_ * last_robot.cautious, seen_free_);
-  if (is_odometry_doubted_) {
+  PosePrediction last_robot =
+      stands_at_initial_pose_ ? Unmoved() : motion_.Predict(observation.T_odom_robot);
+  step.match = locator_.Locate(map, points, local_last_ * last_robot.conservative, seen_free_);
+  if (is_odometry_suspect_) {
     const PosePrediction without_odometry = motion_.Predict(std::nullopt);
     const MatchResult other =
-        locator_.Locate(map, points, local_last_ * without_odometry.cautious, seen_free_);
+        locator_.Locate(map, points, local_last_ * without_odometry.conservative, seen_free_);
     if (other.overlap >= step.match.overlap) {
       last_robot = without_odometry;
       step.match = other;
     }
   }
-  step.map_robot = map_last_ * last_robot.cautious;
-  step.local_covariance = (local_last_ * last_robot.cautious).covariance;
+  step.map_robot = map_last_ * last_robot.conservative;
+  step.local_covariance = (local_last_ * last_robot.conservative).covariance;
   const UncertainPose2 last_in_map{.T_a_b = map_last_.T_a_b};
-  Judge(map, points, (last_in_map * last_robot.cautious).covariance, step);
+  Judge(map, points, (last_in_map * last_robot.conservative).covariance, step);
   if (step.status == StepStatus::kMatched) {
-    motion_.Learn(local_last_ * last_robot.learned, step.match, observation.T_odom_robot);
+    motion_.Adapt(local_last_ * last_robot.adapted, step.match, observation.T_odom_robot);
   }
 }
 
@@ -161,7 +163,7 @@ void RobotTracker::Judge(const ScanMap& map,
   step.map_robot.covariance = FuseWithReference(reference.At(match.T_ref_cur.translation_m()),
                                                 step.map_robot.covariance,
                                                 motion_covariance,
-                                                match.information);
+                                                match.pair_information);
   const double floor_m2 = options_.match_floor_m * options_.match_floor_m;
   const double floor_rad2 = options_.match_floor_rad * options_.match_floor_rad;
   step.map_robot.covariance.diagonal() += Eigen::Vector3d(floor_m2, floor_m2, floor_rad2);
@@ -183,21 +185,21 @@ bool RobotTracker::HasMovedOn(std::span<const ScanPoint> points, const MappingSt
          std::abs(moved.theta_rad) > options_.relevant_rotation_rad;
 }
 
-void RobotTracker::FindReturn(const ScanMap& map,
-                              std::span<const ScanPoint> points,
-                              MappingStep& step) {
-  recent_.Add(step.map_robot.T_a_b, points);
+void RobotTracker::CloseLoop(const ScanMap& map,
+                             std::span<const ScanPoint> points,
+                             MappingStep& step) {
+  submap_.Add(step.map_robot.T_a_b, points);
   if (options_.matcher != MatcherKind::kQWsm) return;
-  const auto back =
-      return_finder_.Find(map, points, recent_.PointsAround(step.map_robot.T_a_b), step.map_robot);
-  if (!back) return;
-  step.match = *back;
-  step.status = StatusOf(*back);
-  step.reason = "back at a known place";
-  step.map_robot.T_a_b = back->T_ref_cur;
-  step.map_robot.covariance = back->covariance;
-  step.local_covariance = back->covariance;
-  recent_.Clear();
+  const auto closed = loop_detector_.Detect(
+      map, points, submap_.PointsAround(step.map_robot.T_a_b), step.map_robot);
+  if (!closed) return;
+  step.match = *closed;
+  step.status = StatusOf(*closed);
+  step.reason = "loop closed";
+  step.map_robot.T_a_b = closed->T_ref_cur;
+  step.map_robot.covariance = closed->covariance;
+  step.local_covariance = closed->covariance;
+  submap_.Clear();
   seen_free_.Clear();
 }
 
@@ -207,9 +209,9 @@ void RobotTracker::Remember(const Observation& observation, const MappingStep& s
                    observation.T_odom_robot);
   map_last_ = step.map_robot;
   local_last_ = {.T_a_b = step.map_robot.T_a_b, .covariance = step.local_covariance};
-  is_told_ = is_told_ && is_first && !step.relevant;
-  is_told_now_ = is_told_;
-  is_odometry_doubted_ = false;
+  has_initial_pose_ = has_initial_pose_ && is_first && !step.relevant;
+  stands_at_initial_pose_ = has_initial_pose_;
+  is_odometry_suspect_ = false;
 }
 
 }  // namespace qwsm

@@ -63,7 +63,7 @@ MatchResult ScanLocator::Locate(const ScanMap& map,
                   .seen_free = seen_free};
   const double sigmas = options_.window_sigmas;
   const auto fits = [this](const MatchResult& match, double min_overlap) {
-    return match.overlap >= min_overlap && match.misfit <= options_.max_misfit;
+    return match.overlap >= min_overlap && match.reduced_chi2 <= options_.max_reduced_chi2;
   };
 
   const auto near = task.Search(predicted, options_.narrow_share * sigmas);
@@ -75,8 +75,8 @@ MatchResult ScanLocator::Locate(const ScanMap& map,
   const MatchResult full = better ? task.Match(better, predicted) : narrow;
   if (fits(full, options_.widen_below_overlap)) return full;
 
-  const UncertainPose2 doubted = predicted.Widened(options_.widen_factor);
-  const MatchResult wide = task.Match(task.Search(doubted, sigmas), doubted);
+  const UncertainPose2 inflated = predicted.Inflated(options_.widen_factor);
+  const MatchResult wide = task.Match(task.Search(inflated, sigmas), inflated);
   return wide.overlap > full.overlap + options_.widen_gain ? wide : full;
 }
 

@@ -53,7 +53,7 @@ MapAddition ScanMap::Prepare(const LaserScan& scan,
 
 ScanId ScanMap::Add(MapAddition addition) {
   const auto id = static_cast<ScanId>(scans_.size());
-  // Only now: the points of one scan do not crowd each other out.
+  // Only now: the density that keeps points out is that of older scans.
   for (const MapPoint& point : addition.points) surfaces_.Insert(point, id);
   const Eigen::Matrix3d own = kIndependentShare * addition.own_error.about_origin;
   const Eigen::Matrix3d whole = FrameCovariance::Of(addition.map_robot).about_origin;
@@ -64,7 +64,8 @@ ScanId ScanMap::Add(MapAddition addition) {
 
 bool ScanMap::IsNewSurface(const Eigen::Vector2d& p_map_m) const {
   return surfaces_.quadtree().CountInRadius(
-             p_map_m, options_.crowd_radius_m, options_.crowd_points) < options_.crowd_points;
+             p_map_m, options_.density_radius_m, options_.max_density_points) <
+         options_.max_density_points;
 }
 
 void ScanMap::ForgetPoints() { surfaces_ = SurfaceMap(options_.surfaces); }

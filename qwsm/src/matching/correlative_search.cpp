@@ -43,16 +43,17 @@ double PeakOf(int before, int middle, int after) {
   return curvature > 0 ? std::clamp(0.5 * (after - before) / curvature, -0.5, 0.5) : 0.0;
 }
 
-// In units of the score, which is a mean over the points.
-double PriceOfSquaredSigma(std::size_t points, const CorrelativeSearchOptions& options) {
+// What a squared sigma away from the prediction costs, in units of the score. The score is a mean
+// over the points, so that one that misses costs 1 / points; as many as are independent count.
+double CostOfSquaredSigma(std::size_t points, const CorrelativeSearchOptions& options) {
   const auto independent = static_cast<std::size_t>(options.independent_points);
-  return options.prior_points / static_cast<double>(std::min(points, independent));
+  return options.prior_cost_points / static_cast<double>(std::min(points, independent));
 }
 
-// What the way from the prediction costs, in units of the score.
-class PriceList {
+// The cost of the prior: what it takes off the score of a pose to differ from the prediction.
+class PriorCost {
  public:
-  PriceList(const Eigen::Matrix3d& covariance, double per_squared_sigma)
+  PriorCost(const Eigen::Matrix3d& covariance, double per_squared_sigma)
       : information_(per_squared_sigma * covariance.inverse()) {
     const Eigen::Matrix2d of_position = information_.topLeftCorner<2, 2>();
     const Eigen::Vector2d cross = information_.topRightCorner<2, 1>();
@@ -75,7 +76,7 @@ class PriceList {
 
  private:
   Eigen::Matrix3d information_;
-  // With the heading given, the price is least at a position in proportion to it, and grows with
+  // With the heading given, the cost is least at a position in proportion to it, and grows with
   // the distance from there by least_of_position_ or more.
   Eigen::Vector2d cheapest_per_rad_;
   double of_heading_ = 0.0;
@@ -160,7 +161,8 @@ class BranchAndBound {
         ends_(map, points_robot_m, window, options.lever_m),
         likelihoods_(
             ends_.WindowOf(map, offsets_.first() - 1, offsets_.last() + 1, window.max_drift_code)),
-        prices_(window.predicted.covariance, PriceOfSquaredSigma(points_robot_m.size(), options)),
+        prior_cost_(window.predicted.covariance,
+                    CostOfSquaredSigma(points_robot_m.size(), options)),
         floor_(window.min_score) {}
 
   std::optional<FoundPose> Run() {
@@ -187,7 +189,7 @@ class BranchAndBound {
  private:
   // Mean likelihood of the beam ends in the block; any lower value once `needed` is out of reach.
   double Score(const Block& block, double needed) const {
-    constexpr std::size_t kStride = 16;  // Points between two looks at whether to go on.
+    constexpr std::size_t kStride = 16;  // Points after which to ask whether to go on.
     std::span<const GridCell> ends = ends_.At(block.heading);
     const double full = kFullLikelihood * static_cast<double>(ends.size());
     const auto needed_sum = static_cast<int>(needed * full);
@@ -201,9 +203,10 @@ class BranchAndBound {
     return sum / full;
   }
 
-  double LeastPrice(const Block& block) const {
+  double LeastCost(const Block& block) const {
     const Eigen::Vector2d way_m = cell_m_ * Eigen::Vector2d(block.x, block.y);
-    return prices_.AtLeast(way_m, cell_m_ * (SideOf(block.level) - 1), ends_.TurnOf(block.heading));
+    return prior_cost_.AtLeast(
+        way_m, cell_m_ * (SideOf(block.level) - 1), ends_.TurnOf(block.heading));
   }
 
   // The blocks of a heading. A window of one block needs no bounds.
@@ -219,9 +222,9 @@ class BranchAndBound {
   }
 
   void Push(Block block) {
-    const double price = LeastPrice(block);
-    if (1.0 - price <= floor_) return;
-    block.bound = Score(block, floor_ + price) - price;
+    const double cost = LeastCost(block);
+    if (1.0 - cost <= floor_) return;
+    block.bound = Score(block, floor_ + cost) - cost;
     if (block.bound <= floor_) return;
     queue_.push_back(block);
     std::push_heap(queue_.begin(), queue_.end());
@@ -240,7 +243,7 @@ class BranchAndBound {
 
   // Tries every offset of a block.
   void TryAll(const Block& block) {
-    if (1.0 - LeastPrice(block) <= floor_) return;
+    if (1.0 - LeastCost(block) <= floor_) return;
     constexpr int kSide = LikelihoodWindow::kBlockSide;
     const std::span<const GridCell> ends = ends_.At(block.heading);
     const int rows = std::min(kSide, offsets_.reach - block.y + 1);
@@ -257,7 +260,8 @@ class BranchAndBound {
 
   void Try(double likelihood, const Block& pose) {
     const double turn_rad = ends_.TurnOf(pose.heading);
-    const double score = likelihood - prices_.Of({cell_m_ * pose.x, cell_m_ * pose.y, turn_rad});
+    const double score =
+        likelihood - prior_cost_.Of({cell_m_ * pose.x, cell_m_ * pose.y, turn_rad});
     if (score <= floor_ || IsExcluded(pose)) return;
     floor_ = score;  // No worse pose will be the best.
     best_ = pose;
@@ -293,7 +297,7 @@ class BranchAndBound {
   OffsetRange offsets_;
   BeamEnds ends_;
   LikelihoodWindow likelihoods_;
-  PriceList prices_;
+  PriorCost prior_cost_;
   double floor_;  // Score of the best pose met so far.
   std::optional<Block> best_;
   std::vector<Block> queue_;  // A heap, the highest bound first.

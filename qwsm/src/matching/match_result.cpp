@@ -23,14 +23,14 @@ std::string_view Name(MatchStatus status) {
   return "unknown";
 }
 
-PositionHold HoldOf(const Eigen::Matrix3d& information) {
+Degeneracy DegeneracyOf(const Eigen::Matrix3d& information) {
   const Eigen::Vector2d cross = information.topRightCorner<2, 1>();
   const Eigen::Matrix2d of_position =
       information.topLeftCorner<2, 2>() -
       cross * cross.transpose() / std::max(information(2, 2), 1e-12);
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
   axes.computeDirect(of_position);
-  return {.weakest = axes.eigenvectors().col(0),
+  return {.weakest_direction = axes.eigenvectors().col(0),
           .weakest_information = std::max(0.0, axes.eigenvalues()(0)),
           .strongest_information = std::max(1e-12, axes.eigenvalues()(1))};
 }

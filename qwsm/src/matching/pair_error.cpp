@@ -13,7 +13,9 @@ Eigen::Matrix2d CorrespondenceError(const Surface& surface) {
 }
 
 Eigen::Matrix2d NearestSampleError(const Surface& surface, const Eigen::Matrix2d& N_map) {
-  return N_map / surface.looks + CorrespondenceError(surface) + N_map;
+  // Visser et al. (2009), Eq. (3): measurement error of the map's point, correspondence error, and
+  // measurement error of the scan's point. The mean of several readings is better than one.
+  return N_map / surface.observations + CorrespondenceError(surface) + N_map;
 }
 
 Eigen::Matrix2d PositionInformation(const Surface& surface,

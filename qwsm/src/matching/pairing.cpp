@@ -12,8 +12,9 @@ namespace qwsm {
 namespace {
 
 constexpr double kPairDistancePerError = 5.0;  // Pairs are sought as far as the error may reach.
-constexpr double kSmallestDoubt_m = 0.002;     // Below, annealing has ended;
-constexpr double kSmallestDoubt_rad = 0.0002;  // the same ten metres away.
+// Annealing has ended below these, which are the same at a point ten metres away.
+constexpr double kAnnealed_m = 0.002;
+constexpr double kAnnealed_rad = 0.0002;
 constexpr double kInlierSigmas = 3.0;
 constexpr double kFirstCircle_m = 0.1;  // Beyond a point that cannot be paired: the next surface.
 
@@ -25,22 +26,22 @@ double RobustWeight(double mahalanobis2, double outlier_sigmas) {
 
 }  // namespace
 
-double Doubt::At_m2(double range_m) const {
+double AnnealedError::Variance_m2(double range_m) const {
   const double turn_m = sigma.rotation_rad * range_m;
   return sigma.translation_m * sigma.translation_m + turn_m * turn_m;
 }
 
-void Doubt::Shrink(double factor) {
+void AnnealedError::Anneal(double factor) {
   sigma.translation_m *= factor;
   sigma.rotation_rad *= factor;
-  if (sigma.translation_m < kSmallestDoubt_m) sigma.translation_m = 0.0;
-  if (sigma.rotation_rad < kSmallestDoubt_rad) sigma.rotation_rad = 0.0;
+  if (sigma.translation_m < kAnnealed_m) sigma.translation_m = 0.0;
+  if (sigma.rotation_rad < kAnnealed_rad) sigma.rotation_rad = 0.0;
 }
 
 void NormalEquations::AddPoint(const Eigen::Matrix2d& information,
                                const Eigen::Vector2d& error,
                                const Eigen::Vector2d& arm) {
-  // By H = [ I | J R u ], the derivative of R u + t by (x, y, theta).
+  // H^T S^-1 H and H^T S^-1 e for H = [ I | J R u ].
   const Eigen::Vector2d by_theta(-arm.y(), arm.x());
   const Eigen::Vector2d cross = information * by_theta;
   A.topLeftCorner<2, 2>() += information;
@@ -71,8 +72,8 @@ Pairing::Pairing(const SurfaceMap& map,
       options_(options),
       pairs_(points.size()) {}
 
-NormalEquations Pairing::Linearize(const Pose2& T_map_cur, const Doubt& doubt) {
-  FindNearest(T_map_cur, doubt);
+NormalEquations Pairing::Linearize(const Pose2& T_map_cur, const AnnealedError& start_error) {
+  FindNearest(T_map_cur, start_error);
   NormalEquations equations;
   const Eigen::Matrix2d R = T_map_cur.Rotation();
   for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -96,26 +97,26 @@ NormalEquations Pairing::Linearize(const Pose2& T_map_cur, const Doubt& doubt) {
 
 // Where all points lie in the map, and what lies nearest to them there. One loop for all, and what
 // it finds is fetched meanwhile: the searches wait for memory more than they compute.
-void Pairing::FindNearest(const Pose2& T_map_cur, const Doubt& doubt) {
+void Pairing::FindNearest(const Pose2& T_map_cur, const AnnealedError& start_error) {
   const PointQuadtree& quadtree = map_.quadtree();
   const Eigen::Matrix2d R = T_map_cur.Rotation();
   for (std::size_t i = 0; i < points_.size(); ++i) {
     Pair& pair = pairs_[i];
     pair.arm = R * points_[i].p_robot_m;
     pair.p_map = pair.arm + T_map_cur.translation_m();
-    pair.doubt_m2 = doubt.At_m2(points_[i].range_m);
+    pair.inflation_m2 = start_error.Variance_m2(points_[i].range_m);
     if (pair.cursor.revision == 0) pair.cursor = quadtree.CursorAt(pair.p_map);
   }
   for (std::size_t i = 0; i < points_.size(); ++i) {
     Pair& pair = pairs_[i];
     // The neighbouring beam ended near here.
     if (i > 0 && pair.cursor.leaf == quadtree::kNoIndex) pair.cursor = pairs_[i - 1].cursor;
-    pair.nearest = quadtree.Nearest(pair.p_map, Reach(pair.doubt_m2), pair.cursor);
+    pair.nearest = quadtree.Nearest(pair.p_map, Reach(pair.inflation_m2), pair.cursor);
     if (pair.nearest) map_.Prefetch(pair.nearest->id);
   }
 }
 
-// Whether there is a surface to pair a point with, which then is known.
+// Whether there is a surface to pair a point with; if so, it is looked up.
 bool Pairing::IsPaired(const Eigen::Vector2d& normal_map, Pair& pair) const {
   if (pair.nearest && pair.nearest->id == pair.id) return true;
   if (pair.nearest && !MayPair(pair.nearest->id, normal_map)) {
@@ -138,7 +139,7 @@ void Pairing::AddLine(const Eigen::Matrix2d& R_map_cur,
   const Eigen::Vector2d& normal = surface.normal;
   const double noise_m2 =
       NoiseAlong(normal, R_map_cur * point.beam_robot, point.range_m, options_.noise);
-  const double variance_m2 = DistanceVariance(surface, noise_m2, pair.doubt_m2);
+  const double variance_m2 = DistanceVariance(surface, noise_m2, pair.inflation_m2);
   const double error_m = normal.dot(surface.mean_m - pair.p_map);
   Weigh(error_m * error_m / variance_m2, pair, equations);
   // Where a surface curves, a mean lies behind the points: means are compared with means.
@@ -151,7 +152,7 @@ void Pairing::AddObject(const Eigen::Matrix2d& R_map_cur,
                         Pair& pair,
                         NormalEquations& equations) const {
   const Eigen::Matrix2d information = PositionInformation(
-      pair.surface, NoiseInMap(R_map_cur, point), Extent_m2(point) + pair.doubt_m2);
+      pair.surface, NoiseInMap(R_map_cur, point), Extent_m2(point) + pair.inflation_m2);
   const Eigen::Vector2d error = pair.surface.mean_m - pair.p_map;
   Weigh(error.dot(information * error), pair, equations);
   equations.AddPoint(pair.weight * information, error, pair.arm);
@@ -161,7 +162,7 @@ void Pairing::Weigh(double mahalanobis2, Pair& pair, NormalEquations& equations)
   pair.weight = RobustWeight(mahalanobis2, options_.outlier_sigmas);
   if (mahalanobis2 < kInlierSigmas * kInlierSigmas) ++equations.inliers;
   equations.sum_of_weights += pair.weight;
-  equations.sum_of_misfits += pair.weight * mahalanobis2;
+  equations.weighted_chi2 += pair.weight * mahalanobis2;
 }
 
 Eigen::Matrix3d Pairing::NearestSampleInformation(const Pose2& T_map_cur) const {
@@ -177,8 +178,8 @@ Eigen::Matrix3d Pairing::NearestSampleInformation(const Pose2& T_map_cur) const 
   return equations.A;
 }
 
-double Pairing::Reach(double doubt_m2) const {
-  return std::max(options_.pair_distance_m, kPairDistancePerError * std::sqrt(doubt_m2));
+double Pairing::Reach(double inflation_m2) const {
+  return std::max(options_.pair_distance_m, kPairDistancePerError * std::sqrt(inflation_m2));
 }
 
 Eigen::Matrix2d Pairing::NoiseInMap(const Eigen::Matrix2d& R_map_cur,
@@ -198,7 +199,7 @@ bool Pairing::MayPair(PointId id, const Eigen::Vector2d& normal_map) const {
 // Seldom: looks around in widening circles. @pre the nearest one of all may not pair
 std::optional<Neighbor> Pairing::NearestThatMayPair(const Eigen::Vector2d& normal_map,
                                                     const Pair& pair) const {
-  const double reach_m = Reach(pair.doubt_m2);
+  const double reach_m = Reach(pair.inflation_m2);
   double radius_m = std::min(reach_m, std::sqrt(pair.nearest->distance_m2) + kFirstCircle_m);
   while (true) {
     const auto found = NearestThatMayPairWithin(radius_m, normal_map, pair.p_map);

@@ -13,24 +13,28 @@
 
 namespace qwsm {
 
-// Doubt about the current estimate, taken back from iteration to iteration: with it all pairs look
-// plausible at first, and a poor first guess does not make the true pairs outliers.
-struct Doubt {
+// What is left of the error of the first guess while annealing: the errors of pairs are inflated by
+// it, less from iteration to iteration, so that at first all pairs are plausible and a poor first
+// guess does not make outliers of the true ones.
+struct AnnealedError {
   StartError sigma;
 
-  bool IsGone() const { return sigma.translation_m == 0.0 && sigma.rotation_rad == 0.0; }
+  bool IsZero() const { return sigma.translation_m == 0.0 && sigma.rotation_rad == 0.0; }
   // Variance of the position of a point at that range.
-  double At_m2(double range_m) const;
-  void Shrink(double factor);
+  double Variance_m2(double range_m) const;
+  void Anneal(double factor);
 };
 
-// How a pull at a point moves the pose, H^T g, for arm = R u: H = [ I | J R u ] is the derivative
-// of R u + t by (x, y, theta).
+// How a pull at a point moves the pose, H^T g, for arm = R u: H = [ I | J R u ] with
+// J = [ 0 -1; 1 0 ] is the derivative of R u + t by (x, y, theta).
 inline Eigen::Vector3d PullOnPose(const Eigen::Vector2d& g, const Eigen::Vector2d& arm) {
   return {g.x(), g.y(), arm.x() * g.y() - arm.y() * g.x()};
 }
 
-// Normal equations of the weighted least squares, A step = b, for a step of (x, y, theta).
+// Normal equations of the weighted least squares, A step = b, for a step of (x, y, theta): A is the
+// sum of H^T S^-1 H and b that of H^T S^-1 e over the pairs, S being the error of a pair and
+// e = m - (R u + t) what Visser et al. (2009) call epsilon in Eq. (1). Pfister et al. (2002)
+// alternate between translation and rotation instead; the optimum is the same.
 struct NormalEquations {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   Eigen::Vector3d b = Eigen::Vector3d::Zero();
@@ -38,15 +42,15 @@ struct NormalEquations {
   int inliers = 0;
   double sum_of_distances_m = 0.0;
   double sum_of_weights = 0.0;
-  double sum_of_misfits = 0.0;  // Squared, weighted, in units of the modelled errors.
+  double weighted_chi2 = 0.0;  // Sum of the squared errors, weighted, each over its variance.
 
-  // @param arm the point in map axes, from the robot: R u.
-  // A pair that tells the position of its point. @param information inverse of its error;
+  // A pair that tells the position of its point.
+  // @param information inverse of the pair's error, S^-1.
   // @param arm the point in map axes, from the robot: R u.
   void AddPoint(const Eigen::Matrix2d& information,
                 const Eigen::Vector2d& error,
                 const Eigen::Vector2d& arm);
-  // One that tells its distance from a line.
+  // A pair that tells the distance of its point from a line.
   void AddLine(double information,
                const Eigen::Vector2d& normal,
                double error_m,
@@ -63,10 +67,10 @@ class Pairing {
           const WeightedScanMatcherOptions& options);
 
   // Pairs every point, seen from the pose, with the surface nearest to it.
-  NormalEquations Linearize(const Pose2& T_map_cur, const Doubt& doubt);
+  NormalEquations Linearize(const Pose2& T_map_cur, const AnnealedError& start_error);
 
   // A of the pairs found last, of the normals that both the map and the scan show: the noise of one
-  // is not that of the other, so that it does not pass for a hold.
+  // is not that of the other, so that it does not pass for information.
   Eigen::Matrix3d ConfirmedInformation(const Pose2& T_map_cur) const;
 
   // Covariance of b of the pairs found last, by what the readings miss the surfaces by.
@@ -77,17 +81,17 @@ class Pairing {
 
  private:
   struct Pair {
-    Eigen::Vector2d arm;    // The scan's point in map axes, from the robot,
-    Eigen::Vector2d p_map;  // and where it lies.
-    double doubt_m2 = 0.0;
+    Eigen::Vector2d arm;        // The scan's point in map axes, from the robot.
+    Eigen::Vector2d p_map;      // The same point in the map.
+    double inflation_m2 = 0.0;  // Of the pair's error, while annealing.
     SearchCursor cursor;
     std::optional<Neighbor> nearest;
-    std::optional<PointId> id;  // What it is paired with,
-    Surface surface;            // and the surface there.
+    std::optional<PointId> id;  // The stored point it is paired with.
+    Surface surface;            // The surface at that point.
     double weight = 1.0;        // Of the robust estimate.
   };
 
-  void FindNearest(const Pose2& T_map_cur, const Doubt& doubt);
+  void FindNearest(const Pose2& T_map_cur, const AnnealedError& start_error);
   bool IsPaired(const Eigen::Vector2d& normal_map, Pair& pair) const;
   void AddLine(const Eigen::Matrix2d& R_map_cur,
                const ScanPoint& point,
@@ -101,7 +105,7 @@ class Pairing {
   struct CountedPair;
   template <class Visit>
   void ForEachPair(const Pose2& T_map_cur, Visit visit) const;
-  double Reach(double doubt_m2) const;
+  double Reach(double inflation_m2) const;
   Eigen::Matrix2d NoiseInMap(const Eigen::Matrix2d& R_map_cur, const ScanPoint& point) const;
   double Extent_m2(const ScanPoint& point) const;
   bool MayPair(PointId id, const Eigen::Vector2d& normal_map) const;

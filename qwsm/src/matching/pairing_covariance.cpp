@@ -71,7 +71,8 @@ Eigen::Matrix3d Pairing::Scatter(const Pose2& T_map_cur) const {
     B += Square(PullOnPose(p.W * error, p.arm));
     if (!surface.is_line || surface.is_sample) return;
     // How wrong the mean is, which it shares with the readings around, this one does not show.
-    const double noise_of_mean_m2 = surface.normal.dot(p.N_map * surface.normal) / surface.looks;
+    const double noise_of_mean_m2 =
+        surface.normal.dot(p.N_map * surface.normal) / surface.observations;
     B += noise_of_mean_m2 * Square(PullOnPose(p.W * surface.normal, p.arm));
   });
   return B;

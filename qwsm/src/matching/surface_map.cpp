@@ -11,10 +11,25 @@ namespace qwsm {
 namespace {
 
 // Variance across a surface, from that of a few samples and what is expected before any. Fitting
-// the line has used up two samples, and the expectation counts as two.
+// the line has used up two degrees of freedom, so that the sum of squares is over count - 2; the
+// expectation counts as two samples and makes up for them.
 double Spread(double sample_m2, double count, double expected_m) {
-  constexpr double kWeightOfExpectation = 2.0;
-  return (count * sample_m2 + kWeightOfExpectation * expected_m * expected_m) / count;
+  constexpr double kSamplesOfLine = 2.0;
+  return (count * sample_m2 + kSamplesOfLine * expected_m * expected_m) / count;
+}
+
+// Correspondence error along a line of which `count` samples have that variance. Uniform over a
+// length L, they have L^2 / 12; what is uniform over the spacing L / count has this.
+double SamplingOfLine(double major_m2, double count) {
+  const double share = 1.0 / count;
+  return major_m2 * share * share;
+}
+
+// The same in any direction of samples spread over an area: uniform over a square of side L they
+// have L^2 / 12 along both axes, and what is uniform over the share of one, a square of side
+// L / sqrt(count), has that over count. The sum for both axes bounds that along any one.
+double SamplingOfArea(double minor_m2, double major_m2, double count) {
+  return (minor_m2 + major_m2) * (1.0 / count);
 }
 
 }  // namespace
@@ -81,7 +96,7 @@ std::size_t SurfaceMap::bytes() const {
 }
 
 // A scan puts about so many points into a neighbourhood as its beams are spaced.
-double SurfaceMap::Looks(const Neighborhood& n) const {
+double SurfaceMap::Observations(const Neighborhood& n) const {
   const double samples_of_a_scan =
       1.0 + 2.0 * options_.neighborhood_radius_m / static_cast<double>(n.spacing_m);
   return std::max(1.0, static_cast<double>(n.count) / samples_of_a_scan);
@@ -97,18 +112,18 @@ Surface SurfaceMap::SurfaceAt(PointId id) const {
       PrincipalAxesOf(static_cast<double>(n.sum_xx) * scale - mean.x() * mean.x(),
                       static_cast<double>(n.sum_xy) * scale - mean.x() * mean.y(),
                       static_cast<double>(n.sum_yy) * scale - mean.y() * mean.y());
-  const bool is_crowded = n.count >= static_cast<std::uint32_t>(options_.min_neighbors);
-  const bool is_line = is_crowded && axes.minor_m2 < options_.max_line_aspect * axes.major_m2;
+  const bool is_dense = n.count >= static_cast<std::uint32_t>(options_.min_neighbors);
+  const bool is_line = is_dense && axes.minor_m2 < options_.max_line_aspect * axes.major_m2;
   if (is_line && axes.major_m2 > options_.min_line_m * options_.min_line_m) {
     return {.mean_m = p_m + mean,
             .normal = axes.minor_axis,
             .across_m2 = Spread(axes.minor_m2, count, options_.roughness_m),
-            .sampling_m2 = axes.major_m2 * scale * scale,
-            .looks = Looks(n),
+            .sampling_m2 = SamplingOfLine(axes.major_m2, count),
+            .observations = Observations(n),
             .is_line = true};
   }
   const Eigen::Vector2d own_normal = OwnNormal(id);
-  if (!own_normal.isZero() && (is_line || !is_crowded)) {
+  if (!own_normal.isZero() && (is_line || !is_dense)) {
     // Too few or too close together to show a direction better than the scan itself did.
     return {.mean_m = p_m,
             .normal = own_normal,
@@ -120,9 +135,9 @@ Surface SurfaceMap::SurfaceAt(PointId id) const {
   return {.mean_m = p_m + mean,
           .normal = axes.minor_axis,
           .across_m2 = 0.5 * (axes.minor_m2 + axes.major_m2),
-          .sampling_m2 = is_crowded ? (axes.minor_m2 + axes.major_m2) * scale
-                                    : UniformVariance(static_cast<double>(n.spacing_m)),
-          .looks = Looks(n),
+          .sampling_m2 = is_dense ? SamplingOfArea(axes.minor_m2, axes.major_m2, count)
+                                  : UniformVariance(static_cast<double>(n.spacing_m)),
+          .observations = Observations(n),
           .is_line = false};
 }
 

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <utility>
 
-#include "qwsm/mapping/place_finder.hpp"
+#include "qwsm/mapping/relocalization.hpp"
 
 namespace qwsm::team {
 namespace {
@@ -64,7 +64,7 @@ void RobotSession::PlaceAt(const UncertainPose2& map_robot) {
   if (!objection.empty()) return Tell(true, objection);
   {
     const std::lock_guard lock(mutex_);
-    told_ = map_robot;
+    initial_pose_ = map_robot;
   }
   Tell(false, "was told where it is");
 }
@@ -96,7 +96,7 @@ void RobotSession::Answer(Work& work, std::span<const ScanPoint> points) {
     if (!is_placed_) return intake_.NoteUnplaced();
     // Odometry that moves faster than any robot has begun anew; after an interruption it may have.
     const bool may_be_new = work.odometry_goes_on && work.is_interrupted;
-    if (work.odometry_jumped || may_be_new) tracker_.DoubtOdometry();
+    if (work.odometry_jumped || may_be_new) tracker_.SuspectOdometryReset();
     step = tracker_.Track(*map, observation, points);
   }
   const auto answered = steady_clock::now();
@@ -122,37 +122,37 @@ void RobotSession::Answer(Work& work, std::span<const ScanPoint> points) {
 }
 
 bool RobotSession::Place(const ScanMap& map, const Work& work, std::span<const ScanPoint> points) {
-  std::optional<UncertainPose2> told;
+  std::optional<UncertainPose2> initial_pose;
   std::optional<UncertainPose2> start;
   {
     const std::lock_guard lock(mutex_);
-    told = std::exchange(told_, std::nullopt);
+    initial_pose = std::exchange(initial_pose_, std::nullopt);
     start = start_;
   }
-  if (told) {
-    tracker_.PlaceAt(*told);
+  if (initial_pose) {
+    tracker_.PlaceAt(*initial_pose);
     return true;
   }
   if (is_placed_) return true;
   if (const std::optional<TeamScan> last = context_.map.LastOf(name())) {
     tracker_.PlaceAt(Loosened(last->map_robot), last->T_odom_robot);
-    tracker_.DoubtOdometry();
+    tracker_.SuspectOdometryReset();
     return true;
   }
   if (start) {
     tracker_.PlaceAt(*start);
     return true;
   }
-  if (!map.empty()) return FindPlaceIn(map, work.scan.stamp, points);
+  if (!map.empty()) return RelocalizeIn(map, work.scan.stamp, points);
   return context_.map.Begin();
 }
 
-bool RobotSession::FindPlaceIn(const ScanMap& map,
-                               Timestamp stamp,
-                               std::span<const ScanPoint> points) {
-  if (looked_for_place_ && stamp - *looked_for_place_ < kSearchPeriod) return false;
-  looked_for_place_ = stamp;
-  const std::optional<FoundPlace> found = FindPlace(map, points);
+bool RobotSession::RelocalizeIn(const ScanMap& map,
+                                Timestamp stamp,
+                                std::span<const ScanPoint> points) {
+  if (last_relocalization_ && stamp - *last_relocalization_ < kSearchPeriod) return false;
+  last_relocalization_ = stamp;
+  const std::optional<RelocalizationResult> found = Relocalize(map, points);
   if (!found || found->rival) {
     Tell(true,
          found ? "fits several places in the map: an initial pose would tell which"

@@ -74,7 +74,7 @@ class RobotSession final : public Lane {
 
   void Answer(Work& work, std::span<const ScanPoint> points);
   bool Place(const ScanMap& map, const Work& work, std::span<const ScanPoint> points);
-  bool FindPlaceIn(const ScanMap& map, Timestamp stamp, std::span<const ScanPoint> points);
+  bool RelocalizeIn(const ScanMap& map, Timestamp stamp, std::span<const ScanPoint> points);
   void HideTeammates(Work& work);
   void Note(const Work& work, const MappingStep& step, std::chrono::nanoseconds matching);
   void Tell(bool is_warning, std::string_view text) const;
@@ -83,7 +83,7 @@ class RobotSession final : public Lane {
   SessionIntake<Planar> intake_;
 
   mutable std::mutex mutex_;  // Guards what follows.
-  std::optional<UncertainPose2> told_;
+  std::optional<UncertainPose2> initial_pose_;
   std::optional<UncertainPose2> start_;
   UncertainPose2 map_robot_;
 
@@ -91,7 +91,7 @@ class RobotSession final : public Lane {
   RobotTracker tracker_;
   bool is_placed_ = false;
   std::optional<Pose2> T_odom_last_;
-  std::optional<Timestamp> looked_for_place_;
+  std::optional<Timestamp> last_relocalization_;
   std::uint64_t sequence_ = 0;
 };
 

@@ -58,7 +58,7 @@ struct UncertainPose2 {
   double SigmaXY_m() const;  ///< Of both axes together: the root of their mean variance.
   double SigmaTheta_rad() const;
   /// The same pose with all sigmas multiplied.
-  UncertainPose2 Widened(double factor) const;
+  UncertainPose2 Inflated(double factor) const;
 };
 
 /// Composes two poses with independent errors, to first order (Smith & Cheeseman 1986).

@@ -45,11 +45,11 @@ void Describe(Visitor& visit, FreeSpaceOptions& o) {
          .max = 1});
 }
 
-/// What one scan saw to be free: in each direction the way up to where its beams ended. Where no
-/// beam came back, nothing is known.
-class FreeSpaceFan {
+/// What one scan saw to be free, as a range image of one row: in each direction the range up to
+/// where its beams ended. Where no beam came back, nothing is known.
+class FreeRangeImage {
  public:
-  FreeSpaceFan(const LaserScan& scan, const Pose2& T_map_robot, const FreeSpaceOptions& options);
+  FreeRangeImage(const LaserScan& scan, const Pose2& T_map_robot, const FreeSpaceOptions& options);
 
   /// Marks the points that the scan saw through, with the margins of the options.
   /// @param seen_through of each point; those not seen through are left as they are.
@@ -72,7 +72,7 @@ class FreeSpace {
   explicit FreeSpace(const FreeSpaceOptions& options = {}) : options_(options) {}
 
   void Add(const LaserScan& scan, const Pose2& T_map_robot);
-  void Clear() { fans_.clear(); }
+  void Clear() { images_.clear(); }
 
   /// The points that may have stood where they are all the time.
   std::vector<ScanPoint> WithoutMoving(std::span<const ScanPoint> points,
@@ -84,7 +84,7 @@ class FreeSpace {
 
  private:
   FreeSpaceOptions options_;
-  std::deque<FreeSpaceFan> fans_;  // The latest last.
+  std::deque<FreeRangeImage> images_;  // The latest last.
 };
 
 }  // namespace qwsm

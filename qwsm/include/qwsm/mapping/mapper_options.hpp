@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "qwsm/mapping/free_space.hpp"
+#include "qwsm/mapping/local_submap.hpp"
 #include "qwsm/mapping/motion_model.hpp"
-#include "qwsm/mapping/recent_scans.hpp"
 #include "qwsm/mapping/scan_locator.hpp"
 #include "qwsm/mapping/scan_map.hpp"
 
@@ -36,7 +36,7 @@ struct MapperOptions {
   MotionNoise motion;
   ScanLocatorOptions locator;
   ScanMapOptions map;
-  RecentScansOptions surroundings;
+  LocalSubmapOptions submap;
   FreeSpaceOptions free_space;
   double relevant_translation_m = 0.5;
   double relevant_rotation_rad = 0.35;
@@ -52,7 +52,10 @@ void Describe(Visitor& visit, MapperOptions& o) {
   visit("motion", o.motion, {.help = "errors of odometry"});
   visit("locator", o.locator, {.help = "finding a scan in the map"});
   visit("map", o.map, {.help = "what is stored of relevant scans"});
-  visit("surroundings", o.surroundings, {.help = "what is compared with places seen long ago"});
+  visit("submap",
+        o.submap,
+        {.help = "the last scans, by which loop closures are recognised",
+         .formerly = "surroundings"});
   visit("free_space", o.free_space, {.help = "telling what moves by the free space seen before"});
   visit("relevant_translation_m",
         o.relevant_translation_m,

@@ -58,24 +58,25 @@ class MotionModel {
   /// Tells how the robot really moved, and with which odometry reading.
   void Remember(const Pose2& T_last_robot, const std::optional<Pose2>& T_odom_robot);
 
-  /// Tells where the robot was found, having been expected at `predicted`. Each part of the noise
-  /// is scaled as odometry proves better or worse than modelled (Mehra 1970), as far as the pairs
-  /// hold the pose well: along a corridor a single moving object would teach.
-  /// @param predicted with the learned covariance; in the frame of the match.
-  void Learn(const UncertainPose2& predicted,
+  /// Adapts the noise to where the robot was found, having been expected at `predicted`. Each part
+  /// is scaled as odometry proves better or worse than modelled, by the innovations (Mehra 1970),
+  /// in the directions of which the pairs tell enough: along a corridor the scale would follow a
+  /// single moving object.
+  /// @param predicted with the adapted covariance; in the frame of the match.
+  void Adapt(const UncertainPose2& predicted,
              const MatchResult& found,
              const std::optional<Pose2>& T_odom_robot);
 
  private:
   // Rows: along x, along y, heading. Columns: at rest, per way, per turn.
   Eigen::Array33d ModelledSigmas(const Pose2& motion) const;
-  void Teach(int axis, const Eigen::Array33d& shares, double misfit, double weight);
+  void UpdateScale(int axis, const Eigen::Array33d& shares, double innovation_chi2, double weight);
 
   MotionNoise noise_;
   std::optional<Pose2> T_odom_last_;
   Pose2 T_last_robot_;  // The last motion, for when there is no odometry.
-  Eigen::Array33d learned_scale_ = Eigen::Array33d::Ones();  // Of the modelled variances,
-  Eigen::Array33d lessons_ = Eigen::Array33d::Zero();        // and of how many scans.
+  Eigen::Array33d adapted_scale_ = Eigen::Array33d::Ones();  // Of the modelled variances.
+  Eigen::Array33d samples_ = Eigen::Array33d::Zero();        // Innovations that each scale is from.
 };
 
 }  // namespace qwsm

@@ -6,12 +6,12 @@
 #include <span>
 
 #include "qwsm/mapping/free_space.hpp"
+#include "qwsm/mapping/local_submap.hpp"
+#include "qwsm/mapping/loop_detector.hpp"
 #include "qwsm/mapping/mapper_options.hpp"
 #include "qwsm/mapping/mapping_step.hpp"
 #include "qwsm/mapping/motion_model.hpp"
 #include "qwsm/mapping/observation.hpp"
-#include "qwsm/mapping/recent_scans.hpp"
-#include "qwsm/mapping/return_finder.hpp"
 #include "qwsm/mapping/scan_locator.hpp"
 #include "qwsm/mapping/scan_map.hpp"
 
@@ -24,21 +24,22 @@ class RobotTracker {
  public:
   explicit RobotTracker(const MapperOptions& options = {});
 
-  /// Tells where the robot is, before its first scan or when it was put elsewhere.
+  /// Gives the initial pose of the robot, before its first scan or when it was put elsewhere.
   /// @param T_odom_robot odometry at that place, if it is known and goes on from there.
   void PlaceAt(const UncertainPose2& map_robot, const std::optional<Pose2>& T_odom_robot = {});
 
-  /// Odometry may have begun anew since the last scan: at the next one the tracker believes in the
-  /// motion it tells only if the scan agrees better with the map there than where the robot was.
-  void DoubtOdometry() { is_odometry_doubted_ = true; }
+  /// Says that odometry may have begun anew since the last scan: at the next one the tracker
+  /// believes in the motion it tells only if the scan agrees better with the map there than where
+  /// the robot was.
+  void SuspectOdometryReset() { is_odometry_suspect_ = true; }
 
-  /// Where the robot is. If the step is relevant, the map ought to be extended with the scan.
+  /// Finds where the robot is. If the step is relevant, the map ought to be extended with the scan.
   /// @param points the scan's points, as ToPoints() gives them.
   MappingStep Track(const ScanMap& map,
                     const Observation& observation,
                     std::span<const ScanPoint> points);
 
-  /// The pose at the last scan, or as told since.
+  /// The pose at the last scan, or the one given since.
   const UncertainPose2& map_robot() const { return map_last_; }
   const MapperOptions& options() const { return options_; }
 
@@ -56,21 +57,22 @@ class RobotTracker {
              MappingStep& step) const;
   StepStatus StatusOf(const MatchResult& match) const;
   bool HasMovedOn(std::span<const ScanPoint> points, const MappingStep& step) const;
-  void FindReturn(const ScanMap& map, std::span<const ScanPoint> points, MappingStep& step);
+  void CloseLoop(const ScanMap& map, std::span<const ScanPoint> points, MappingStep& step);
   void Remember(const Observation& observation, const MappingStep& step);
 
   MapperOptions options_;
   MotionModel motion_;
   ScanLocator locator_;
-  ReturnFinder return_finder_;
-  RecentScans recent_;
+  LoopDetector loop_detector_;
+  LocalSubmap submap_;
   FreeSpace seen_free_;
-  UncertainPose2 map_last_;                // Pose at the last scan,
-  UncertainPose2 local_last_;              // and how uncertain it is relative to the map around it.
-  std::optional<Pose2> T_map_remembered_;  // Pose at the last scan that was worth it.
-  bool is_told_ = false;                   // The last pose was told, not found.
-  bool is_told_now_ = false;               // And it is that of the next scan.
-  bool is_odometry_doubted_ = false;
+  UncertainPose2 map_last_;    // Pose at the last scan, or as given since.
+  UncertainPose2 local_last_;  // The same, as uncertain as relative to the map around.
+  std::optional<Pose2>
+      T_map_remembered_;           // Pose at the last scan that was far enough from the one before.
+  bool has_initial_pose_ = false;  // The last pose was given, not found.
+  bool stands_at_initial_pose_ = false;  // And the next scan is taken there.
+  bool is_odometry_suspect_ = false;     // It may have begun anew since the last scan.
 };
 
 }  // namespace qwsm

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "qwsm/mapping/free_space.hpp"
-#include "qwsm/mapping/return_options.hpp"
+#include "qwsm/mapping/loop_closure_options.hpp"
 #include "qwsm/mapping/scan_map.hpp"
 #include "qwsm/matching/correlative_search.hpp"
 #include "qwsm/matching/weighted_scan_matcher.hpp"
@@ -17,11 +17,11 @@ namespace qwsm {
 struct ScanLocatorOptions {
   CorrelativeSearchOptions search;
   WeightedScanMatcherOptions matcher;
-  ReturnOptions known_places;
+  LoopClosureOptions loop_closure;
   double narrow_share = 0.25;
   double confident_overlap = 0.9;
   double confident_score = 0.8;
-  double max_misfit = 2.0;
+  double max_reduced_chi2 = 2.0;
   double search_spacing_m = 0.12;
   double search_error_m = 0.022;
   double window_sigmas = 3.0;
@@ -36,7 +36,10 @@ template <class Visitor>
 void Describe(Visitor& visit, ScanLocatorOptions& o) {
   visit("search", o.search, {.help = "the coarse-to-fine search for the first guess"});
   visit("matcher", o.matcher, {.help = "the weighted match that follows"});
-  visit("known_places", o.known_places, {.help = "returning to places seen long ago"});
+  visit("loop_closure",
+        o.loop_closure,
+        {.help = "recognising surfaces that were mapped with less drift",
+         .formerly = "known_places"});
   visit("narrow_share",
         o.narrow_share,
         {.help = "first search only this share of the window", .min = 0, .max = 1});
@@ -46,9 +49,10 @@ void Describe(Visitor& visit, ScanLocatorOptions& o) {
   visit("confident_score",
         o.confident_score,
         {.help = "... or where the pose that the search found scores less", .min = 0, .max = 1});
-  visit("max_misfit",
-        o.max_misfit,
-        {.help = "search further where pairs' squared errors are this many times the modelled",
+  visit("max_reduced_chi2",
+        o.max_reduced_chi2,
+        {.help = "search further where the pairs' squared errors are this many times the modelled",
+         .formerly = "max_misfit",
          .min = 0.1,
          .max = 1000});
   visit("search_spacing_m",

@@ -34,20 +34,26 @@ inline std::span<const std::pair<std::string_view, InsertionRule>> Names(Inserti
 struct ScanMapOptions {
   SurfaceMapOptions surfaces;
   InsertionRule insertion = InsertionRule::kNewSurface;
-  double crowd_radius_m = 0.03;
-  int crowd_points = 5;
+  double density_radius_m = 0.03;
+  int max_density_points = 5;
 };
 
 template <class Visitor>
 void Describe(Visitor& visit, ScanMapOptions& o) {
   visit("surfaces", o.surfaces, {.help = "the stored points and what they say about surfaces"});
   visit("insertion", o.insertion, {.help = "which points of a relevant scan are stored"});
-  visit("crowd_radius_m",
-        o.crowd_radius_m,
-        {.help = "new-surface: a point is not stored if this near to it", .min = 0, .max = 5});
-  visit("crowd_points",
-        o.crowd_points,
-        {.help = "new-surface: ... lie this many older points", .min = 1, .max = 1000});
+  visit("density_radius_m",
+        o.density_radius_m,
+        {.help = "new-surface: a point is not stored if this near to it",
+         .formerly = "crowd_radius_m",
+         .min = 0,
+         .max = 5});
+  visit("max_density_points",
+        o.max_density_points,
+        {.help = "new-surface: ... lie this many older points",
+         .formerly = "crowd_points",
+         .min = 1,
+         .max = 1000});
 }
 
 /// What a relevant scan adds to a map.

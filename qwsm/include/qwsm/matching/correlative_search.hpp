@@ -13,17 +13,18 @@
 namespace qwsm {
 
 struct CorrelativeSearchOptions {
-  double prior_points = 0.3;
+  double prior_cost_points = 0.3;
   int independent_points = 75;
   double lever_m = 15.0;
 };
 
 template <class Visitor>
 void Describe(Visitor& visit, CorrelativeSearchOptions& o) {
-  visit("prior_points",
-        o.prior_points,
+  visit("prior_cost_points",
+        o.prior_cost_points,
         {.help =
              "a squared sigma away from the prediction costs as much as this many points that miss",
+         .formerly = "prior_points",
          .min = 0,
          .max = 100});
   visit("independent_points",
@@ -38,27 +39,27 @@ void Describe(Visitor& visit, CorrelativeSearchOptions& o) {
 
 /// Where to look for a pose.
 struct SearchWindow {
-  UncertainPose2 predicted;        ///< The prediction; its covariance prices the way from there.
+  UncertainPose2 predicted;        ///< The prediction; poses cost the more sigmas they are away.
   double translation_m = 0.0;      ///< Half the side of the square of positions.
   double rotation_rad = 0.0;       ///< Half the range of headings.
   double min_score = 0.0;          ///< Poses that score no better are not found.
-  std::optional<Pose2> exclude{};  ///< Positions near this one are not looked at:
-  double exclude_m = 0.0;          ///< no further from it than this.
-  std::uint8_t max_drift_code =
-      LikelihoodPyramid::kUnmapped;  ///< Only what drifted no more counts.
+  std::optional<Pose2> exclude{};  ///< Positions no further than `exclude_m` from it are left out.
+  double exclude_m = 0.0;          ///< Around `exclude`.
+  /// Surfaces that drifted more do not count; see LikelihoodPyramid::DriftCode().
+  std::uint8_t max_drift_code = LikelihoodPyramid::kUnmapped;
 };
 
 struct FoundPose {
   Pose2 T_map_robot;
-  double score = 0.0;  ///< Mean likelihood of the beam ends, 0..1, less the price of the way.
+  double score = 0.0;  ///< Mean likelihood of the beam ends, 0..1, less the cost of the prior.
 };
 
 /// The best pose of a window, by branch and bound over the pyramid's levels (Olson 2009; Hess et
-/// al. 2016): exhaustive in steps of a cell and of the heading that moves a far point by a cell. The
-/// position is then interpolated between the cells.
+/// al. 2016): exhaustive in steps of a cell and of the heading that moves a far point by a cell.
+/// The position is then interpolated between the cells.
 ///
 /// @param points_robot_m the scan's points in the robot's frame, thinned out: cost is linear in
-/// them, and crowded near surfaces would outvote the rest.
+/// them, and near surfaces, on which beams are dense, would outvote the rest.
 /// @return nothing if no pose of the window scores above `window.min_score`.
 std::optional<FoundPose> SearchPose(const LikelihoodPyramid& map,
                                     std::span<const Eigen::Vector2d> points_robot_m,

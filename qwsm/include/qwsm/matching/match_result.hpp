@@ -22,41 +22,54 @@ enum class MatchStatus {
 std::string_view Name(MatchStatus status);
 
 /// What a match found. `T_ref_cur` is the best pose so far, whatever the status.
+///
+/// Two uncertainties stand in it, and neither follows from the other. `covariance` is what the
+/// iterations weigh pairs against the prior with, and says how far the answer may be off now;
+/// `pair_information` is what the residuals show once they have ended, without the prior, for
+/// whoever fuses the pairs with something else.
 struct [[nodiscard]] MatchResult {
   MatchStatus status = MatchStatus::kTooFewPairs;
   Pose2 T_ref_cur;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Of (x, y, theta), prior included.
-  Eigen::Matrix3d information =
-      Eigen::Matrix3d::Zero();  ///< Of the pairs alone, as if independent.
+  /// Covariance of (x, y, theta) in the answer, prior included. Pairs count by the error model
+  /// times `reduced_chi2`, and `correlated_points` of them as one.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  /// Information about (x, y, theta) of the pairs alone, without the prior: by the scatter of their
+  /// residuals (White 1980) where the match ended by itself, else by the error model.
+  Eigen::Matrix3d pair_information = Eigen::Matrix3d::Zero();
   /// The covariance, were each pair the nearest sample as in the papers (Visser et al. 2009, eq.
   /// 3): with measurement noise and correspondence error, which shrinks as the reference gets
-  /// denser.
+  /// denser. For comparison with theirs only.
   Eigen::Matrix3d nearest_sample_covariance = Eigen::Matrix3d::Zero();
   int iterations = 0;
   int pairs = 0;
   double mean_residual_m = 0.0;  ///< Mean distance of a point to its nearest stored point.
   double overlap = 0.0;          ///< Share of the scan's points that agree with the reference.
-  double misfit = 1.0;  ///< Mean squared error of a pair, in units of its modelled variance.
+  /// Reduced chi-square of the pairs: their mean squared error in units of its modelled variance.
+  double reduced_chi2 = 1.0;
 };
 
-/// How well the pairs of a match hold a position.
-struct PositionHold {
-  Eigen::Vector2d weakest;         ///< Unit vector: the direction that they hold least,
-  double weakest_information = 0;  ///< and their information about it in 1/m^2, heading unknown.
-  double strongest_information = 0;
+/// In which direction of the plane information about a pose is least, and how degenerate it is
+/// (Zhang, Kaess & Singh 2016): along a corridor the walls tell next to nothing.
+struct Degeneracy {
+  Eigen::Vector2d weakest_direction;  ///< Unit vector, in the axes of the information.
+  double weakest_information = 0;     ///< About the position along it in 1/m^2, heading unknown.
+  double strongest_information = 0;   ///< About the position across it.
 
-  double share() const { return weakest_information / strongest_information; }
+  /// Ratio of the least to the most information: 0 where nothing is told of the weakest direction,
+  /// 1 where no direction is weaker than another.
+  double ratio() const { return weakest_information / strongest_information; }
 };
 /// @param information of (x, y, theta).
-PositionHold HoldOf(const Eigen::Matrix3d& information);
+Degeneracy DegeneracyOf(const Eigen::Matrix3d& information);
 
-/// One line per iteration, for whoever wants to watch a match.
+/// How a match stands after one iteration, for whoever wants to watch it.
 struct MatchIteration {
   Pose2 T_ref_cur;
   int pairs = 0;
   double mean_residual_m = 0.0;
-  double doubt_m = 0.0;  ///< About the position, by which pairs are widened.
+  double start_error_m = 0.0;  ///< Sigma of the start's position that annealing has left.
 };
+/// One entry per iteration.
 using MatchTrace = std::vector<MatchIteration>;
 
 }  // namespace qwsm

@@ -65,13 +65,14 @@ struct Surface {
   Eigen::Vector2d mean_m = Eigen::Vector2d::Zero();
   Eigen::Vector2d normal = Eigen::Vector2d::Zero();  ///< Unit vector; meaningful for a line only.
   double across_m2 = 0.0;  ///< Variance along the normal; for no line, the mean of both variances.
-  double sampling_m2 = 0.0;  ///< Variance along the surface of the sample nearest to a place.
-  double looks = 1.0;  ///< Scans that the mean is of. Readings of one scan share their errors.
+  double sampling_m2 = 0.0;   ///< Correspondence error: variance along it of the nearest sample.
+  double observations = 1.0;  ///< Scans that the mean is of: readings of one scan share errors.
   bool is_line = false;
   bool is_sample = false;  ///< What there is of it is one sample rather than a mean.
 };
 
-/// Variance of what is uniform over a length.
+/// Variance of what is uniform over a length: the correspondence error along a surface whose
+/// samples lie so far apart (Pfister et al. 2002, with the neighbours at equal distances).
 inline double UniformVariance(double length_m) { return length_m * length_m / 12.0; }
 
 /// What scans are matched against: points in a quadtree, each with the moments of its
@@ -126,8 +127,8 @@ class SurfaceMap {
     float sum_xy = 0.0F;
     float sum_yy = 0.0F;
     std::uint32_t count = 1;
-    std::int16_t own_normal_x = 0;  // Of a unit vector, in 1 / kNormalScale;
-    std::int16_t own_normal_y = 0;  // both 0 where the scan showed no line.
+    std::int16_t own_normal_x = 0;  // Of a unit vector, in 1 / kNormalScale. Both are 0 where the
+    std::int16_t own_normal_y = 0;  // scan showed no line.
     float spacing_m = 0.0F;
     float drift_m2 = 0.0F;
 
@@ -137,7 +138,7 @@ class SurfaceMap {
   // Calls visit(PointId, offset_m) for the other points of the same neighbourhood.
   template <class Visit>
   void ForEachNeighbor(PointId id, Visit visit) const;
-  double Looks(const Neighborhood& n) const;
+  double Observations(const Neighborhood& n) const;
 
   SurfaceMapOptions options_;
   PointQuadtree quadtree_;

@@ -31,7 +31,7 @@ struct WeightedScanMatcherOptions {
   double outlier_sigmas = 5.0;
   double small_object_m = 0.02;
   double correlated_points = 3.0;
-  double min_information_share = 0.006;
+  double min_information_ratio = 0.006;
   int min_pairs = 1;
   double max_sigma_m = 2.0;
   double min_overlap = 0.35;
@@ -53,11 +53,12 @@ void Describe(Visitor& visit, WeightedScanMatcherOptions& o) {
   visit("pair_distance_m",
         o.pair_distance_m,
         {.help = "in the end, points further apart are no pair", .min = 0.005, .max = 10});
-  visit("annealing_factor",
-        o.annealing_factor,
-        {.help = "per iteration, what is left of the doubt about the first guess",
-         .min = 0.05,
-         .max = 0.95});
+  visit(
+      "annealing_factor",
+      o.annealing_factor,
+      {.help = "per iteration, what is left of the first guess's error by which pairs are inflated",
+       .min = 0.05,
+       .max = 0.95});
   visit("outlier_sigmas",
         o.outlier_sigmas,
         {.help = "a pair this far off counts a quarter", .min = 0.5, .max = 100});
@@ -68,9 +69,10 @@ void Describe(Visitor& visit, WeightedScanMatcherOptions& o) {
       "correlated_points",
       o.correlated_points,
       {.help = "how many pairs say as much as one with independent errors", .min = 1, .max = 1000});
-  visit("min_information_share",
-        o.min_information_share,
-        {.help = "a direction with less of the information than this is left to the prior",
+  visit("min_information_ratio",
+        o.min_information_ratio,
+        {.help = "a direction of which the pairs tell less than this share is left to the prior",
+         .formerly = "min_information_share",
          .min = 0,
          .max = 1});
   visit("min_pairs", o.min_pairs, {.help = "fewer pairs are no match", .min = 1, .max = 10000});
@@ -96,8 +98,8 @@ struct MatchPrior {
   UncertainPose2 predicted;  ///< Prediction of T_ref_cur; it is fused into the answer.
   Pose2 start;               ///< First guess: the prediction, or what a search found near it.
   StartError start_error;    ///< Of the start: pairs are sought five times as far.
-  double max_drift_m2 = std::numeric_limits<double>::infinity();  ///< Points that drifted more are
-                                                                  ///< not paired.
+  /// Stored points that drifted more are not paired.
+  double max_drift_m2 = std::numeric_limits<double>::infinity();
 };
 
 /// Weighted scan matching (Pfister et al. 2002; Visser et al. 2009) of a scan against a map of

@@ -13,17 +13,15 @@
 
 namespace qwsm {
 
-struct RecentScansOptions {
+struct LocalSubmapOptions {
   int count = 8;
   int points = 150;
   double spacing_m = 0.4;
 };
 
 template <class Visitor>
-void Describe(Visitor& visit, RecentScansOptions& o) {
-  visit("count",
-        o.count,
-        {.help = "relevant scans that make up the surroundings", .min = 1, .max = 100});
+void Describe(Visitor& visit, LocalSubmapOptions& o) {
+  visit("count", o.count, {.help = "relevant scans that make up the submap", .min = 1, .max = 100});
   visit("points",
         o.points,
         {.help = "more scans than these, where they show less than so many points",
@@ -34,11 +32,11 @@ void Describe(Visitor& visit, RecentScansOptions& o) {
         {.help = "one point per cell of this size", .min = 0.01, .max = 10});
 }
 
-/// The last few relevant scans together: one scan in a corridor looks like many places, the last
-/// ten metres do not. Where little is in view, more of them are kept.
-class RecentScans {
+/// The local submap: the last few relevant scans together. One scan in a corridor resembles many
+/// places, the last ten metres do not. Where little is in view, more scans are kept.
+class LocalSubmap {
  public:
-  explicit RecentScans(const RecentScansOptions& options = {}) : options_(options) {}
+  explicit LocalSubmap(const LocalSubmapOptions& options = {}) : options_(options) {}
 
   void Add(const Pose2& T_map_robot, std::span<const ScanPoint> points);
   void Clear();
@@ -52,7 +50,7 @@ class RecentScans {
     std::vector<ScanPoint> points;  // Thinned.
   };
 
-  RecentScansOptions options_;
+  LocalSubmapOptions options_;
   std::deque<Scan> scans_;  // The latest last.
   std::size_t points_ = 0;  // Of all of them.
 };

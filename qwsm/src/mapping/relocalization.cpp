@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "qwsm/mapping/place_finder.hpp"
+#include "qwsm/mapping/relocalization.hpp"
 
 #include <Eigen/Geometry>
 #include <numbers>
@@ -25,9 +25,9 @@ SearchWindow WindowAround(std::span<const RelevantScan> scans) {
 
 }  // namespace
 
-std::optional<FoundPlace> FindPlace(const ScanMap& map,
-                                    std::span<const ScanPoint> points,
-                                    const PlaceFinderOptions& options) {
+std::optional<RelocalizationResult> Relocalize(const ScanMap& map,
+                                               std::span<const ScanPoint> points,
+                                               const RelocalizationOptions& options) {
   const std::vector<Eigen::Vector2d> thinned = PositionsOf(ThinOut(points, options.spacing_m));
   if (map.empty() || thinned.empty()) return std::nullopt;
   const LikelihoodPyramid& likelihood = map.surfaces().likelihood();
@@ -39,7 +39,7 @@ std::optional<FoundPlace> FindPlace(const ScanMap& map,
   window.min_score = best->score - options.rival_margin;
   window.exclude = best->T_map_robot;
   window.exclude_m = options.rival_distance_m;
-  return FoundPlace{.best = *best, .rival = SearchPose(likelihood, thinned, window, {})};
+  return RelocalizationResult{.best = *best, .rival = SearchPose(likelihood, thinned, window, {})};
 }
 
 }  // namespace qwsm

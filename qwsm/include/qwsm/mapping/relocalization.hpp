@@ -11,7 +11,7 @@
 
 namespace qwsm {
 
-struct PlaceFinderOptions {
+struct RelocalizationOptions {
   double min_score = 0.4;
   double rival_distance_m = 1.0;
   double rival_margin = 0.05;
@@ -19,7 +19,7 @@ struct PlaceFinderOptions {
 };
 
 template <class Visitor>
-void Describe(Visitor& visit, PlaceFinderOptions& o) {
+void Describe(Visitor& visit, RelocalizationOptions& o) {
   visit("min_score",
         o.min_score,
         {.help = "a scan that fits no place better is not found", .min = 0, .max = 1});
@@ -34,17 +34,19 @@ void Describe(Visitor& visit, PlaceFinderOptions& o) {
         {.help = "points of the scan this near count once", .min = 0.01, .max = 10});
 }
 
-/// A place of a map where a scan fits.
-struct FoundPlace {
+/// Where in a map a scan fits.
+struct RelocalizationResult {
   FoundPose best;
   std::optional<FoundPose> rival;  ///< Another place where it fits about as well.
 };
 
-/// Where in a map a scan was taken, knowing nothing but the map: the best of all positions where
-/// the robot has been, give or take the distance between relevant scans, and all headings.
-/// O(area of the map) in the worst case, usually a small fraction of it (branch and bound).
-std::optional<FoundPlace> FindPlace(const ScanMap& map,
-                                    std::span<const ScanPoint> points,
-                                    const PlaceFinderOptions& options = {});
+/// Finds where in a map a scan was taken, knowing nothing but the map (global localization): the
+/// best of all positions where the robot has been, give or take the distance between relevant
+/// scans, and all headings. O(area of the map) in the worst case, usually a small fraction of it
+/// (branch and bound).
+/// @return nothing where the scan fits nowhere.
+std::optional<RelocalizationResult> Relocalize(const ScanMap& map,
+                                               std::span<const ScanPoint> points,
+                                               const RelocalizationOptions& options = {});
 
 }  // namespace qwsm

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "qwsm/mapping/recent_scans.hpp"
+#include "qwsm/mapping/local_submap.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ std::uint64_t CellOf(const Eigen::Vector2d& p_m, double side_m) {
 
 }  // namespace
 
-void RecentScans::Add(const Pose2& T_map_robot, std::span<const ScanPoint> points) {
+void LocalSubmap::Add(const Pose2& T_map_robot, std::span<const ScanPoint> points) {
   if (points.empty()) return;
   scans_.push_back({.T_map_robot = T_map_robot, .points = ThinOut(points, options_.spacing_m)});
   points_ += scans_.back().points.size();
@@ -32,12 +32,12 @@ void RecentScans::Add(const Pose2& T_map_robot, std::span<const ScanPoint> point
   }
 }
 
-void RecentScans::Clear() {
+void LocalSubmap::Clear() {
   scans_.clear();
   points_ = 0;
 }
 
-std::vector<ScanPoint> RecentScans::PointsAround(const Pose2& T_map_robot) const {
+std::vector<ScanPoint> LocalSubmap::PointsAround(const Pose2& T_map_robot) const {
   struct Seen {
     std::uint64_t cell;
     std::size_t number;  // The latest scan's points come first.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "qwsm/mapping/return_finder.hpp"
+#include "qwsm/mapping/loop_detector.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 namespace qwsm::test {
 namespace {
 
-/// A robot that was here long ago, when its pose was exact.
-class BackAtAKnownPlace : public testing::Test {
+/// A robot that closes a loop: it was here long ago, when its pose was exact.
+class LoopClosure : public testing::Test {
  protected:
   void See(const World& world, unsigned seed = 3) {
     std::mt19937_64 random(seed);
@@ -24,7 +24,7 @@ class BackAtAKnownPlace : public testing::Test {
   }
 
   std::optional<MatchResult> Find(const Pose2& estimated, double sigma_m) const {
-    return ReturnFinder().Find(map_, points_, points_, WithSigma(estimated, sigma_m));
+    return LoopDetector().Detect(map_, points_, points_, WithSigma(estimated, sigma_m));
   }
 
   static UncertainPose2 WithSigma(const Pose2& pose, double sigma_m) {
@@ -52,26 +52,26 @@ World Grove() {
 }
 
 /// Trunks that stand close together.
-World ThicketAt(double x_m, double y_m) {
+World ClumpAt(double x_m, double y_m) {
   return {.walls = {},
           .columns = {{.center_m = {x_m, y_m}, .radius_m = 0.4},
                       {.center_m = {x_m + 0.8, y_m + 0.9}, .radius_m = 0.3},
                       {.center_m = {x_m + 0.6, y_m - 1.0}, .radius_m = 0.35}}};
 }
 
-TEST_F(BackAtAKnownPlace, IsFoundAgain) {
+TEST_F(LoopClosure, IsFoundAmongTrees) {
   See(Grove());
   const auto found = Find(drifted_, 0.5);
   ASSERT_TRUE(found);
   EXPECT_LT(Error_m(*found), 0.03);
 }
 
-// It leaves open how the robot is turned: it fits all along an arc about the thicket.
-TEST_F(BackAtAKnownPlace, IsMostlyFoundByOneThicketWithTheHelpOfTheEstimate) {
+// It leaves open how the robot is turned: it fits all along an arc about the clump.
+TEST_F(LoopClosure, IsMostlyFoundByOneClumpWithTheHelpOfTheEstimate) {
   constexpr unsigned kSeeds = 10;
   int found = 0;
   for (unsigned seed = 0; seed < kSeeds; ++seed) {
-    See(ThicketAt(7.0, 0.0), seed);
+    See(ClumpAt(7.0, 0.0), seed);
     const auto there = Find(drifted_, 0.5);
     if (!there) continue;
     ++found;
@@ -80,30 +80,30 @@ TEST_F(BackAtAKnownPlace, IsMostlyFoundByOneThicketWithTheHelpOfTheEstimate) {
   EXPECT_GE(found, 8);
 }
 
-TEST_F(BackAtAKnownPlace, StaysWhereItIsBetweenTwoPlacesThatLookAlike) {
-  See(ThicketAt(9.0, 2.0));
-  const std::vector<ScanPoint> one_thicket = points_;
-  World twins = ThicketAt(9.0, 2.0);
-  const World other = ThicketAt(9.0, -0.5);
+TEST_F(LoopClosure, StaysWhereItIsBetweenTwoPlacesThatLookAlike) {
+  See(ClumpAt(9.0, 2.0));
+  const std::vector<ScanPoint> one_clump = points_;
+  World twins = ClumpAt(9.0, 2.0);
+  const World other = ClumpAt(9.0, -0.5);
   twins.columns.insert(twins.columns.end(), other.columns.begin(), other.columns.end());
   See(twins);
-  points_ = one_thicket;
+  points_ = one_clump;
   EXPECT_FALSE(Find({0.2, -1.15, 0.02}, 0.8));
 }
 
-TEST_F(BackAtAKnownPlace, StaysWhereItIsBetweenWallsThatLookTheSameEverywhere) {
+TEST_F(LoopClosure, StaysWhereItIsBetweenWallsThatLookTheSameEverywhere) {
   See({.walls = {{.from_m = {-40.0, 1.2}, .to_m = {60.0, 1.2}},
                  {.from_m = {-40.0, -1.2}, .to_m = {60.0, -1.2}}},
        .columns = {}});
   EXPECT_FALSE(Find({2.0, 0.1, 0.02}, 0.5));
 }
 
-TEST_F(BackAtAKnownPlace, StaysWhereTheMapDriftedAsMuch) {
+TEST_F(LoopClosure, StaysWhereTheMapDriftedAsMuch) {
   See(Grove());
   EXPECT_FALSE(Find(drifted_, 0.012));
 }
 
-TEST_F(BackAtAKnownPlace, HasTheErrorOfTheKnownSurfacesToo) {
+TEST_F(LoopClosure, HasTheErrorOfTheSurfacesMappedBeforeToo) {
   See(Grove());
   const auto found = Find(drifted_, 0.5);
   ASSERT_TRUE(found);
