@@ -5,9 +5,11 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <algorithm>
+
 #include "service/io/files/atomic_file.hpp"
-#include "service/io/files/binary.hpp"
 #include "service/io/files/file_lock.hpp"
+#include "service/io/journal/journal_table.hpp"
 #include "service/io/journal/sqlite_database.hpp"
 
 namespace qwsm::io {
@@ -15,21 +17,6 @@ namespace {
 
 constexpr std::int64_t kApplicationId = 0x5157534D;  // "QWSM".
 constexpr std::int64_t kVersion = 1;
-constexpr std::string_view kSchema =
-    "CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL);"
-    "CREATE TABLE scan(position INTEGER PRIMARY KEY, service TEXT NOT NULL, robot TEXT NOT NULL,"
-    " sequence INTEGER NOT NULL, stamp_ns INTEGER NOT NULL, contents BLOB NOT NULL,"
-    " checksum INTEGER NOT NULL, UNIQUE(service, robot, sequence));";
-
-std::int64_t ChecksumOf(const JournalEntry& entry) {
-  BinaryWriter bytes;
-  bytes.Add(entry.service);
-  bytes.Add(entry.robot);
-  bytes.Add(entry.sequence);
-  bytes.Add(static_cast<std::int64_t>(entry.stamp.count()));
-  bytes.Add(entry.contents);
-  return Checksum(bytes.bytes());
-}
 
 [[noreturn]] void ThrowDamaged(const std::filesystem::path& file, const std::string& why) {
   throw JournalError(
@@ -86,7 +73,8 @@ std::string GetMeta(SqliteDatabase& database, std::string_view key) {
 void Begin(SqliteDatabase& database, std::string_view kind, std::string_view identity) {
   database.Execute("BEGIN IMMEDIATE");
   if (IsNew(database)) {
-    database.Execute(std::string(kSchema));
+    database.Execute("CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL);");
+    JournalTable::Create(database);
     SetMeta(database, "kind", kind);
     SetMeta(database, "identity", identity);
     database.Execute(fmt::format(
@@ -95,43 +83,45 @@ void Begin(SqliteDatabase& database, std::string_view kind, std::string_view ide
   database.Execute("COMMIT");
 }
 
+bool HasSoundPages(SqliteDatabase& database) {
+  SqliteStatement check = database.Prepare("PRAGMA quick_check(1)");
+  return check.Step() && check.Text(0) == "ok";
+}
+
+/// A name that nothing has yet, to keep a damaged file under.
+std::filesystem::path NameForDamaged(const std::filesystem::path& file) {
+  std::filesystem::path name = file.string() + ".damaged";
+  for (int count = 2; std::filesystem::exists(name); ++count) {
+    name = fmt::format("{}.damaged-{}", file.string(), count);
+  }
+  return name;
+}
+
 }  // namespace
 
 struct JournalFile::State {
   State(std::filesystem::path path, SqliteDatabase::Access access)
-      : file(std::move(path)), database(file, access) {}
+      : file(std::move(path)), database(file, access), table(database) {}
 
   /// Whether a transaction is on the disk when it ends.
   void Wait(bool for_disk) {
     database.Execute(for_disk ? "PRAGMA synchronous = FULL" : "PRAGMA synchronous = NORMAL");
   }
-  void Insert(const JournalEntry& entry);
 
   std::filesystem::path file;
   std::unique_ptr<FileLock> lock;
   SqliteDatabase database;
+  JournalTable table;
   std::string identity;
-  std::optional<SqliteStatement> append;
-  std::int64_t last_position = 0;  // Of those that were read.
-  std::size_t damaged = 0;
-};
 
-void JournalFile::State::Insert(const JournalEntry& entry) {
-  if (!append) {
-    append = database.Prepare(
-        "INSERT OR IGNORE INTO scan(service, robot, sequence, stamp_ns, contents, checksum)"
-        " VALUES(?, ?, ?, ?, ?, ?)");
-  }
-  append->Reset();
-  append->Bind(1, entry.service);
-  append->Bind(2, entry.robot);
-  append->Bind(3, static_cast<std::int64_t>(entry.sequence));
-  append->Bind(4, static_cast<std::int64_t>(entry.stamp.count()));
-  append->BindBlob(5, entry.contents);
-  append->Bind(6, ChecksumOf(entry));
-  append->Step();
-  append->Reset();
-}
+  JournalTable::Extent extent;
+  std::int64_t position = 0;    // Looked up so far, from 1 on.
+  std::int64_t last_found = 0;  // Of the positions looked up.
+  std::int64_t found = 0;
+
+  std::filesystem::path damaged_copy;
+  std::size_t lost_in_mending = 0;
+};
 
 JournalFile::JournalFile(std::unique_ptr<State> state) : state_(std::move(state)) {}
 JournalFile::JournalFile(JournalFile&&) noexcept = default;
@@ -146,16 +136,54 @@ JournalFile JournalFile::Continue(const std::filesystem::path& file,
     throw JournalError(file.string() + ": is in use by another service; each needs its own");
   }
   try {
-    auto state = std::make_unique<State>(file, SqliteDatabase::Access::kReadWrite);
-    state->lock = std::move(lock);
-    SqliteDatabase& database = state->database;
-    if (!IsNew(database)) CheckFormat(database, file);
-    database.Execute("PRAGMA journal_mode = WAL");
-    Begin(database, kind, identity);
-    return Opened(std::move(state), kind);
+    JournalFile journal = OpenToWrite(file, kind, identity);
+    if (!HasSoundPages(journal.state_->database)) journal = Mended(std::move(journal), kind);
+    journal.state_->lock = std::move(lock);
+    return journal;
   } catch (const SqliteError& error) {
     Rethrow(error, file);
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw WriteError(fmt::format(
+        "{}: is damaged and cannot be mended: {}", file.string(), error.code().message()));
   }
+}
+
+JournalFile JournalFile::OpenToWrite(const std::filesystem::path& file,
+                                     std::string_view kind,
+                                     std::string_view identity) {
+  auto state = std::make_unique<State>(file, SqliteDatabase::Access::kReadWrite);
+  SqliteDatabase& database = state->database;
+  if (!IsNew(database)) CheckFormat(database, file);
+  database.Execute("PRAGMA journal_mode = WAL");
+  Begin(database, kind, identity);
+  return Opened(std::move(state), kind);
+}
+
+/// Whatever happens meanwhile, the file is there: the damaged one, or the mended one in its place.
+JournalFile JournalFile::Mended(JournalFile damaged, std::string_view kind) {
+  const std::filesystem::path file = damaged.state_->file;
+  const std::filesystem::path mended = file.string() + ".mended";
+  const std::string identity = damaged.identity();
+  for (const char* part : {"", "-wal", "-shm"}) {  // Of an earlier attempt that was cut short.
+    std::filesystem::remove(mended.string() + part);
+  }
+  {
+    const JournalFile copy = OpenToWrite(mended, kind, identity);
+    copy.state_->Wait(true);
+    copy.state_->database.Execute("BEGIN");
+    while (const auto entry = damaged.Next()) copy.state_->table.Insert(*entry);
+    copy.state_->database.Execute("COMMIT");
+  }
+  const std::size_t lost = damaged.damaged();
+  damaged.state_->database.Execute("PRAGMA wal_checkpoint(TRUNCATE)");
+  damaged.state_.reset();  // Nothing is left in a log beside it that the new one could take as its.
+  const std::filesystem::path kept = NameForDamaged(file);
+  std::filesystem::copy_file(file, kept);
+  std::filesystem::rename(mended, file);
+  JournalFile journal = OpenToWrite(file, kind, identity);
+  journal.state_->damaged_copy = kept;
+  journal.state_->lost_in_mending = lost;
+  return journal;
 }
 
 JournalFile JournalFile::Read(const std::filesystem::path& file, std::string_view kind) {
@@ -175,6 +203,7 @@ JournalFile JournalFile::Read(const std::filesystem::path& file, std::string_vie
 
 JournalFile JournalFile::Opened(std::unique_ptr<State> state, std::string_view kind) {
   const std::string found = GetMeta(state->database, "kind");
+  if (found.empty()) ThrowDamaged(state->file, "it does not say of what it is a journal");
   if (found != kind) {
     throw JournalError(
         fmt::format("{}: is a journal of {}, not of {}", state->file.string(), found, kind));
@@ -184,10 +213,18 @@ JournalFile JournalFile::Opened(std::unique_ptr<State> state, std::string_view k
 }
 
 const std::string& JournalFile::identity() const { return state_->identity; }
-std::size_t JournalFile::damaged() const { return state_->damaged; }
+
+const std::filesystem::path& JournalFile::damaged_copy() const { return state_->damaged_copy; }
+
+std::size_t JournalFile::damaged() const {
+  const State& state = *state_;
+  const std::int64_t claimed = std::min(state.position, state.extent.claimed.value_or(0));
+  return state.lost_in_mending +
+         static_cast<std::size_t>(std::max(state.last_found, claimed) - state.found);
+}
 
 std::size_t JournalFile::size() const {
-  return static_cast<std::size_t>(state_->database.Number("SELECT count(*) FROM scan"));
+  return static_cast<std::size_t>(state_->table.Measure().claimed.value_or(0));
 }
 
 void JournalFile::Append(std::span<const JournalEntry> entries) {
@@ -196,10 +233,10 @@ void JournalFile::Append(std::span<const JournalEntry> entries) {
     for (const JournalEntry& entry : entries) {
       // The last one takes those before it along to the disk.
       state.Wait(&entry == &entries.back());
-      state.Insert(entry);
+      state.table.Insert(entry);
     }
   } catch (const SqliteError& error) {
-    state.append.reset();
+    state.table.GiveUpInsertion();
     state.database.RollBack();
     Rethrow(error, state.file);
   }
@@ -208,25 +245,22 @@ void JournalFile::Append(std::span<const JournalEntry> entries) {
 std::optional<JournalEntry> JournalFile::Next() {
   State& state = *state_;
   try {
-    // A statement of its own each time: an open one would keep the log from being tidied up.
-    for (;;) {
-      SqliteStatement select = state.database.Prepare(
-          "SELECT position, service, robot, sequence, stamp_ns, contents, checksum FROM scan"
-          " WHERE position > ? ORDER BY position LIMIT 1");
-      select.Bind(1, state.last_position);
-      if (!select.Step()) return std::nullopt;
-      state.last_position = select.Integer(0);
-      JournalEntry entry{.service = select.Text(1),
-                         .robot = select.Text(2),
-                         .sequence = static_cast<std::uint64_t>(select.Integer(3)),
-                         .stamp = std::chrono::nanoseconds(select.Integer(4)),
-                         .contents = select.Blob(5)};
-      if (ChecksumOf(entry) == select.Integer(6)) return entry;
-      ++state.damaged;
+    // Somebody else may be writing it.
+    if (state.position >= state.extent.last_position) state.extent = state.table.Measure();
+    while (state.position < state.extent.last_position) {
+      std::optional<JournalEntry> entry = state.table.Find(++state.position);
+      if (!entry) continue;
+      state.last_found = state.position;
+      ++state.found;
+      return entry;
     }
   } catch (const SqliteError& error) {
-    ThrowDamaged(state.file, error.what());
+    throw JournalError(fmt::format("{}: cannot be read: {}", state.file.string(), error.what()));
   }
+  if (!state.extent.claimed && state.found == 0) {
+    ThrowDamaged(state.file, "none of its entries can be found");
+  }
+  return std::nullopt;
 }
 
 }  // namespace qwsm::io

@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <chrono>
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -12,6 +10,8 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+
+#include "service/io/journal/journal_entry.hpp"
 
 namespace qwsm::io {
 
@@ -22,30 +22,22 @@ class JournalError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// One relevant scan as it is kept: who took it, and its contents in a form the journal does not
-/// look into.
-struct JournalEntry {
-  std::string service;
-  std::string robot;
-  std::uint64_t sequence = 0;
-  std::chrono::nanoseconds stamp{};
-  std::string contents;
-};
-
 /// Relevant scans on disk, in the order in which the map was extended with them.
 ///
 /// An SQLite database with a write-ahead log, every entry a transaction. Tables:
 ///   meta(key, value): kind, the kind of contents, and identity, whose journal it is;
-///   scan(position, service, robot, sequence, stamp_ns, contents, checksum), where checksum is the
-///   CRC-32 of all of the others.
+///   scan: the entries, see JournalTable.
 /// PRAGMA application_id is "QWSM", user_version is 1.
+///
+/// Of a damaged file what is good is given, and what is lost is counted.
 class JournalFile {
  public:
-  /// Opens a journal to be continued, or begins one.
+  /// Opens a journal to be continued, or begins one. One whose pages are damaged is not written on:
+  /// what is good of it is put into a new file in its place, and it is kept under another name.
   /// @param kind of contents: a journal of another kind is refused.
   /// @param identity whose journal it is, if it is new.
-  /// @throws JournalError where it is no journal, damaged, or in use; WriteError where it cannot be
-  ///         written now but may be later.
+  /// @throws JournalError where it is no journal, in use, or so damaged that nothing can be read;
+  ///         WriteError where it cannot be written now but may be later.
   static JournalFile Continue(const std::filesystem::path& file,
                               std::string_view kind,
                               std::string_view identity);
@@ -57,6 +49,7 @@ class JournalFile {
   ~JournalFile();
 
   const std::string& identity() const;
+  /// Entries that it has; of a damaged one, that it says it has.
   std::size_t size() const;
 
   /// Adds entries, each as a transaction. When this returns they are on the disk, whatever then
@@ -65,16 +58,22 @@ class JournalFile {
   /// @throws WriteError where there is no room or no leave to write; none, some or all are added.
   void Append(std::span<const JournalEntry> entries);
 
-  /// The next entry, from the first on. Entries with a wrong checksum are passed over.
-  /// @throws JournalError where the file is damaged, after all before the damage was given.
+  /// The next entry, from the first on. Damaged ones are passed over.
+  /// @throws JournalError where none can be read.
   std::optional<JournalEntry> Next();
-  /// Entries passed over so far.
+  /// Entries known to be lost so far.
   std::size_t damaged() const;
+  /// Where the file was put that was too damaged to be continued; empty if it was not.
+  const std::filesystem::path& damaged_copy() const;
 
  private:
   struct State;
   explicit JournalFile(std::unique_ptr<State> state);
   static JournalFile Opened(std::unique_ptr<State> state, std::string_view kind);
+  static JournalFile OpenToWrite(const std::filesystem::path& file,
+                                 std::string_view kind,
+                                 std::string_view identity);
+  static JournalFile Mended(JournalFile damaged, std::string_view kind);
 
   std::unique_ptr<State> state_;
 };

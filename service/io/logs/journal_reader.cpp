@@ -47,7 +47,7 @@ std::optional<JournalEntry> JournalReader::NextEntry() {
     std::optional<JournalEntry> entry = journal_.Next();
     const std::size_t damaged = journal_.damaged() - damaged_before;
     report_.lines += damaged + (entry ? 1 : 0);
-    if (damaged > 0) CountDamaged(damaged, "an entry's checksum is wrong");
+    if (damaged > 0) CountDamaged(damaged, "an entry is damaged");
     return entry;
   } catch (const JournalError& error) {
     throw LogError(error.what());

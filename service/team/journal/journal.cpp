@@ -35,8 +35,8 @@ void Journal::Stop() {
   if (thread_.joinable()) thread_.join();
 }
 
-std::size_t Journal::Restore(const std::function<void(io::JournalEntry)>& take) {
-  std::size_t damaged = 0;
+Journal::Loss Journal::Restore(const std::function<void(io::JournalEntry)>& take) {
+  Loss loss;
   std::optional<io::JournalFile> read_only;
   std::error_code error;
   if (!file_ && std::filesystem::exists(names_.file, error)) {
@@ -48,10 +48,10 @@ std::size_t Journal::Restore(const std::function<void(io::JournalEntry)>& take) 
       take(std::move(*entry));
       ++stored_;
     }
-    damaged = source->damaged();
+    loss = {.entries = source->damaged(), .damaged_copy = source->damaged_copy()};
   }
   thread_ = std::jthread([this](const std::stop_token& stop) { Work(stop); });
-  return damaged;
+  return loss;
 }
 
 void Journal::Append(io::JournalEntry entry, std::function<void()> settled) {

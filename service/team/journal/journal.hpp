@@ -34,7 +34,7 @@ class Journal {
   };
 
   /// Opens the journal, or begins one. One that cannot be written now is tried again later.
-  /// @throws io::JournalError where it is no journal, is damaged, or in use.
+  /// @throws io::JournalError where it is no journal, in use, or so damaged that it says nothing.
   explicit Journal(Names names);
   /// Stops.
   ~Journal();
@@ -44,9 +44,14 @@ class Journal {
   /// Whose journal it is.
   const std::string& identity() const { return names_.identity; }
 
+  /// What a file that was damaged has not got any more.
+  struct Loss {
+    std::size_t entries = 0;
+    std::filesystem::path damaged_copy;  ///< Where the file was put, if it had to be made anew.
+  };
   /// Gives every entry that was in the file when it was opened to `take`, in order, and begins to
-  /// store. To be called once. @return entries that were damaged.
-  std::size_t Restore(const std::function<void(io::JournalEntry)>& take);
+  /// store. To be called once.
+  Loss Restore(const std::function<void(io::JournalEntry)>& take);
 
   /// Stores the entry, later. @param settled is called once it is safely on disk, or has to wait
   /// for a disk that cannot be written.

@@ -21,17 +21,25 @@ ServiceJournal::ServiceJournal(const std::string& service, const Place& place, T
 
 void ServiceJournal::Restore(const std::function<void(const io::JournalEntry&)>& take) {
   if (!journal_) return;
-  std::size_t damaged = 0;
-  damaged += journal_->Restore([&](const io::JournalEntry& entry) {
+  std::size_t unreadable = 0;
+  const Journal::Loss loss = journal_->Restore([&](const io::JournalEntry& entry) {
     try {
       take(entry);
     } catch (const io::BinaryError&) {
-      ++damaged;
+      ++unreadable;
     }
   });
   identity_ = journal_->identity();
-  if (damaged == 0) return;
-  Warn(fmt::format("{}: {} entries are damaged and left out", journal_->Status().file, damaged));
+  const std::string file = journal_->Status().file;
+  if (!loss.damaged_copy.empty()) {
+    Warn(
+        fmt::format("{}: was damaged and is made anew of what is good in it; as it was it is kept "
+                    "as {}",
+                    file,
+                    loss.damaged_copy.string()));
+  }
+  if (loss.entries + unreadable == 0) return;
+  Warn(fmt::format("{}: {} entries are damaged and left out", file, loss.entries + unreadable));
 }
 
 void ServiceJournal::TellWhenSafe(std::function<void()> tell) {
