@@ -8,15 +8,19 @@
 
 namespace qwsm::apps {
 
-void AddServeArguments(CLI::App& parser, ServeArguments& arguments) {
-  parser.add_option("ROBOT", arguments.robots, "namespaces of robots; else all that appear")
+Command AddServeCommand(CLI::App& program, const ServeCommand& serve) {
+  CLI::App* parser = program.add_subcommand("serve", serve.help);
+  auto arguments = std::make_shared<ServeArguments>();
+  parser->footer(serve.examples);
+  parser->add_option("ROBOT", arguments->robots, "namespaces of robots; else all that appear")
       ->type_name("");
-  parser.add_option("-o,--output", arguments.output, "folder for the results; else none")
+  parser->add_option("-o,--output", arguments->output, "folder for the results; else none")
       ->type_name("DIR");
-  parser.add_flag("--force", arguments.force, "write into a folder that holds other things");
-  parser.add_option("--journal", arguments.journal, "where the map's scans are kept for restarts")
+  parser->add_flag("--force", arguments->force, "write into a folder that holds other things");
+  parser->add_option("--journal", arguments->journal, "where the map's scans are kept for restarts")
       ->type_name("FILE");
-  AddNetworkArguments(parser, arguments.network, "messages as JSON, one object a line");
+  AddNetworkArguments(*parser, arguments->network, "messages as JSON, one object a line");
+  return {.parser = parser, .run = [arguments, run = serve.run] { return run(*arguments); }};
 }
 
 std::optional<pipeline::ResultsFolder> BeginResults(const ServeArguments& arguments,

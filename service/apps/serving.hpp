@@ -6,12 +6,16 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "service/apps/command.hpp"
 #include "service/apps/network_session.hpp"
 #include "service/apps/service_manager.hpp"
+#include "service/apps/version.hpp"
 #include "service/pipeline/results/results_folder.hpp"
 #include "service/pipeline/run/interruption.hpp"
 #include "service/team/sinks/team_status.hpp"
@@ -27,7 +31,14 @@ struct ServeArguments {
   NetworkArguments network;
 };
 
-void AddServeArguments(CLI::App& parser, ServeArguments& arguments);
+/// What `serve` of a program says of itself, and does.
+struct ServeCommand {
+  std::string help;
+  std::string examples;
+  std::function<ExitCode(const ServeArguments&)> run;
+};
+
+Command AddServeCommand(CLI::App& program, const ServeCommand& serve);
 
 /// Lets messages be as wanted, and begins the folder of the results, with messages and
 /// configuration in it; nothing where none is wanted.
@@ -35,7 +46,10 @@ void AddServeArguments(CLI::App& parser, ServeArguments& arguments);
 std::optional<pipeline::ResultsFolder> BeginResults(const ServeArguments& arguments,
                                                     const std::string& configuration);
 
-/// A service with the topics it listens to and what is left of it in the end.
+/// What became of the robots' scans, a line for each robot, on standard output.
+void Summarize(const team::TeamStatus& status);
+
+/// A service, the topics it listens to, and what is left of it in the end.
 /// @tparam Service has identity(), Start() and Stop(). @tparam Inbox delivers to it.
 /// @tparam Results finishes with it.
 template <class Service, class Inbox, class Results>
@@ -62,7 +76,20 @@ void Serve(const Serving<Service, Inbox, Results>& serving,
   if (serving.results != nullptr) serving.results->Finish(serving.service);
 }
 
-/// What became of the robots' scans, a line for each robot, on standard output.
-void Summarize(const team::TeamStatus& status);
+/// The whole of `serve`.
+/// @tparam Server made of the arguments, a program's options and the folder of the results; it has
+/// Run() and Status().
+template <class Server, class Options>
+ExitCode RunServe(const ServeArguments& arguments) {
+  const BasicNetworkSession<Options> session(arguments.network);
+  const std::optional<pipeline::ResultsFolder> folder =
+      BeginResults(arguments, config::DumpOptions(session.options()));
+  spdlog::info("version {}", Version());
+  const pipeline::Interruption interruption;
+  Server server(arguments, session.options(), folder);
+  server.Run(interruption);
+  if (!arguments.network.verbosity.quiet) Summarize(server.Status());
+  return ExitCode::kDone;
+}
 
 }  // namespace qwsm::apps

@@ -42,8 +42,8 @@ TeamServiceOptions LosslessOptions() {
 void Give(TeamService& service, int first, int count) {
   for (int scan = first; scan < first + count; ++scan) {
     const Observation observation = test::ObservationInRoom(scan);
-    service.TakeOdometry("robot1", observation.scan.stamp, *observation.T_odom_robot);
-    service.TakeScan("robot1", observation.scan);
+    service.robots().TakeOdometry("robot1", observation.scan.stamp, *observation.T_odom_robot);
+    service.robots().TakeScan("robot1", observation.scan);
   }
 }
 

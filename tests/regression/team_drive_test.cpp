@@ -89,10 +89,10 @@ std::array<double, kRobots> Errors_m(const std::vector<sim::Reading>& readings,
   for (const sim::Reading& reading : readings) {
     const std::string robot = NameOf(reading.robot);
     if (!std::exchange(is_placed[reading.robot], true)) {
-      service.PlaceAt(robot, StartOf(reading, told, random));
+      service.robots().PlaceAt(robot, StartOf(reading, told, random));
     }
-    service.TakeOdometry(robot, reading.scan.stamp, reading.T_odom_robot);
-    service.TakeScan(robot, reading.scan);
+    service.robots().TakeOdometry(robot, reading.scan.stamp, reading.T_odom_robot);
+    service.robots().TakeScan(robot, reading.scan);
     service.WaitUntilIdle();
     const Pose2 error = reading.T_world_robot.Inverse() * sink.last_step(robot).map_robot.T_a_b;
     errors_m[reading.robot].push_back(error.translation_m().norm());

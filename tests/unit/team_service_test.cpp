@@ -33,8 +33,8 @@ TeamServiceOptions LosslessOptions() {
 void Give(TeamService& service, const std::string& robot, int first, int count) {
   for (int scan = first; scan < first + count; ++scan) {
     const Observation observation = test::ObservationInRoom(scan);
-    service.TakeOdometry(robot, observation.scan.stamp, *observation.T_odom_robot);
-    EXPECT_TRUE(service.TakeScan(robot, observation.scan));
+    service.robots().TakeOdometry(robot, observation.scan.stamp, *observation.T_odom_robot);
+    EXPECT_TRUE(service.robots().TakeScan(robot, observation.scan));
   }
 }
 
@@ -111,15 +111,15 @@ TEST(TeamService, RefusesAndCountsDuplicatesWrongTimesAndMalformedScans) {
   test::RecordingSink sink;
   TeamService service(LosslessOptions(), sink);
   const LaserScan scan = test::ObservationInRoom(18).scan;
-  EXPECT_TRUE(service.TakeScan("robot1", scan));
-  EXPECT_FALSE(service.TakeScan("robot1", scan));
-  EXPECT_FALSE(service.TakeScan("robot1", test::ObservationInRoom(5).scan));
+  EXPECT_TRUE(service.robots().TakeScan("robot1", scan));
+  EXPECT_FALSE(service.robots().TakeScan("robot1", scan));
+  EXPECT_FALSE(service.robots().TakeScan("robot1", test::ObservationInRoom(5).scan));
   LaserScan future = test::ObservationInRoom(19).scan;
   future.stamp = std::chrono::system_clock::now().time_since_epoch() + std::chrono::hours(2);
-  EXPECT_FALSE(service.TakeScan("robot1", future));
+  EXPECT_FALSE(service.robots().TakeScan("robot1", future));
   LaserScan malformed = test::ObservationInRoom(19).scan;
   malformed.geometry.bearing_step_rad = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_FALSE(service.TakeScan("robot1", malformed));
+  EXPECT_FALSE(service.robots().TakeScan("robot1", malformed));
   const SessionCounts counts = StatusOf(service, "robot1").counts;
   EXPECT_EQ(counts.scans, 5U);
   EXPECT_EQ(counts.duplicates, 1U);
@@ -133,15 +133,15 @@ TEST(TeamService, LetsALostRobotComeBackWhereItLeftThoughItsOdometryBeganAnew) {
   service.Start();
   Give(service, "robot1", 0, 60);
   service.WaitUntilIdle();
-  service.Lose("robot1");
+  service.robots().Lose("robot1");
   EXPECT_EQ(StatusOf(service, "robot1").state, RobotState::kLost);
 
   const Pose2 T_odom_start = test::PoseInRoom(60);
   for (int scan = 60; scan < 80; ++scan) {
     const Observation observation = test::ObservationInRoom(scan);
-    service.TakeOdometry(
+    service.robots().TakeOdometry(
         "robot1", observation.scan.stamp, T_odom_start.Inverse() * *observation.T_odom_robot);
-    service.TakeScan("robot1", observation.scan);
+    service.robots().TakeScan("robot1", observation.scan);
   }
   service.WaitUntilIdle();
   const RobotStatus status = StatusOf(service, "robot1");
@@ -158,7 +158,7 @@ TEST(TeamService, FindsASecondRobotInTheMapOfTheFirst) {
   Give(service, "robot1", 0, 126);
   service.WaitUntilIdle();
   for (int scan = 30; scan < 40; ++scan) {  // With no odometry and no start.
-    service.TakeScan("robot2", test::ObservationInRoom(scan).scan);
+    service.robots().TakeScan("robot2", test::ObservationInRoom(scan).scan);
   }
   service.WaitUntilIdle();
   const RobotStatus status = StatusOf(service, "robot2");
@@ -172,8 +172,8 @@ TEST(TeamService, LeavesOutScansFromBeforeTheOdometryThatIsPublished) {
   test::RecordingSink sink;
   TeamService service(LosslessOptions(), sink);
   service.Start();
-  service.ExpectOdometry("robot1", true);
-  EXPECT_TRUE(service.TakeScan("robot1", test::ObservationInRoom(0).scan));
+  service.robots().ExpectOdometry("robot1", true);
+  EXPECT_TRUE(service.robots().TakeScan("robot1", test::ObservationInRoom(0).scan));
   Give(service, "robot1", 1, 5);
   service.WaitUntilIdle();
   ASSERT_EQ(sink.steps("robot1").size(), 5U);
@@ -187,8 +187,8 @@ TEST(TeamService, FirstScanWaitsLongerForOdometryThanOthers) {
   options.team.session.odometry_wait_s = 0.0;
   TeamService service(options, sink);
   service.Start();
-  service.ExpectOdometry("robot1", true);
-  EXPECT_TRUE(service.TakeScan("robot1", test::ObservationInRoom(0).scan));
+  service.robots().ExpectOdometry("robot1", true);
+  EXPECT_TRUE(service.robots().TakeScan("robot1", test::ObservationInRoom(0).scan));
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
   Give(service, "robot1", 1, 5);
   service.WaitUntilIdle();
@@ -202,9 +202,9 @@ TEST(TeamService, AnswersWithoutOdometryWhereItsPublisherIsSilent) {
   options.team.session.odometry_wait_s = 0.05;
   TeamService service(options, sink);
   service.Start();
-  service.ExpectOdometry("robot1", true);
+  service.robots().ExpectOdometry("robot1", true);
   for (int scan = 0; scan < 5; ++scan) {
-    EXPECT_TRUE(service.TakeScan("robot1", test::ObservationInRoom(scan).scan));
+    EXPECT_TRUE(service.robots().TakeScan("robot1", test::ObservationInRoom(scan).scan));
   }
   service.WaitUntilIdle();
   EXPECT_EQ(StatusOf(service, "robot1").counts.without_odometry, 5U);
@@ -214,15 +214,15 @@ TEST(TeamService, ScanThatWaitsOutlivesItsRobotsAbsence) {
   test::RecordingSink sink;
   TeamService service(LosslessOptions(), sink);
   service.Start();
-  service.ExpectOdometry("robot1", true);
+  service.robots().ExpectOdometry("robot1", true);
   Give(service, "robot1", 0, 5);
   service.WaitUntilIdle();
   const Observation waiting = test::ObservationInRoom(5);
-  EXPECT_TRUE(service.TakeScan("robot1", waiting.scan));
-  service.Lose("robot1");
-  service.Join("robot1");
+  EXPECT_TRUE(service.robots().TakeScan("robot1", waiting.scan));
+  service.robots().Lose("robot1");
+  service.robots().Join("robot1");
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  service.TakeOdometry("robot1", waiting.scan.stamp, *waiting.T_odom_robot);
+  service.robots().TakeOdometry("robot1", waiting.scan.stamp, *waiting.T_odom_robot);
   service.WaitUntilIdle();
   EXPECT_EQ(sink.steps("robot1").size(), 6U);
   EXPECT_EQ(StatusOf(service, "robot1").counts.without_odometry, 0U);
@@ -260,7 +260,7 @@ TEST(TeamService, StartsARobotWhereItIsTold) {
   options.team.robots.push_back({.name = "robot1", .x_m = 3.0, .y_m = -2.0});
   TeamService service(options, sink);
   service.Start();
-  service.TakeScan("robot1", test::ObservationInRoom(0).scan);
+  service.robots().TakeScan("robot1", test::ObservationInRoom(0).scan);
   service.WaitUntilIdle();
   EXPECT_EQ(sink.steps("robot1").at(0).map_robot.T_a_b, (Pose2{3.0, -2.0, 0.0}));
 }

@@ -18,7 +18,7 @@ class RobotFeed::Topics {
     for (const Entity::Handle handle : inbox_.handles()) wait_set_.Add(handle);
   }
 
-  void Deliver(std::chrono::nanoseconds timeout, RobotListener& listener) {
+  void Deliver(std::chrono::nanoseconds timeout, team::RobotListener<team::Planar>& listener) {
     wait_set_.Wait(timeout);
     static_transforms_.TakeAll(
         [this](const wire::TFMessage& message) { transforms_.Take(message); });
@@ -37,7 +37,8 @@ RobotFeed::RobotFeed(const Participant& participant, const RobotNames& names, Re
 
 RobotFeed::~RobotFeed() = default;
 
-void RobotFeed::Deliver(std::chrono::nanoseconds timeout, RobotListener& listener) {
+void RobotFeed::Deliver(std::chrono::nanoseconds timeout,
+                        team::RobotListener<team::Planar>& listener) {
   topics_->Deliver(timeout, listener);
 }
 

@@ -6,9 +6,9 @@
 #include <memory>
 
 #include "service/dds/entities/participant.hpp"
-#include "service/dds/robot/robot_listener.hpp"
 #include "service/dds/wire/refusals.hpp"
 #include "service/dds/wire/robot_names.hpp"
+#include "service/team/session/robot_listener.hpp"
 
 namespace qwsm::dds {
 
@@ -20,7 +20,7 @@ class RobotFeed {
   ~RobotFeed();
 
   /// Waits until something has arrived, or for so long, and delivers it.
-  void Deliver(std::chrono::nanoseconds timeout, RobotListener& listener);
+  void Deliver(std::chrono::nanoseconds timeout, team::RobotListener<team::Planar>& listener);
 
  private:
   class Topics;

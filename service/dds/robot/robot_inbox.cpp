@@ -45,10 +45,10 @@ std::array<Entity::Handle, 3> BasicRobotInbox<Kind>::handles() const {
 
 template <class Kind>
 void BasicRobotInbox<Kind>::Deliver(const BasicStaticTransforms<Kind>& transforms,
-                                    BasicRobotListener<Kind>& listener) {
-  listener.TakeOdometryUse(names_.name(), odometry_.writer_count() > 0);
+                                    team::RobotListener<Kind>& listener) {
+  listener.ExpectOdometry(names_.name(), odometry_.writer_count() > 0);
   // Robots tell their odometry before the scan: whose scan is here has its odometry here, too.
-  scans_.TakeAll([this](const typename OnWire<Kind>::Scan& sample) { TakeScan(sample); });
+  scans_.TakeAll([this](const typename OnWire<Kind>::Scan& sample) { HoldScan(sample); });
   odometry_.TakeAll([&](const wire::Odometry& sample) { TakeOdometry(sample, listener); });
   initial_poses_.TakeAll(
       [&](const wire::PoseWithCovarianceStamped& sample) { TakeInitialPose(sample, listener); });
@@ -57,7 +57,7 @@ void BasicRobotInbox<Kind>::Deliver(const BasicStaticTransforms<Kind>& transform
 
 template <class Kind>
 void BasicRobotInbox<Kind>::TakeOdometry(const wire::Odometry& sample,
-                                         BasicRobotListener<Kind>& listener) {
+                                         team::RobotListener<Kind>& listener) {
   const std::string_view objection = ObjectionToPose<Kind>(sample.header, sample.pose.pose);
   if (!objection.empty()) return refusals_.Add(names_.Topic(kOdometryTopic), objection);
   const std::size_t length = strnlen(sample.child_frame_id, kMaxNameLength + 1);
@@ -67,7 +67,7 @@ void BasicRobotInbox<Kind>::TakeOdometry(const wire::Odometry& sample,
 }
 
 template <class Kind>
-void BasicRobotInbox<Kind>::TakeScan(const typename OnWire<Kind>::Scan& sample) {
+void BasicRobotInbox<Kind>::HoldScan(const typename OnWire<Kind>::Scan& sample) {
   const std::string topic = names_.Topic(OnWire<Kind>::kScanTopic);
   const std::string_view objection = ObjectionTo(sample);
   if (!objection.empty()) return refusals_.Add(topic, objection);
@@ -82,7 +82,7 @@ void BasicRobotInbox<Kind>::TakeScan(const typename OnWire<Kind>::Scan& sample) 
 // those of another: anybody may send scans of frames that there are not.
 template <class Kind>
 void BasicRobotInbox<Kind>::DeliverPlacedScans(const BasicStaticTransforms<Kind>& transforms,
-                                               BasicRobotListener<Kind>& listener) {
+                                               team::RobotListener<Kind>& listener) {
   std::deque<UnplacedScan> waiting;
   for (UnplacedScan& next : unplaced_) {
     const auto T_robot_sensor = SensorOnRobot(next.sensor_frame, transforms);
@@ -98,14 +98,14 @@ void BasicRobotInbox<Kind>::DeliverPlacedScans(const BasicStaticTransforms<Kind>
 
 template <class Kind>
 void BasicRobotInbox<Kind>::TakeInitialPose(const wire::PoseWithCovarianceStamped& sample,
-                                            BasicRobotListener<Kind>& listener) {
+                                            team::RobotListener<Kind>& listener) {
   const typename Kind::UncertainPose map_robot{
       .T_a_b = OnWire<Kind>::PoseOf(sample.pose.pose),
       .covariance = OnWire<Kind>::CovarianceOf(sample.pose.covariance)};
   std::string_view objection = ObjectionToPose<Kind>(sample.header, sample.pose.pose);
   if (objection.empty()) objection = team::ObjectionTo(map_robot);
   if (!objection.empty()) return refusals_.Add(names_.Topic(kInitialPoseTopic), objection);
-  listener.TakeInitialPose(names_.name(), map_robot);
+  listener.PlaceAt(names_.name(), map_robot);
 }
 
 /// A sensor nobody says anything about sits in the middle of the robot.

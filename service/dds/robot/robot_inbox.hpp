@@ -10,10 +10,10 @@
 #include <string>
 
 #include "service/dds/entities/reader.hpp"
-#include "service/dds/robot/robot_listener.hpp"
 #include "service/dds/wire/refusals.hpp"
 #include "service/dds/wire/robot_names.hpp"
 #include "service/dds/wire/static_transforms.hpp"
+#include "service/team/session/robot_listener.hpp"
 
 namespace qwsm::dds {
 
@@ -30,15 +30,15 @@ class BasicRobotInbox {
   std::array<Entity::Handle, 3> handles() const;
 
   /// Delivers all that has arrived: odometry before scans, for scans are matched with it.
-  void Deliver(const BasicStaticTransforms<Kind>& transforms, BasicRobotListener<Kind>& listener);
+  void Deliver(const BasicStaticTransforms<Kind>& transforms, team::RobotListener<Kind>& listener);
 
  private:
-  void TakeOdometry(const wire::Odometry& sample, BasicRobotListener<Kind>& listener);
-  void TakeScan(const typename OnWire<Kind>::Scan& sample);
+  void TakeOdometry(const wire::Odometry& sample, team::RobotListener<Kind>& listener);
+  void HoldScan(const typename OnWire<Kind>::Scan& sample);
   void DeliverPlacedScans(const BasicStaticTransforms<Kind>& transforms,
-                          BasicRobotListener<Kind>& listener);
+                          team::RobotListener<Kind>& listener);
   void TakeInitialPose(const wire::PoseWithCovarianceStamped& sample,
-                       BasicRobotListener<Kind>& listener);
+                       team::RobotListener<Kind>& listener);
   std::optional<typename Kind::Pose> SensorOnRobot(const std::string& sensor_frame,
                                                    const BasicStaticTransforms<Kind>& transforms);
 

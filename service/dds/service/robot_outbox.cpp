@@ -2,25 +2,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/dds/service/robot_outbox.hpp"
 
+#include "service/dds/wire/registration_report.hpp"
 #include "service/dds/wire/report_conversion.hpp"
 
 namespace qwsm::dds {
 
-RobotOutbox::RobotOutbox(const Participant& participant,
-                         const RobotNames& names,
-                         const Writer<wire::TFMessage>& transforms,
-                         const Claim& claim)
+template <class Kind>
+RobotOutbox<Kind>::RobotOutbox(const Participant& participant,
+                               const RobotNames& names,
+                               const Writer<wire::TFMessage>& transforms,
+                               const Claim& claim)
     : map_frame_(kMapFrame),
       poses_(participant, names, transforms),
-      reports_(participant, names.Topic(kReportTopic), Profile::kAnswer, ToUserData(claim)) {}
+      reports_(participant,
+               names.Topic(OnWire<Kind>::kReportTopic),
+               Profile::kAnswer,
+               ToUserData(claim)) {}
 
-void RobotOutbox::Publish(const team::RobotAnswer& answer) const {
+template <class Kind>
+void RobotOutbox<Kind>::Publish(const team::Answer<Kind>& answer) const {
   poses_.Publish(answer.step.stamp, answer.step.map_robot, answer.T_odom_robot);
 }
 
-void RobotOutbox::Report(const team::RobotAnswer& answer) const {
-  const MatchReport report = ReportOf(answer);
+template <class Kind>
+void RobotOutbox<Kind>::Report(const team::Answer<Kind>& answer) const {
+  const auto report = ReportOf(answer);
   reports_.Write(ToWire(report, map_frame_));
 }
+
+template class RobotOutbox<team::Planar>;
+template class RobotOutbox<team::Spatial>;
 
 }  // namespace qwsm::dds

@@ -6,11 +6,14 @@
 
 #include "service/dds/service/other_services.hpp"
 #include "service/dds/service/pose_publisher.hpp"
-#include "service/team/sinks/team_sink.hpp"
+#include "service/dds/wire/wire_kind.hpp"
+#include "service/team/sinks/service_sink.hpp"
 
 namespace qwsm::dds {
 
-/// What the service tells about one robot.
+/// What a service answers one robot.
+/// @tparam Kind team::Planar or team::Spatial.
+template <class Kind>
 class RobotOutbox {
  public:
   /// @param transforms writer of /tf, which all robots share; outlives this.
@@ -20,14 +23,17 @@ class RobotOutbox {
               const Claim& claim);
 
   /// Pose, odometry and transform.
-  void Publish(const team::RobotAnswer& answer) const;
+  void Publish(const team::Answer<Kind>& answer) const;
   /// The report, which goes last: who waits for it has everything.
-  void Report(const team::RobotAnswer& answer) const;
+  void Report(const team::Answer<Kind>& answer) const;
 
  private:
   std::string map_frame_;
-  PosePublisher<team::Planar> poses_;
-  Writer<wire::MatchReport> reports_;
+  PosePublisher<Kind> poses_;
+  Writer<typename OnWire<Kind>::WireReport> reports_;
 };
+
+extern template class RobotOutbox<team::Planar>;
+extern template class RobotOutbox<team::Spatial>;
 
 }  // namespace qwsm::dds

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -117,6 +118,7 @@ class RosGraph::Topic {
   }
 
   void Announce() const {
+    const std::lock_guard lock(mutex_);  // Of two announcements the later one is written last.
     if (writer_) {
       writer_->Write(Announcement<wire::ParticipantEntitiesInfo>(participant_, options_).info());
     } else {
@@ -128,6 +130,7 @@ class RosGraph::Topic {
  private:
   const Participant& participant_;
   NetworkOptions options_;
+  mutable std::mutex mutex_;
   dds_topic_descriptor_t humble_descriptor_ = HumbleDescriptor();
   std::optional<Writer<wire::ParticipantEntitiesInfo>> writer_;
   std::optional<HumbleWriter> humble_writer_;

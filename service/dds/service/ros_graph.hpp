@@ -15,7 +15,7 @@ class RosGraph {
   RosGraph(const Participant& participant, NetworkOptions options);
   ~RosGraph();
 
-  /// Tells all readers and writers there are now; to be called after they change.
+  /// Tells all readers and writers there are now; to be called after they change, by any thread.
   void Announce() const;
 
  private:

@@ -4,8 +4,6 @@
 
 #include <utility>
 
-#include "service/dds/service/cloud_inbox.hpp"
-#include "service/dds/service/team_inbox.hpp"
 #include "service/dds/wire/wire_kind.hpp"
 
 namespace qwsm::dds {
@@ -18,15 +16,15 @@ std::uint64_t NanosecondsNow() {
 
 }  // namespace
 
-template <class Kind, class Service, class Outbox>
-ServiceInbox<Kind, Service, Outbox>::ServiceInbox(const Participant& participant,
-                                                  const std::vector<std::string>& robots,
-                                                  Service& service,
-                                                  Outbox& outbox,
-                                                  Refusals& refusals)
+template <class Session>
+ServiceInbox<Session>::ServiceInbox(const Participant& participant,
+                                    const std::vector<std::string>& robots,
+                                    team::SessionList<Session>& sessions,
+                                    std::vector<RobotTopics*> topics,
+                                    Refusals& refusals)
     : participant_(participant),
-      service_(service),
-      outbox_(outbox),
+      sessions_(sessions),
+      topics_(std::move(topics)),
       refusals_(refusals),
       finds_robots_(robots.empty()),
       wait_set_(participant),
@@ -39,42 +37,17 @@ ServiceInbox<Kind, Service, Outbox>::ServiceInbox(const Participant& participant
   for (const std::string& robot : robots) Join(RobotNames(robot).name(), 0);
 }
 
-template <class Kind, class Service, class Outbox>
-void ServiceInbox<Kind, Service, Outbox>::Deliver() {
+template <class Session>
+void ServiceInbox<Session>::Deliver() {
   NoteMembers();
   ShareRobots();
   static_transform_reader_.TakeAll(
       [this](const wire::TFMessage& message) { transforms_.Take(message); });
-  for (const auto& [name, robot] : robots_) robot.inbox->Deliver(transforms_, *this);
+  for (const auto& [name, robot] : robots_) robot.inbox->Deliver(transforms_, sessions_);
 }
 
-template <class Kind, class Service, class Outbox>
-void ServiceInbox<Kind, Service, Outbox>::TakeScan(const std::string& robot,
-                                                   typename Kind::Scan scan) {
-  service_.TakeScan(robot, std::move(scan));
-}
-
-template <class Kind, class Service, class Outbox>
-void ServiceInbox<Kind, Service, Outbox>::TakeOdometry(const std::string& robot,
-                                                       Timestamp stamp,
-                                                       const Pose& T_odom_robot) {
-  service_.TakeOdometry(robot, stamp, T_odom_robot);
-}
-
-template <class Kind, class Service, class Outbox>
-void ServiceInbox<Kind, Service, Outbox>::TakeOdometryUse(const std::string& robot,
-                                                          bool is_published) {
-  service_.ExpectOdometry(robot, is_published);
-}
-
-template <class Kind, class Service, class Outbox>
-void ServiceInbox<Kind, Service, Outbox>::TakeInitialPose(
-    const std::string& robot, const typename Kind::UncertainPose& map_robot) {
-  service_.PlaceAt(robot, map_robot);
-}
-
-template <class Kind, class Service, class Outbox>
-void ServiceInbox<Kind, Service, Outbox>::NoteMembers() {
+template <class Session>
+void ServiceInbox<Session>::NoteMembers() {
   const RobotDiscovery::Changes changes = discovery_.Take();
   for (const std::string& name : changes.joined) {
     publishers_.insert(name);
@@ -82,13 +55,13 @@ void ServiceInbox<Kind, Service, Outbox>::NoteMembers() {
   }
   for (const std::string& name : changes.left) {
     publishers_.erase(name);
-    if (robots_.contains(name)) service_.Lose(name);
+    if (robots_.contains(name)) sessions_.Lose(name);
   }
 }
 
 // A robot is answered by one service. When that is gone, and seen to be, others find the robot.
-template <class Kind, class Service, class Outbox>
-void ServiceInbox<Kind, Service, Outbox>::ShareRobots() {
+template <class Session>
+void ServiceInbox<Session>::ShareRobots() {
   others_.Update();
   if (!finds_robots_) return;
   std::vector<std::string> claimed;
@@ -103,38 +76,36 @@ void ServiceInbox<Kind, Service, Outbox>::ShareRobots() {
 }
 
 // Readers stay when a robot leaves: it may come back where it left.
-template <class Kind, class Service, class Outbox>
-void ServiceInbox<Kind, Service, Outbox>::Join(const std::string& name, std::uint64_t since_ns) {
+template <class Session>
+void ServiceInbox<Session>::Join(const std::string& name, std::uint64_t since_ns) {
   if (robots_.contains(name)) return;
   const Claim claim{.since_ns = since_ns, .service = participant_.guid()};
   Robot& robot = robots_[name];
   robot.claim = claim;
   Attend(name, robot);
   // Last: who sees the topics of the answers may send scans.
-  outbox_.AddRobot(name, claim);
+  for (RobotTopics* topics : topics_) topics->AddRobot(name, claim);
 }
 
-template <class Kind, class Service, class Outbox>
-void ServiceInbox<Kind, Service, Outbox>::Leave(const std::string& name) {
+template <class Session>
+void ServiceInbox<Session>::Leave(const std::string& name) {
   const auto known = robots_.find(name);
   StopListening(known->second);
   robots_.erase(known);
-  service_.HandOver(name);
-  outbox_.RemoveRobot(name);
+  sessions_.HandOver(name);
+  for (RobotTopics* topics : topics_) topics->RemoveRobot(name);
 }
 
 // The robot is listened to as its publishers send.
-template <class Kind, class Service, class Outbox>
-void ServiceInbox<Kind, Service, Outbox>::Attend(const std::string& name, Robot& robot) {
+template <class Session>
+void ServiceInbox<Session>::Attend(const std::string& name, Robot& robot) {
   const Profile profile = OnWire<Kind>::ScansIn(discovery_.IsReliable(name));
   if (!robot.inbox || profile != robot.profile) Listen(name, profile, robot);
-  if (publishers_.contains(name)) service_.Join(name);
+  if (publishers_.contains(name)) sessions_.Join(name);
 }
 
-template <class Kind, class Service, class Outbox>
-void ServiceInbox<Kind, Service, Outbox>::Listen(const std::string& name,
-                                                 Profile profile,
-                                                 Robot& robot) {
+template <class Session>
+void ServiceInbox<Session>::Listen(const std::string& name, Profile profile, Robot& robot) {
   if (robot.inbox) StopListening(robot);
   robot.profile = profile;
   robot.inbox =
@@ -142,13 +113,13 @@ void ServiceInbox<Kind, Service, Outbox>::Listen(const std::string& name,
   for (const Entity::Handle handle : robot.inbox->handles()) wait_set_.Add(handle);
 }
 
-template <class Kind, class Service, class Outbox>
-void ServiceInbox<Kind, Service, Outbox>::StopListening(Robot& robot) {
+template <class Session>
+void ServiceInbox<Session>::StopListening(Robot& robot) {
   for (const Entity::Handle handle : robot.inbox->handles()) wait_set_.Remove(handle);
   robot.inbox.reset();
 }
 
-template class ServiceInbox<team::Planar, team::TeamService, TeamOutbox>;
-template class ServiceInbox<team::Spatial, team::CloudService, CloudOutbox>;
+template class ServiceInbox<team::RobotSession>;
+template class ServiceInbox<team::CloudSession>;
 
 }  // namespace qwsm::dds

@@ -13,25 +13,29 @@
 #include "service/dds/robot/robot_discovery.hpp"
 #include "service/dds/robot/robot_inbox.hpp"
 #include "service/dds/service/other_services.hpp"
+#include "service/dds/service/robot_topics.hpp"
 #include "service/dds/wire/refusals.hpp"
 #include "service/dds/wire/static_transforms.hpp"
+#include "service/team/service/cloud_session.hpp"
+#include "service/team/service/robot_session.hpp"
+#include "service/team/session/session_list.hpp"
 
 namespace qwsm::dds {
 
 /// Brings a service what robots say, and agrees with other services of its kind on who answers
 /// which robot. Used by one thread.
-/// @tparam Service takes messages of robots by name: TakeScan() and so on.
-/// @tparam Outbox has AddRobot() and RemoveRobot().
-template <class Kind, class Service, class Outbox>
-class ServiceInbox final : private BasicRobotListener<Kind> {
+/// @tparam Session team::RobotSession or team::CloudSession.
+template <class Session>
+class ServiceInbox {
  public:
   /// Joins the robots that are named; where none is, whoever publishes scans that no other service
   /// answers, now or since that service is gone.
-  /// @param participant and all others outlive this.
+  /// @param topics where each of the robots is told about. @param participant and all others
+  /// outlive this.
   ServiceInbox(const Participant& participant,
                const std::vector<std::string>& robots,
-               Service& service,
-               Outbox& outbox,
+               team::SessionList<Session>& sessions,
+               std::vector<RobotTopics*> topics,
                Refusals& refusals);
 
   /// Waits until something has arrived, or for so long, and delivers it.
@@ -46,13 +50,7 @@ class ServiceInbox final : private BasicRobotListener<Kind> {
   WaitSet& wait_set() { return wait_set_; }
 
  private:
-  using Pose = typename Kind::Pose;
-
-  void TakeScan(const std::string& robot, typename Kind::Scan scan) override;
-  void TakeOdometry(const std::string& robot, Timestamp stamp, const Pose& T_odom_robot) override;
-  void TakeOdometryUse(const std::string& robot, bool is_published) override;
-  void TakeInitialPose(const std::string& robot,
-                       const typename Kind::UncertainPose& map_robot) override;
+  using Kind = typename Session::Kind;
 
   struct Robot {
     Claim claim;
@@ -69,8 +67,8 @@ class ServiceInbox final : private BasicRobotListener<Kind> {
   void StopListening(Robot& robot);
 
   const Participant& participant_;
-  Service& service_;
-  Outbox& outbox_;
+  team::SessionList<Session>& sessions_;
+  std::vector<RobotTopics*> topics_;
   Refusals& refusals_;
   bool finds_robots_;
   WaitSet wait_set_;
@@ -81,5 +79,11 @@ class ServiceInbox final : private BasicRobotListener<Kind> {
   std::set<std::string> publishers_;  // Robots whose scans are published.
   std::map<std::string, Robot> robots_;
 };
+
+/// Brings the service for clouds what robots say.
+using CloudInbox = ServiceInbox<team::CloudSession>;
+
+extern template class ServiceInbox<team::RobotSession>;
+extern template class ServiceInbox<team::CloudSession>;
 
 }  // namespace qwsm::dds

@@ -11,12 +11,12 @@ namespace qwsm::dds {
 TeamInbox::TeamInbox(const Participant& participant,
                      const std::vector<std::string>& robots,
                      team::TeamService& service,
-                     TeamOutbox& outbox,
+                     std::vector<RobotTopics*> topics,
                      Refusals& refusals)
     : service_(service),
       refusals_(refusals),
       shared_scans_(participant, kSharedScansTopic, Profile::kSharedScans),
-      robots_(participant, robots, service, outbox, refusals) {
+      robots_(participant, robots, service.robots(), std::move(topics), refusals) {
   robots_.wait_set().Add(shared_scans_.handle());
 }
 

@@ -7,12 +7,9 @@
 #include <vector>
 
 #include "service/dds/service/service_inbox.hpp"
-#include "service/dds/service/team_outbox.hpp"
 #include "service/team/service/team_service.hpp"
 
 namespace qwsm::dds {
-
-extern template class ServiceInbox<team::Planar, team::TeamService, TeamOutbox>;
 
 /// Brings the service what robots and other services say. Used by one thread.
 class TeamInbox {
@@ -21,7 +18,7 @@ class TeamInbox {
   TeamInbox(const Participant& participant,
             const std::vector<std::string>& robots,
             team::TeamService& service,
-            TeamOutbox& outbox,
+            std::vector<RobotTopics*> topics,
             Refusals& refusals);
 
   /// Waits until something has arrived, or for so long, and delivers it.
@@ -34,7 +31,7 @@ class TeamInbox {
   Refusals& refusals_;
   Reader<wire::RelevantScan> shared_scans_;
   std::size_t lost_services_ = 0;
-  ServiceInbox<team::Planar, team::TeamService, TeamOutbox> robots_;
+  ServiceInbox<team::RobotSession> robots_;
 };
 
 }  // namespace qwsm::dds

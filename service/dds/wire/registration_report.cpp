@@ -7,6 +7,28 @@
 
 namespace qwsm::dds {
 
+RegistrationReport ReportOf(const team::CloudAnswer& answer) {
+  const slam6d::SlamStep& registration = answer.step.registration;
+  const slam6d::SlamStatus status = registration.status;
+  const bool has_match =
+      status == slam6d::SlamStatus::kMatched || status == slam6d::SlamStatus::kDeadReckoned;
+  return {.robot = answer.robot,
+          .stamp = answer.step.stamp,
+          .map_robot = answer.step.map_robot,
+          .status = status,
+          .reason = std::string(has_match ? Reason(registration.match.status) : NameOf(status)),
+          .points = static_cast<std::uint32_t>(registration.points),
+          .pairs = static_cast<std::uint32_t>(registration.match.pairs),
+          .iterations = static_cast<std::uint32_t>(registration.match.iterations),
+          .overlap = registration.overlap,
+          .rms_residual_m = registration.match.rms_residual_m,
+          .loops_to = {registration.loops_to.begin(), registration.loops_to.end()},
+          .duration = answer.matching,
+          .latency = answer.latency,
+          .scans = answer.scans,
+          .dropped = answer.dropped};
+}
+
 wire::RegistrationReport ToWire(const RegistrationReport& report, const std::string& map_frame) {
   wire::RegistrationReport sample{};
   AddCommonFields(report, map_frame, sample);

@@ -10,6 +10,7 @@
 
 #include "qwsm/sensor/laser_scan.hpp"
 #include "service/dds/entities/wire_types.hpp"
+#include "service/team/sinks/service_sink.hpp"
 #include "slam6d/mapping/slam.hpp"
 
 namespace qwsm::dds {
@@ -32,6 +33,9 @@ struct RegistrationReport {
   std::uint64_t scans = 0;                ///< Of this robot so far.
   std::uint64_t dropped = 0;              ///< Of these, left out: the queue was full.
 };
+
+/// What an answer says to others.
+RegistrationReport ReportOf(const team::CloudAnswer& answer);
 
 /// A sample that points into the report and the name of the frame: write it while both live.
 wire::RegistrationReport ToWire(const RegistrationReport& report, const std::string& map_frame);

@@ -7,7 +7,7 @@
 
 #include "service/dds/entities/wire_types.hpp"
 #include "service/dds/wire/match_report.hpp"
-#include "service/team/sinks/team_sink.hpp"
+#include "service/team/sinks/service_sink.hpp"
 
 namespace qwsm::dds {
 

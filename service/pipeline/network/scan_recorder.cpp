@@ -11,17 +11,16 @@ constexpr auto kPatienceForOdometry = std::chrono::milliseconds(500);
 
 }  // namespace
 
-void ScanRecorder::TakeScan(const std::string&, LaserScan scan) {
+bool ScanRecorder::TakeScan(std::string_view, LaserScan scan) {
   waiting_.push_back({.scan = std::move(scan), .arrived = Clock::now()});
+  return true;
 }
 
-void ScanRecorder::TakeOdometry(const std::string&, Timestamp stamp, const Pose2& T_odom_robot) {
+void ScanRecorder::TakeOdometry(std::string_view, Timestamp stamp, const Pose2& T_odom_robot) {
   odometry_.Add(stamp, T_odom_robot);
 }
 
-void ScanRecorder::TakeOdometryUse(const std::string&, bool is_published) {
-  expects_odometry_ = is_published;
-}
+void ScanRecorder::ExpectOdometry(std::string_view, bool expected) { expects_odometry_ = expected; }
 
 void ScanRecorder::WriteReady() {
   const Clock::time_point now = Clock::now();

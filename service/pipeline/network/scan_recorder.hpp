@@ -6,23 +6,24 @@
 #include <cstddef>
 #include <deque>
 #include <ostream>
+#include <string_view>
 
-#include "service/dds/robot/robot_listener.hpp"
 #include "service/io/logs/carmen_writer.hpp"
 #include "service/team/session/odometry_buffer.hpp"
+#include "service/team/session/robot_listener.hpp"
 
 namespace qwsm::pipeline {
 
 /// Writes what a robot says as a CARMEN log, each scan with the odometry of its moment.
-class ScanRecorder final : public dds::RobotListener {
+class ScanRecorder final : public team::RobotListener<team::Planar> {
  public:
   /// The stream outlives this.
   explicit ScanRecorder(std::ostream& stream) : carmen_(stream) {}
 
-  void TakeScan(const std::string& robot, LaserScan scan) override;
-  void TakeOdometry(const std::string& robot, Timestamp stamp, const Pose2& T_odom_robot) override;
-  void TakeOdometryUse(const std::string& robot, bool is_published) override;
-  void TakeInitialPose(const std::string&, const UncertainPose2&) override {}
+  bool TakeScan(std::string_view robot, LaserScan scan) override;
+  void TakeOdometry(std::string_view robot, Timestamp stamp, const Pose2& T_odom_robot) override;
+  void ExpectOdometry(std::string_view robot, bool expected) override;
+  void PlaceAt(std::string_view, const UncertainPose2&) override {}
 
   /// Writes the scans whose odometry is known, or will not come.
   void WriteReady();

@@ -16,10 +16,10 @@ void CloudResults::Keep(const qwsm::team::CloudAnswer& answer) {
   std::vector<RegisteredScan>& scans = robots_[answer.robot].scans;
   scans.push_back({.name = fmt::format("scan{:03}", scans.size()),
                    .file = {},
-                   .stamp = answer.scan->stamp,
-                   .T_odom_scan = answer.T_odom_sensor,
-                   .cloud = WithinRange(answer.scan->cloud, options_.slam),
-                   .step = answer.step,
+                   .stamp = answer.step.stamp,
+                   .T_odom_scan = answer.step.T_odom_sensor,
+                   .cloud = WithinRange(answer.step.scan->cloud, options_.slam),
+                   .step = answer.step.registration,
                    .time_s = std::chrono::duration<double>(answer.matching).count()});
 }
 

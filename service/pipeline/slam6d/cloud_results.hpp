@@ -21,11 +21,7 @@ class CloudResults final : public qwsm::team::CloudSink {
       : folder_(folder), options_(options) {}
 
   void TakeAnswer(const qwsm::team::CloudAnswer& answer) override { Keep(answer); }
-  void TakeReport(const qwsm::team::CloudAnswer&) override {}
   void TakeRestored(const qwsm::team::CloudAnswer& answer) override { Keep(answer); }
-  void TakeMap(const qwsm::team::CloudMap&) override {}
-  void TakeStatus(const qwsm::team::TeamStatus&) override {}
-  void TakeEvent(const qwsm::team::TeamEvent&) override {}
 
   /// Fits the scans to each other, if that is wanted, and writes. @pre the service has stopped.
   /// @throws qwsm::io::WriteError.

@@ -11,7 +11,8 @@
 
 namespace qwsm::pipeline {
 
-void TeamLog::TakeEvent(const team::TeamEvent& event) {
+template <class Sink>
+void TeamLog<Sink>::TakeEvent(const team::TeamEvent& event) {
   const std::string subject = event.robot ? team::DisplayName(*event.robot) + ": " : "";
   const std::string text = subject + std::string(event.text);
   const std::optional<std::size_t> held_back = repeats_.Pass(text, RepeatFilter::Clock::now());
@@ -22,12 +23,16 @@ void TeamLog::TakeEvent(const team::TeamEvent& event) {
               *held_back > 0 ? fmt::format(" ({} times more since)", *held_back) : "");
 }
 
-void TeamLog::TakeStatus(const team::TeamStatus& status) {
+template <class Sink>
+void TeamLog<Sink>::TakeStatus(const team::TeamStatus& status) {
   std::uint64_t dropped = 0;
   for (const team::RobotStatus& robot : status.robots) dropped += robot.counts.dropped;
   if (dropped == dropped_ || !repeats_.Pass("dropped", RepeatFilter::Clock::now())) return;
   spdlog::warn("{} scans were dropped: more arrive than can be matched", dropped - dropped_);
   dropped_ = dropped;
 }
+
+template class TeamLog<team::TeamSink>;
+template class TeamLog<team::CloudSink>;
 
 }  // namespace qwsm::pipeline

@@ -26,12 +26,6 @@ class TeamResults final : public team::TeamSink {
   ~TeamResults() override;
 
   void TakeAnswer(const team::RobotAnswer& answer) override;
-  void TakeReport(const team::RobotAnswer&) override {}
-  void TakeRelevantScan(const team::TeamScan&) override {}
-  void TakeNewPoints(const team::NewPoints&) override {}
-  void TakeMap(const team::MapPicture&) override {}
-  void TakeStatus(const team::TeamStatus&) override {}
-  void TakeEvent(const team::TeamEvent&) override {}
 
   /// Writes what can only be known at the end, on all cores, for who stops a service waits.
   /// @pre the service has stopped.

@@ -12,7 +12,7 @@
 
 namespace qwsm::team {
 
-ServiceJournal::ServiceJournal(const std::string& service, const Place& place, Tell tell)
+ServiceJournal::ServiceJournal(const std::string& service, const Place& place, TellEvent tell)
     : tell_(std::move(tell)), identity_(fmt::format("{}-{:08x}", service, std::random_device{}())) {
   if (place.file.empty()) return;
   journal_ = std::make_unique<Journal>(

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "service/team/journal/journal.hpp"
-#include "service/team/sinks/team_sink.hpp"
+#include "service/team/sinks/service_sink.hpp"
 
 namespace qwsm::team {
 
@@ -23,11 +23,10 @@ class ServiceJournal {
     std::filesystem::path file;
     std::string_view kind;  ///< Of their contents.
   };
-  using Tell = std::function<void(const TeamEvent&)>;
 
   /// @param tell takes what a person should know. @throws io::JournalError where it cannot be
   /// opened or is no journal.
-  ServiceJournal(const std::string& service, const Place& place, Tell tell);
+  ServiceJournal(const std::string& service, const Place& place, TellEvent tell);
 
   const std::string& identity() const { return identity_; }
   /// Whether scans are kept.
@@ -53,7 +52,7 @@ class ServiceJournal {
  private:
   void Warn(const std::string& text) const;
 
-  const Tell tell_;
+  const TellEvent tell_;
   std::string identity_;
   std::unique_ptr<Journal> journal_;  // Null: there is none.
 };

@@ -10,7 +10,7 @@
 namespace qwsm::team {
 namespace {
 
-slam6d::UncertainPose3 StartOf(const RobotStartOptions& robot) {
+slam6d::UncertainPose3 SpatialStart(const RobotStartOptions& robot) {
   return {.T_a_b = {.rotation = slam6d::RotationFromRollPitchYaw({0.0, 0.0, robot.heading_rad}),
                     .translation_m = {robot.x_m, robot.y_m, 0.0}}};
 }
@@ -27,7 +27,7 @@ io::JournalEntry ToJournal(const KeptCloud& kept, const std::string& service) {
                                                .T_slam_odom = kept.T_slam_odom})};
 }
 
-KeptCloud FromJournal(const io::JournalEntry& entry) {
+KeptCloud CloudFromJournal(const io::JournalEntry& entry) {
   slam6d::io::JournaledCloud kept = slam6d::io::DecodeCloud(entry.contents);
   return {
       .robot = entry.robot,
@@ -44,93 +44,74 @@ KeptCloud FromJournal(const io::JournalEntry& entry) {
 
 CloudService::CloudService(const CloudServiceOptions& options,
                            const slam6d::LoopCloser& closer,
-                           CloudSink& sink,
+                           SinkList<CloudSink> sinks,
                            const std::filesystem::path& journal)
     : options_(options),
+      sinks_(std::move(sinks)),
       context_{.closer = closer,
-               .sink = sink,
+               .sinks = sinks_,
                .keep = [this](const KeptCloud& scan) { Keep(scan); },
                .report =
                    [this](const CloudAnswer& answer) {
-                     journal_.TellWhenSafe([this, answer] { context_.sink.TakeReport(answer); });
+                     host_.journal().TellWhenSafe(
+                         [this, answer] { sinks_.Tell(&CloudSink::TakeReport, answer); });
                    }},
-      begun_(std::chrono::steady_clock::now()),
-      sessions_([this](std::string robot) { return MakeSession(std::move(robot)); }),
-      journal_(options.team.service,
-               {.file = journal, .kind = slam6d::io::kCloudJournal},
-               [&sink](const TeamEvent& event) { sink.TakeEvent(event); }) {
-  for (const RobotStartOptions& robot : options_.team.robots) {
-    sessions_.PlaceAt(robot.name, StartOf(robot));
-  }
-  journal_.Restore([this](const io::JournalEntry& entry) { Restore(FromJournal(entry)); });
+      host_(
+          options_.team,
+          {.file = journal, .kind = slam6d::io::kCloudJournal},
+          [this](const TeamEvent& event) { sinks_.Tell(&CloudSink::TakeEvent, event); },
+          [this](std::string robot) { return MakeSession(std::move(robot)); }) {
+  host_.Restore([this](const io::JournalEntry& entry) { Restore(CloudFromJournal(entry)); });
 }
 
 CloudService::~CloudService() { Stop(); }
 
 void CloudService::Start() {
-  const CloudTeamOptions& team = options_.team;
-  sessions_.Start(team.threads);
-  if (team.map_period_s > 0.0) {
-    merging_ =
-        std::make_unique<PeriodicTask>(std::chrono::duration<double>(team.map_period_s),
-                                       true,
-                                       [this](const std::stop_token& stop) { TellMaps(stop); });
-  }
-  reporting_ = std::make_unique<PeriodicTask>(
-      std::chrono::duration<double>(team.status_period_s), false, [this](const std::stop_token&) {
-        context_.sink.TakeStatus(Status());
-      });
-}
-
-void CloudService::Stop() {
-  merging_.reset();
-  reporting_.reset();
-  sessions_.Stop();
-  journal_.Stop();
-}
-
-void CloudService::WaitUntilIdle() {
-  sessions_.WaitUntilIdle();
-  journal_.WaitUntilSettled();
+  host_.Start({.tell_status = [this] { sinks_.Tell(&CloudSink::TakeStatus, Status()); },
+               .tell_maps = [this](const std::stop_token& stop) { TellMaps(stop); },
+               .map_period = std::chrono::duration<double>(options_.team.map_period_s)});
 }
 
 void CloudService::Restore(KeptCloud scan) {
-  if (const auto session = sessions_.Of(scan.robot)) session->Restore(std::move(scan));
+  if (const auto session = robots().Of(scan.robot)) session->Restore(std::move(scan));
 }
 
 void CloudService::Keep(const KeptCloud& scan) {
-  if (journal_) journal_.Append(ToJournal(scan, identity()), {});
+  if (host_.journal()) host_.journal().Append(ToJournal(scan, identity()), {});
 }
 
-TeamStatus CloudService::Status() const {
-  TeamStatus status{.service = identity(),
-                    .uptime = std::chrono::steady_clock::now() - begun_,
-                    .robots = sessions_.Statuses(),
-                    .journal = journal_.Status()};
-  for (const auto& session : sessions_.All()) {
+MapStatus CloudService::StatusOfModels() const {
+  MapStatus status;
+  for (const auto& session : host_.sessions().All()) {
     const MapStatus model = session->ModelStatus();
-    status.map.scans += model.scans;
-    status.map.points += model.points;
+    status.scans += model.scans;
+    status.points += model.points;
   }
   return status;
 }
 
 std::vector<std::pair<std::string, slam6d::RefinementResult>> CloudService::Refine() {
   std::vector<std::pair<std::string, slam6d::RefinementResult>> refined;
-  for (const auto& session : sessions_.All()) {
+  for (const auto& session : robots().All()) {
     refined.emplace_back(session->name(), session->Refine());
   }
   return refined;
 }
 
 std::shared_ptr<CloudSession> CloudService::MakeSession(std::string robot) {
-  return std::make_shared<CloudSession>(std::move(robot), options_.team, options_.slam, context_);
+  const RobotStartOptions* const start = FindStart(options_.team, robot);
+  auto session =
+      std::make_shared<CloudSession>(std::move(robot), options_.team, options_.slam, context_);
+  if (start) session->PlaceAt(SpatialStart(*start));
+  return session;
 }
 
 void CloudService::TellMaps(const std::stop_token& stop) {
-  for (const auto& session : sessions_.All()) {
+  for (const auto& session : robots().All()) {
     if (stop.stop_requested()) return;
-    if (const std::optional<CloudMap> map = session->NewMap()) context_.sink.TakeMap(*map);
+    if (const std::optional<CloudMap> map = session->NewMap()) {
+      sinks_.Tell(&CloudSink::TakeMap, *map);
+    }
   }
 }
 

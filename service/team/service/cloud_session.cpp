@@ -32,7 +32,10 @@ CloudSession::CloudSession(std::string name,
                            const CloudContext& context)
     : thinning_(options.map),
       context_(context),
-      intake_(std::move(name), options.session),
+      events_(
+          std::move(name),
+          [this](const TeamEvent& event) { context_.sinks.Tell(&CloudSink::TakeEvent, event); }),
+      intake_(events_, options.session),
       slam_(slam, context.closer) {}
 
 void CloudSession::Restore(KeptCloud kept) {
@@ -43,30 +46,12 @@ void CloudSession::Restore(KeptCloud kept) {
 
 void CloudSession::PlaceAt(const slam6d::UncertainPose3& map_robot) {
   const std::string_view objection = ObjectionTo(map_robot);
-  if (!objection.empty()) return Tell(true, objection);
+  if (!objection.empty()) return events_.Warn(objection);
   const std::lock_guard lock(mutex_);
   if (!stops_.empty() || !to_restore_.empty()) {
-    return Tell(true, "its model has begun: it is where its scans say");
+    return events_.Warn("its model has begun: it is where its scans say");
   }
   T_map_start_ = map_robot.T_a_b;
-}
-
-void CloudSession::Join() {
-  if (intake_.Join()) Tell(false, "joined");
-}
-
-void CloudSession::Lose() {
-  if (intake_.Lose()) Tell(true, "is lost: nobody publishes its scans any more");
-}
-
-void CloudSession::HandOver() {
-  intake_.HandOver();
-  Tell(false, "is answered by another service");
-}
-
-bool CloudSession::TakeScan(CloudScan scan) {
-  Join();
-  return intake_.TakeScan(std::move(scan));
 }
 
 std::optional<Lane::Time> CloudSession::ReadyAt() const {
@@ -84,13 +69,12 @@ void CloudSession::RunOne() {
   T_odom_sensor_last_ = EstimateSensor(*work);
   const auto scan = std::make_shared<const CloudScan>(std::move(work->scan));
   CloudAnswer answer = Register(scan);
+  const SessionCounts counts = Note(*work, answer);
   answer.T_odom_robot = work->T_odom_robot;
-  Note(*work, answer);
-  const SessionCounts counts = intake_.Status().counts;
+  answer.latency = steady_clock::now() - work->arrived;
   answer.scans = counts.scans;
   answer.dropped = counts.dropped;
-  answer.latency = steady_clock::now() - work->arrived;
-  context_.sink.TakeAnswer(answer);
+  context_.sinks.Tell(&CloudSink::TakeAnswer, answer);
   context_.keep({.robot = name(),
                  .sequence = ++sequence_,
                  .scan = scan,
@@ -111,24 +95,26 @@ bool CloudSession::RestoreOne() {
   sequence_ = std::max(sequence_, kept.sequence);
   T_odom_sensor_last_ = kept.T_odom_sensor;
   T_slam_odom_ = kept.T_slam_odom;
-  context_.sink.TakeRestored(Register(kept.scan));
+  context_.sinks.Tell(&CloudSink::TakeRestored, Register(kept.scan));
   if (is_last) {
-    Tell(false, fmt::format("has its {} scans back from the journal", slam_.T_map_scan().size()));
+    events_.Inform(
+        fmt::format("has its {} scans back from the journal", slam_.T_map_scan().size()));
   }
   return true;
 }
 
-CloudAnswer CloudSession::Register(std::shared_ptr<const CloudScan> scan) {
+CloudAnswer CloudSession::Register(const std::shared_ptr<const CloudScan>& scan) {
   const auto begun = steady_clock::now();
-  slam6d::SlamStep step = slam_.Add(scan->cloud, T_odom_sensor_last_);
+  slam6d::SlamStep registration = slam_.Add(scan->cloud, T_odom_sensor_last_);
   const auto matching = steady_clock::now() - begun;
   Draw(*scan);
-  const slam6d::UncertainPose3 map_robot = RobotBy(step, scan->T_robot_sensor);
+  const slam6d::UncertainPose3 map_robot = RobotBy(registration, scan->T_robot_sensor);
   return {.robot = name(),
-          .scan = std::move(scan),
-          .step = std::move(step),
-          .T_odom_sensor = T_odom_sensor_last_,
-          .map_robot = map_robot,
+          .step = {.stamp = scan->stamp,
+                   .map_robot = map_robot,
+                   .scan = scan,
+                   .T_odom_sensor = T_odom_sensor_last_,
+                   .registration = std::move(registration)},
           .matching = matching};
 }
 
@@ -166,15 +152,15 @@ void CloudSession::Draw(const CloudScan& scan) {
   is_map_new_ = true;
 }
 
-void CloudSession::Note(const Work& work, const CloudAnswer& answer) {
-  const slam6d::SlamStatus status = answer.step.status;
-  intake_.NoteAnswer({.stamp = answer.scan->stamp,
-                      .arrived = work.arrived,
-                      .working = answer.matching,
-                      .is_dead_reckoned = status == slam6d::SlamStatus::kDeadReckoned ||
-                                          status == slam6d::SlamStatus::kUnusable,
-                      .is_relevant = status != slam6d::SlamStatus::kUnusable,
-                      .has_odometry = work.T_odom_robot.has_value()});
+SessionCounts CloudSession::Note(const Work& work, const CloudAnswer& answer) {
+  const slam6d::SlamStatus status = answer.step.registration.status;
+  return intake_.NoteAnswer({.stamp = answer.step.stamp,
+                             .arrived = work.arrived,
+                             .working = answer.matching,
+                             .is_dead_reckoned = status == slam6d::SlamStatus::kDeadReckoned ||
+                                                 status == slam6d::SlamStatus::kUnusable,
+                             .is_relevant = status != slam6d::SlamStatus::kUnusable,
+                             .has_odometry = work.T_odom_robot.has_value()});
 }
 
 std::optional<CloudMap> CloudSession::NewMap() {
@@ -200,10 +186,6 @@ MapStatus CloudSession::ModelStatus() const {
   MapStatus status{.scans = stops_.size()};
   for (const Stop& stop : stops_) status.points += stop.thinned->size();
   return status;
-}
-
-void CloudSession::Tell(bool is_warning, std::string_view text) const {
-  context_.sink.TakeEvent({.robot = name(), .is_warning = is_warning, .text = text});
 }
 
 }  // namespace qwsm::team

@@ -16,13 +16,14 @@
 #include "service/team/service/cloud_options.hpp"
 #include "service/team/session/session_intake.hpp"
 #include "service/team/sinks/cloud_sink.hpp"
+#include "service/team/sinks/sink_list.hpp"
 
 namespace qwsm::team {
 
 /// What a session for clouds is given by the service that keeps it.
 struct CloudContext {
   const slam6d::LoopCloser& closer;
-  CloudSink& sink;
+  const SinkList<CloudSink>& sinks;
   /// Puts a scan that has been registered into the journal.
   std::function<void(const KeptCloud&)> keep;
   /// Tells of an answer once what it says is safe.
@@ -37,28 +38,22 @@ struct CloudContext {
 /// more, before all others.
 class CloudSession final : public Lane {
  public:
+  using Kind = Spatial;
+
   CloudSession(std::string name,
                const CloudTeamOptions& options,
                const slam6d::SlamOptions& slam,
                const CloudContext& context);
 
   const std::string& name() const { return intake_.name(); }
+  /// Takes its messages.
+  SessionIntake<Spatial>& intake() { return intake_; }
 
   /// A scan of the journal, to be registered before those that come. @pre no worker runs yet.
   void Restore(KeptCloud kept);
   /// Where the robot is now; counts until its first scan.
   void PlaceAt(const slam6d::UncertainPose3& map_robot);
-  void Join();
-  void Lose();
-  void HandOver();
-  /// @return false if it was refused. A scan that is taken may still be dropped for newer ones.
-  bool TakeScan(CloudScan scan);
-  void TakeOdometry(Timestamp stamp, const slam6d::Pose3& T_odom_robot) {
-    intake_.TakeOdometry(stamp, T_odom_robot);
-  }
-  void ExpectOdometry(bool expected) { intake_.ExpectOdometry(expected); }
 
-  RobotStatus Status() const { return intake_.Status(); }
   std::optional<Time> ReadyAt() const override;
   void RunOne() override;
 
@@ -83,13 +78,13 @@ class CloudSession final : public Lane {
   slam6d::Pose3 EstimateSensor(const Work& work);
   slam6d::Pose3 EstimateFirst(const Work& work);
   /// Registers the scan, beginning at T_odom_sensor_last_.
-  CloudAnswer Register(std::shared_ptr<const CloudScan> scan);
+  CloudAnswer Register(const std::shared_ptr<const CloudScan>& scan);
   void Draw(const CloudScan& scan);
-  void Note(const Work& work, const CloudAnswer& answer);
-  void Tell(bool is_warning, std::string_view text) const;
+  SessionCounts Note(const Work& work, const CloudAnswer& answer);
 
   const slam6d::ReductionOptions thinning_;
   const CloudContext context_;
+  const RobotEvents events_;
   SessionIntake<Spatial> intake_;
 
   // Of the worker alone.

@@ -31,49 +31,21 @@ RobotSession::RobotSession(std::string name,
                            const MapperOptions& mapper,
                            SessionContext context)
     : context_(std::move(context)),
-      intake_(std::move(name), options),
+      events_(std::move(name),
+              [this](const TeamEvent& event) { context_.sinks.Tell(&TeamSink::TakeEvent, event); }),
+      intake_(events_, options),
       tracker_(mapper),
       sequence_(
           std::max(context_.map.LastSequence(context_.service, this->name()), SequenceOfNow())) {}
 
-void RobotSession::SetStart(const UncertainPose2& map_robot) {
-  const std::lock_guard lock(mutex_);
-  start_ = map_robot;
-}
-
-void RobotSession::Join() {
-  if (intake_.Join()) Tell(false, "joined");
-}
-
-void RobotSession::Lose() {
-  if (intake_.Lose()) Tell(true, "is lost: nobody publishes its scans any more");
-}
-
-void RobotSession::HandOver() {
-  intake_.HandOver();
-  Tell(false, "is answered by another service");
-}
-
-bool RobotSession::TakeScan(LaserScan scan) {
-  Join();
-  return intake_.TakeScan(std::move(scan));
-}
-
 void RobotSession::PlaceAt(const UncertainPose2& map_robot) {
   const std::string_view objection = ObjectionTo(map_robot);
-  if (!objection.empty()) return Tell(true, objection);
+  if (!objection.empty()) return events_.Warn(objection);
   {
     const std::lock_guard lock(mutex_);
     initial_pose_ = map_robot;
   }
-  Tell(false, "was told where it is");
-}
-
-RobotStatus RobotSession::Status() const {
-  RobotStatus status = intake_.Status();
-  const std::lock_guard lock(mutex_);
-  status.map_robot = map_robot_;
-  return status;
+  events_.Inform("was told where it is");
 }
 
 void RobotSession::RunOne() {
@@ -100,9 +72,8 @@ void RobotSession::Answer(Work& work, std::span<const ScanPoint> points) {
     step = tracker_.Track(*map, observation, points);
   }
   const auto answered = steady_clock::now();
-  Note(work, step, answered - begun);
+  const SessionCounts counts = Note(work, step, answered - begun);
   context_.map.robots().Report(name(), step.map_robot.T_a_b.translation_m(), answered);
-  const SessionCounts counts = intake_.Status().counts;
   const RobotAnswer answer{.robot = name(),
                            .step = step,
                            .T_odom_robot = work.T_odom_robot,
@@ -110,7 +81,7 @@ void RobotSession::Answer(Work& work, std::span<const ScanPoint> points) {
                            .latency = answered - work.arrived,
                            .scans = counts.scans,
                            .dropped = counts.dropped};
-  context_.sink.TakeAnswer(answer);
+  context_.sinks.Tell(&TeamSink::TakeAnswer, answer);
   if (step.relevant) {
     context_.extend({.key = {.service = context_.service, .robot = name(), .sequence = ++sequence_},
                      .scan = step.relevant_scan,
@@ -123,11 +94,9 @@ void RobotSession::Answer(Work& work, std::span<const ScanPoint> points) {
 
 bool RobotSession::Place(const ScanMap& map, const Work& work, std::span<const ScanPoint> points) {
   std::optional<UncertainPose2> initial_pose;
-  std::optional<UncertainPose2> start;
   {
     const std::lock_guard lock(mutex_);
     initial_pose = std::exchange(initial_pose_, std::nullopt);
-    start = start_;
   }
   if (initial_pose) {
     tracker_.PlaceAt(*initial_pose);
@@ -139,8 +108,8 @@ bool RobotSession::Place(const ScanMap& map, const Work& work, std::span<const S
     tracker_.SuspectOdometryReset();
     return true;
   }
-  if (start) {
-    tracker_.PlaceAt(*start);
+  if (context_.start) {
+    tracker_.PlaceAt(*context_.start);
     return true;
   }
   if (!map.empty()) return RelocalizeIn(map, work.scan.stamp, points);
@@ -154,13 +123,12 @@ bool RobotSession::RelocalizeIn(const ScanMap& map,
   last_relocalization_ = stamp;
   const std::optional<RelocalizationResult> found = Relocalize(map, points);
   if (!found || found->rival) {
-    Tell(true,
-         found ? "fits several places in the map: an initial pose would tell which"
-               : "fits nowhere in the map: an initial pose would tell where it is");
+    events_.Warn(found ? "fits several places in the map: an initial pose would tell which"
+                       : "fits nowhere in the map: an initial pose would tell where it is");
     return false;
   }
   tracker_.PlaceAt(Loosened({.T_a_b = found->best.T_map_robot}));
-  Tell(false, "was found in the map");
+  events_.Inform("was found in the map");
   return true;
 }
 
@@ -178,21 +146,16 @@ void RobotSession::HideTeammates(Work& work) {
              work.scan);
 }
 
-void RobotSession::Note(const Work& work,
-                        const MappingStep& step,
-                        std::chrono::nanoseconds matching) {
-  intake_.NoteAnswer({.stamp = step.stamp,
-                      .arrived = work.arrived,
-                      .working = matching,
-                      .is_dead_reckoned = step.status == StepStatus::kDeadReckoned,
-                      .is_relevant = step.relevant,
-                      .has_odometry = work.T_odom_robot.has_value()});
-  const std::lock_guard lock(mutex_);
-  map_robot_ = step.map_robot;
-}
-
-void RobotSession::Tell(bool is_warning, std::string_view text) const {
-  context_.sink.TakeEvent({.robot = name(), .is_warning = is_warning, .text = text});
+SessionCounts RobotSession::Note(const Work& work,
+                                 const MappingStep& step,
+                                 std::chrono::nanoseconds matching) {
+  return intake_.NoteAnswer({.stamp = step.stamp,
+                             .map_robot = step.map_robot,
+                             .arrived = work.arrived,
+                             .working = matching,
+                             .is_dead_reckoned = step.status == StepStatus::kDeadReckoned,
+                             .is_relevant = step.relevant,
+                             .has_odometry = work.T_odom_robot.has_value()});
 }
 
 }  // namespace qwsm::team

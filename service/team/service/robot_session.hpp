@@ -14,6 +14,7 @@
 #include "service/team/session/session_intake.hpp"
 #include "service/team/session/session_options.hpp"
 #include "service/team/session/worker_pool.hpp"
+#include "service/team/sinks/sink_list.hpp"
 #include "service/team/sinks/team_sink.hpp"
 
 namespace qwsm::team {
@@ -22,8 +23,9 @@ namespace qwsm::team {
 struct SessionContext {
   std::string service;  ///< For the keys of its relevant scans.
   TeamMap& map;
-  TeamSink& sink;
-  double teammate_radius_m = 0.0;  ///< See TeamOptions.
+  const SinkList<TeamSink>& sinks;
+  std::optional<UncertainPose2> start;  ///< Where the robot starts if nothing better is known.
+  double teammate_radius_m = 0.0;       ///< See TeamOptions.
   /// Puts a relevant scan into the map, the journal and the network.
   std::function<void(const TeamScan&, std::span<const ScanPoint>)> extend;
   /// Tells of an answer once what it says is safe.
@@ -38,33 +40,19 @@ struct SessionContext {
 /// answered.
 class RobotSession final : public Lane {
  public:
+  using Kind = Planar;
+
   RobotSession(std::string name,
                const SessionOptions& options,
                const MapperOptions& mapper,
                SessionContext context);
 
   const std::string& name() const { return intake_.name(); }
+  /// Takes its messages.
+  SessionIntake<Planar>& intake() { return intake_; }
 
-  /// Where the robot starts if nothing better is known.
-  void SetStart(const UncertainPose2& map_robot);
-  /// Its publisher is there, again.
-  void Join();
-  /// Its publisher is gone: it will come back where it left.
-  void Lose();
-  /// Another service answers it from now on. If it joins again, it is where the map says by then.
-  void HandOver();
-
-  /// @return false if it was refused. A scan that is taken may still be dropped for newer ones.
-  bool TakeScan(LaserScan scan);
-  void TakeOdometry(Timestamp stamp, const Pose2& T_odom_robot) {
-    intake_.TakeOdometry(stamp, T_odom_robot);
-  }
-  /// Whether scans are to wait for odometry. They are, from the first reading on.
-  void ExpectOdometry(bool expected) { intake_.ExpectOdometry(expected); }
   /// Somebody says where the robot is now.
   void PlaceAt(const UncertainPose2& map_robot);
-
-  RobotStatus Status() const;
 
   std::optional<Time> ReadyAt() const override { return intake_.ReadyAt(); }
   void RunOne() override;
@@ -76,16 +64,14 @@ class RobotSession final : public Lane {
   bool Place(const ScanMap& map, const Work& work, std::span<const ScanPoint> points);
   bool RelocalizeIn(const ScanMap& map, Timestamp stamp, std::span<const ScanPoint> points);
   void HideTeammates(Work& work);
-  void Note(const Work& work, const MappingStep& step, std::chrono::nanoseconds matching);
-  void Tell(bool is_warning, std::string_view text) const;
+  SessionCounts Note(const Work& work, const MappingStep& step, std::chrono::nanoseconds matching);
 
   const SessionContext context_;
+  const RobotEvents events_;
   SessionIntake<Planar> intake_;
 
   mutable std::mutex mutex_;  // Guards what follows.
   std::optional<UncertainPose2> initial_pose_;
-  std::optional<UncertainPose2> start_;
-  UncertainPose2 map_robot_;
 
   // Of the worker alone.
   RobotTracker tracker_;

@@ -2,60 +2,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstddef>
-#include <set>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "service/team/map/map_sharing.hpp"
-#include "service/team/session/session_options.hpp"
+#include "service/team/service/service_options.hpp"
 
 namespace qwsm::team {
 
-/// A service for a team of robots.
-struct TeamOptions {
-  std::string service = "qwsm";
+/// A service for a team of robots with laser scanners.
+struct TeamOptions : ServiceOptions {
   MapSharing map = MapSharing::kTeam;
-  std::vector<RobotStartOptions> robots;
-  SessionOptions session;
   double teammate_radius_m = 0.7;
-  int threads = 0;
-  double map_period_s = 5.0;
-  double status_period_s = 1.0;
 };
 
 template <class Visitor>
 void Describe(Visitor& visit, TeamOptions& o) {
-  visit("service", o.service, {.help = "name of this service among those of the team"});
+  Describe(visit, static_cast<ServiceOptions&>(o));
   visit("map", o.map, {.help = "team: one map for all; each-robot: one each"});
-  visit("robots", o.robots, {.help = "where robots start"});
-  visit("session", o.session, {.help = "how each robot is listened to"});
   visit("teammate_radius_m",
         o.teammate_radius_m,
         {.help = "what is seen this near to another robot of the map is that robot",
          .min = 0,
          .max = 100});
-  visit("threads",
-        o.threads,
-        {.help = "that match scans; 0: as many as the computer has cores", .min = 0, .max = 256});
-  visit("map_period_s",
-        o.map_period_s,
-        {.help = "between pictures of the map; 0: none", .min = 0, .max = 3600});
-  visit("status_period_s",
-        o.status_period_s,
-        {.help = "between reports of the state", .min = 0.1, .max = 3600});
-}
-
-template <class Report>
-void Validate(const TeamOptions& o, Report& report) {
-  if (o.service.empty()) report("service", "must not be empty");
-  std::set<std::string_view> names;
-  for (std::size_t i = 0; i < o.robots.size(); ++i) {
-    const std::string key = "robots[" + std::to_string(i) + "].name";
-    if (o.robots[i].name.empty()) report(key, "must not be empty");
-    if (!names.insert(o.robots[i].name).second) report(key, "is the name of another robot, too");
-  }
 }
 
 }  // namespace qwsm::team

@@ -3,7 +3,6 @@
 #include "service/team/service/team_service.hpp"
 
 #include <algorithm>
-#include <thread>
 #include <tuple>
 #include <utility>
 
@@ -34,7 +33,7 @@ io::JournalEntry ToJournal(const TeamScan& scan) {
                                       .T_odom_robot = scan.T_odom_robot})};
 }
 
-TeamScan FromJournal(const io::JournalEntry& entry) {
+TeamScan ScanFromJournal(const io::JournalEntry& entry) {
   io::JournaledScan scan = io::DecodeScan(entry.contents);
   return {.key = {.service = entry.service, .robot = entry.robot, .sequence = entry.sequence},
           .scan = std::move(scan.relevant.scan),
@@ -42,7 +41,7 @@ TeamScan FromJournal(const io::JournalEntry& entry) {
           .T_odom_robot = scan.T_odom_robot};
 }
 
-UncertainPose2 StartOf(const RobotStartOptions& robot) {
+UncertainPose2 PlanarStart(const RobotStartOptions& robot) {
   return UncertainPose2::WithSigmas(
       {robot.x_m, robot.y_m, NormalizeAngle(robot.heading_rad)}, robot.sigma_m, robot.sigma_rad);
 }
@@ -50,20 +49,17 @@ UncertainPose2 StartOf(const RobotStartOptions& robot) {
 }  // namespace
 
 TeamService::TeamService(const TeamServiceOptions& options,
-                         TeamSink& sink,
+                         SinkList<TeamSink> sinks,
                          const std::filesystem::path& journal)
     : options_(WithQuadtree(options)),
-      sink_(sink),
-      begun_(steady_clock::now()),
+      sinks_(std::move(sinks)),
       maps_(options.team.map, options.mapper.map),
-      sessions_([this](std::string robot) { return MakeSession(std::move(robot)); }),
-      journal_(options.team.service,
-               {.file = journal, .kind = io::kScanJournal},
-               [&sink](const TeamEvent& event) { sink.TakeEvent(event); }) {
-  journal_.Restore([this](const io::JournalEntry& entry) { Restore(FromJournal(entry)); });
-  for (const RobotStartOptions& robot : options_.team.robots) {
-    if (const auto session = sessions_.Of(robot.name)) session->SetStart(StartOf(robot));
-  }
+      host_(
+          options_.team,
+          {.file = journal, .kind = io::kScanJournal},
+          [this](const TeamEvent& event) { sinks_.Tell(&TeamSink::TakeEvent, event); },
+          [this](std::string robot) { return MakeSession(std::move(robot)); }) {
+  host_.Restore([this](const io::JournalEntry& entry) { Restore(ScanFromJournal(entry)); });
 }
 
 TeamService::~TeamService() { Stop(); }
@@ -74,29 +70,11 @@ void TeamService::Restore(TeamScan scan) {
 }
 
 void TeamService::Start() {
-  const TeamOptions& team = options_.team;
-  for (const TeamScan& scan : offered_) sink_.TakeRelevantScan(scan);
+  for (const TeamScan& scan : offered_) sinks_.Tell(&TeamSink::TakeRelevantScan, scan);
   offered_ = {};
-  sessions_.Start(team.threads);
-  const std::chrono::duration<double> status_period(team.status_period_s);
-  if (team.map_period_s > 0.0) {
-    painting_ = std::make_unique<PeriodicTask>(
-        kPaintPeriod, true, [this](const std::stop_token& stop) { PaintMaps(stop); });
-  }
-  reporting_ = std::make_unique<PeriodicTask>(
-      status_period, false, [this](const std::stop_token&) { sink_.TakeStatus(Status()); });
-}
-
-void TeamService::Stop() {
-  painting_.reset();
-  reporting_.reset();
-  sessions_.Stop();
-  journal_.Stop();
-}
-
-void TeamService::WaitUntilIdle() {
-  sessions_.WaitUntilIdle();
-  journal_.WaitUntilSettled();
+  host_.Start({.tell_status = [this] { sinks_.Tell(&TeamSink::TakeStatus, Status()); },
+               .tell_maps = [this](const std::stop_token& stop) { PaintMaps(stop); },
+               .map_period = kPaintPeriod});
 }
 
 void TeamService::TakeIn(std::vector<TeamScan> scans) {
@@ -128,13 +106,13 @@ void TeamService::OfferTakenIn() {
     const std::lock_guard lock(extension_);
     scans.swap(of_others_);
   }
-  for (const TeamScan& scan : scans) sink_.TakeRelevantScan(scan);
+  for (const TeamScan& scan : scans) sinks_.Tell(&TeamSink::TakeRelevantScan, scan);
 }
 
 // Nobody hears of a relevant scan before it is safe: who has heard of it may rely on it.
 void TeamService::Extend(const TeamScan& scan, std::span<const ScanPoint> points) {
   Insert(scan, points, [this, shared = std::make_shared<TeamScan>(scan)](const MapAddition& added) {
-    sink_.TakeRelevantScan(*shared);
+    sinks_.Tell(&TeamSink::TakeRelevantScan, *shared);
     TellNewPoints(*shared, added);
   });
 }
@@ -147,8 +125,8 @@ bool TeamService::Insert(const TeamScan& scan,
     const std::lock_guard lock(extension_);
     addition = maps_.Of(scan.key.robot)->Insert(scan, points);
     if (!addition) return false;
-    if (journal_) {
-      journal_.Append(ToJournal(scan), [settled, addition] { settled(*addition); });
+    if (host_.journal()) {
+      host_.journal().Append(ToJournal(scan), [settled, addition] { settled(*addition); });
       return true;
     }
   }
@@ -160,17 +138,8 @@ void TeamService::TellNewPoints(const TeamScan& scan, const MapAddition& additio
   std::vector<Eigen::Vector2d> points_map_m;
   points_map_m.reserve(addition.points.size());
   for (const MapPoint& point : addition.points) points_map_m.push_back(point.p_map_m);
-  sink_.TakeNewPoints(
-      {.robot = scan.key.robot, .stamp = scan.scan.stamp, .points_map_m = points_map_m});
-}
-
-TeamStatus TeamService::Status() const {
-  TeamStatus status{.service = identity(),
-                    .uptime = steady_clock::now() - begun_,
-                    .robots = sessions_.Statuses()};
-  status.map = StatusOfMaps();
-  status.journal = journal_.Status();
-  return status;
+  sinks_.Tell(&TeamSink::TakeNewPoints,
+              {.robot = scan.key.robot, .stamp = scan.scan.stamp, .points_map_m = points_map_m});
 }
 
 MapStatus TeamService::StatusOfMaps() const {
@@ -205,10 +174,13 @@ void TeamService::PaintMaps(const std::stop_token& stop) {
 
 void TeamService::TellMap(const std::string& robot, MapPainter& painter) {
   const std::optional<OccupancyGrid> grid = painter.Grid();
-  if (grid) sink_.TakeMap({.robot = robot, .stamp = painter.newest(), .grid = *grid});
+  if (grid) {
+    sinks_.Tell(&TeamSink::TakeMap, {.robot = robot, .stamp = painter.newest(), .grid = *grid});
+  }
   if (painter.trouble().empty()) return;
   const auto whose = robot.empty() ? std::nullopt : std::optional<std::string_view>(robot);
-  sink_.TakeEvent({.robot = whose, .is_warning = true, .text = painter.trouble()});
+  sinks_.Tell(&TeamSink::TakeEvent,
+              {.robot = whose, .is_warning = true, .text = painter.trouble()});
 }
 
 std::optional<OccupancyGrid> TeamService::DrawMapOf(std::string_view robot) {
@@ -227,11 +199,13 @@ std::shared_ptr<RobotSession> TeamService::MakeSession(std::string robot) {
     Extend(scan, points);
   };
   const auto report = [this](const RobotAnswer& answer) {
-    journal_.TellWhenSafe([this, answer] { sink_.TakeReport(answer); });
+    host_.journal().TellWhenSafe([this, answer] { sinks_.Tell(&TeamSink::TakeReport, answer); });
   };
+  const RobotStartOptions* const start = FindStart(options_.team, robot);
   SessionContext context{.service = identity(),
                          .map = *maps_.Of(robot),
-                         .sink = sink_,
+                         .sinks = sinks_,
+                         .start = start ? std::optional(PlanarStart(*start)) : std::nullopt,
                          .teammate_radius_m = options_.team.teammate_radius_m,
                          .extend = extend,
                          .report = report};

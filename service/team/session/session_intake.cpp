@@ -33,37 +33,44 @@ LatencySummary Summarize(const LatencyHistogram& histogram) {
 }  // namespace
 
 template <class Kind>
-SessionIntake<Kind>::SessionIntake(std::string name, const SessionOptions& options)
-    : name_(std::move(name)),
+SessionIntake<Kind>::SessionIntake(RobotEvents events, const SessionOptions& options)
+    : events_(std::move(events)),
       options_(options),
       queue_(static_cast<std::size_t>(options.queue_scans)) {}
 
 template <class Kind>
-bool SessionIntake<Kind>::Join() {
-  const std::lock_guard lock(mutex_);
-  if (IsHere()) return false;
-  is_interrupted_ = true;
-  hears_odometry_ = false;
-  first_arrived_.reset();
-  const bool goes_on = state_ == RobotState::kLost && counts_.answered > 0;
-  state_ = goes_on ? RobotState::kTracked : RobotState::kUnplaced;
-  return true;
+void SessionIntake<Kind>::Join() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (IsHere()) return;
+    is_interrupted_ = true;
+    hears_odometry_ = false;
+    first_arrived_.reset();
+    const bool goes_on = state_ == RobotState::kLost && counts_.answered > 0;
+    state_ = goes_on ? RobotState::kTracked : RobotState::kUnplaced;
+  }
+  events_.Inform("joined");
 }
 
 template <class Kind>
-bool SessionIntake<Kind>::Lose() {
-  const std::lock_guard lock(mutex_);
-  if (!IsHere()) return false;
-  state_ = RobotState::kLost;
-  return true;
+void SessionIntake<Kind>::Lose() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!IsHere()) return;
+    state_ = RobotState::kLost;
+  }
+  events_.Warn("is lost: nobody publishes its scans any more");
 }
 
 template <class Kind>
 void SessionIntake<Kind>::HandOver() {
-  const std::lock_guard lock(mutex_);
-  state_ = RobotState::kElsewhere;
-  was_elsewhere_ = true;
-  while (!queue_.empty()) queue_.Pop();
+  {
+    const std::lock_guard lock(mutex_);
+    state_ = RobotState::kElsewhere;
+    was_elsewhere_ = true;
+    while (!queue_.empty()) queue_.Pop();
+  }
+  events_.Inform("is answered by another service");
 }
 
 template <class Kind>
@@ -72,7 +79,8 @@ bool SessionIntake<Kind>::IsHere() const {
 }
 
 template <class Kind>
-bool SessionIntake<Kind>::TakeScan(Scan scan) {
+bool SessionIntake<Kind>::Enqueue(Scan scan) {
+  Join();
   const bool is_malformed = !ObjectionTo(scan).empty();
   const std::lock_guard lock(mutex_);
   ++counts_.scans;
@@ -194,23 +202,26 @@ void SessionIntake<Kind>::NoteUnplaced() {
 }
 
 template <class Kind>
-void SessionIntake<Kind>::NoteAnswer(const Answer& answer) {
+SessionCounts SessionIntake<Kind>::NoteAnswer(const Outcome& outcome) {
   const std::lock_guard lock(mutex_);
   if (state_ == RobotState::kUnplaced) state_ = RobotState::kTracked;
   ++counts_.answered;
-  if (answer.is_dead_reckoned) ++counts_.dead_reckoned;
-  if (answer.is_relevant) ++counts_.relevant;
-  if (!answer.has_odometry) ++counts_.without_odometry;
-  working_.Add(answer.working);
-  latency_.Add(steady_clock::now() - answer.arrived);
-  answered_stamp_ = answer.stamp;
+  if (outcome.is_dead_reckoned) ++counts_.dead_reckoned;
+  if (outcome.is_relevant) ++counts_.relevant;
+  if (!outcome.has_odometry) ++counts_.without_odometry;
+  working_.Add(outcome.working);
+  latency_.Add(steady_clock::now() - outcome.arrived);
+  answered_stamp_ = outcome.stamp;
+  map_robot_ = outcome.map_robot;
+  return counts_;
 }
 
 template <class Kind>
 RobotStatus SessionIntake<Kind>::Status() const {
   const std::lock_guard lock(mutex_);
-  return {.name = name_,
+  return {.name = name(),
           .state = state_,
+          .map_robot = map_robot_,
           .stamp = answered_stamp_,
           .waiting = queue_.size(),
           .counts = counts_,

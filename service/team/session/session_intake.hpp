@@ -13,6 +13,7 @@
 #include "service/team/session/session_options.hpp"
 #include "service/team/session/stamp_guard.hpp"
 #include "service/team/session/worker_pool.hpp"
+#include "service/team/sinks/robot_events.hpp"
 #include "service/team/sinks/team_status.hpp"
 
 namespace qwsm::team {
@@ -39,8 +40,9 @@ class SessionIntake {
   };
 
   /// How a scan was answered.
-  struct Answer {
+  struct Outcome {
     Timestamp stamp{};
+    UncertainPose2 map_robot{};
     Lane::Time arrived{};
     std::chrono::nanoseconds working{};
     bool is_dead_reckoned = false;
@@ -48,19 +50,20 @@ class SessionIntake {
     bool has_odometry = false;
   };
 
-  SessionIntake(std::string name, const SessionOptions& options);
+  SessionIntake(RobotEvents events, const SessionOptions& options);
 
-  const std::string& name() const { return name_; }
+  const std::string& name() const { return events_.robot(); }
 
-  /// The robot's publisher is there, again. @return whether that is news.
-  bool Join();
-  /// It is gone. @return whether that is news.
-  bool Lose();
+  /// The robot's publisher is there, again.
+  void Join();
+  /// It is gone: the robot will come back where it left.
+  void Lose();
   /// Another service answers it from now on, until it joins again.
   void HandOver();
 
-  /// @return false if it was refused. A scan that is taken may still be dropped for newer ones.
-  bool TakeScan(Scan scan);
+  /// Whoever sends scans has joined. @return false if the scan was refused. One that is taken may
+  /// still be dropped for newer ones.
+  bool Enqueue(Scan scan);
   void TakeOdometry(Timestamp stamp, const Pose& T_odom_robot);
   /// Whether scans are to wait for odometry. They are, from the first reading on.
   void ExpectOdometry(bool expected);
@@ -75,7 +78,8 @@ class SessionIntake {
 
   /// Nobody knows where the robot is: its scan was left unanswered.
   void NoteUnplaced();
-  void NoteAnswer(const Answer& answer);
+  /// @return the robot's counts with this answer.
+  SessionCounts NoteAnswer(const Outcome& outcome);
 
   RobotStatus Status() const;
 
@@ -90,7 +94,7 @@ class SessionIntake {
   void DropScansBeforeOdometry();
   void WatchOdometry(Work& work);
 
-  const std::string name_;
+  const RobotEvents events_;
   const SessionOptions options_;
 
   mutable std::mutex mutex_;  // Guards what follows.
@@ -109,6 +113,7 @@ class SessionIntake {
   LatencyHistogram working_;
   LatencyHistogram latency_;
   Timestamp answered_stamp_{};
+  UncertainPose2 map_robot_;
 };
 
 extern template class SessionIntake<Planar>;

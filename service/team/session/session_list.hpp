@@ -14,16 +14,20 @@
 #include <utility>
 #include <vector>
 
+#include "service/team/session/robot_listener.hpp"
 #include "service/team/session/worker_pool.hpp"
 #include "service/team/sinks/team_status.hpp"
 
 namespace qwsm::team {
 
 /// The sessions of all robots of a service, and the threads that work on their scans. All functions
-/// may be called from any thread. A robot joins with its first message, whatever that is.
-/// @tparam Session a Lane with name() and Status(), and what robots say: see the functions here.
+/// may be called from any thread. A robot has a session from its first message on, whatever that
+/// is, and joins with its first scan.
+/// @tparam Session a Lane of some Kind of scans, with name(), intake() and PlaceAt().
 template <class Session>
-class SessionList {
+class SessionList final : public RobotListener<typename Session::Kind> {
+  using Kind = typename Session::Kind;
+
  public:
   using Make = std::function<std::shared_ptr<Session>(std::string robot)>;
 
@@ -54,35 +58,39 @@ class SessionList {
     return sessions_[session->name()] = session;
   }
 
+  /// A robot's publisher is there.
   void Join(std::string_view robot) {
-    if (const auto session = Of(robot)) session->Join();
+    if (const auto session = Of(robot)) session->intake().Join();
   }
-  /// One that is not known cannot be lost.
+  /// It is gone. One that is not known cannot be lost.
   void Lose(std::string_view robot) {
-    if (const auto session = Find(robot)) session->Lose();
+    if (const auto session = Find(robot)) session->intake().Lose();
   }
+  /// Another service answers it from now on.
   void HandOver(std::string_view robot) {
-    if (const auto session = Find(robot)) session->HandOver();
+    if (const auto session = Find(robot)) session->intake().HandOver();
   }
-  template <class Scan>
-  bool TakeScan(std::string_view robot, Scan scan) {
+
+  /// @return false if the scan was refused: malformed, of a wrong time or a duplicate. See its
+  /// counts.
+  bool TakeScan(std::string_view robot, typename Kind::Scan scan) override {
     const auto session = Of(robot);
-    if (!session || !session->TakeScan(std::move(scan))) return false;
+    if (!session || !session->intake().Enqueue(std::move(scan))) return false;
     Wake();
     return true;
   }
-  template <class Stamp, class Pose>
-  void TakeOdometry(std::string_view robot, Stamp stamp, const Pose& T_odom_robot) {
+  void TakeOdometry(std::string_view robot,
+                    Timestamp stamp,
+                    const typename Kind::Pose& T_odom_robot) override {
     const auto session = Of(robot);
     if (!session) return;
-    session->TakeOdometry(stamp, T_odom_robot);
+    session->intake().TakeOdometry(stamp, T_odom_robot);
     Wake();
   }
-  void ExpectOdometry(std::string_view robot, bool expected) {
-    if (const auto session = Of(robot)) session->ExpectOdometry(expected);
+  void ExpectOdometry(std::string_view robot, bool expected) override {
+    if (const auto session = Of(robot)) session->intake().ExpectOdometry(expected);
   }
-  template <class UncertainPose>
-  void PlaceAt(std::string_view robot, const UncertainPose& map_robot) {
+  void PlaceAt(std::string_view robot, const typename Kind::UncertainPose& map_robot) override {
     if (const auto session = Of(robot)) session->PlaceAt(map_robot);
   }
 
@@ -94,7 +102,7 @@ class SessionList {
   }
   std::vector<RobotStatus> Statuses() const {
     std::vector<RobotStatus> all;
-    for (const auto& session : All()) all.push_back(session->Status());
+    for (const auto& session : All()) all.push_back(session->intake().Status());
     return all;
   }
 

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "service/team/scans/sensor_kind.hpp"
+#include "service/team/sinks/team_status.hpp"
+
+namespace qwsm::team {
+
+/// The answer to one scan.
+/// @tparam Kind Planar or Spatial.
+template <class Kind>
+struct Answer {
+  std::string robot;
+  typename Kind::Step step;
+  std::optional<typename Kind::Pose> T_odom_robot{};  ///< At the scan's stamp.
+  std::chrono::nanoseconds matching{};                ///< Time the match took.
+  std::chrono::nanoseconds latency{};                 ///< From the scan's arrival to now.
+  std::uint64_t scans = 0;                            ///< Of this robot so far.
+  std::uint64_t dropped = 0;                          ///< Of these, because the queue was full.
+};
+
+using RobotAnswer = Answer<Planar>;
+using CloudAnswer = Answer<Spatial>;
+
+/// Something worth a line in the log: a robot joined, a clock was set back, the disk is full.
+struct TeamEvent {
+  std::optional<std::string_view> robot;  ///< Nothing where it is about none.
+  bool is_warning = false;
+  std::string_view text;
+};
+
+using TellEvent = std::function<void(const TeamEvent&)>;
+
+/// Takes what a service has to tell, whatever its robots' sensors are: topics, files, a test. What
+/// is of no use to a sink it does not override. Called from several threads at once, for each robot
+/// in the order of its scans. Must not throw, and not call the service.
+template <class SensorKind>
+class ServiceSink {
+ public:
+  using Kind = SensorKind;
+
+  ServiceSink() = default;
+  ServiceSink(const ServiceSink&) = delete;
+  ServiceSink& operator=(const ServiceSink&) = delete;
+  virtual ~ServiceSink() = default;
+
+  /// A pose, as soon as it is known.
+  virtual void TakeAnswer(const Answer<Kind>&) {}
+  /// The same again, once all that the service knew by then is safely in the journal, if there is
+  /// one that can be written: that a scan extended the map is told of no scan that may be lost.
+  virtual void TakeReport(const Answer<Kind>&) {}
+  virtual void TakeStatus(const TeamStatus&) {}
+  virtual void TakeEvent(const TeamEvent&) {}
+};
+
+}  // namespace qwsm::team
