@@ -14,7 +14,7 @@
 namespace slam6d::bench {
 namespace {
 
-constexpr double kMaxDistanceM = 0.5;
+constexpr double kMaxDistance_m = 0.5;
 
 struct Times {
   double nanoflann_ms = 0.0;
@@ -32,7 +32,7 @@ std::size_t CountWrong(const std::vector<double>& distances2_m2,
   std::size_t wrong = 0;
   for (std::size_t i = 0; i < distances2_m2.size(); ++i) {
     const double expected = distances2_m2[i];
-    const bool found = expected < kMaxDistanceM * kMaxDistanceM;
+    const bool found = expected < kMaxDistance_m * kMaxDistance_m;
     for (const CachedSearch* search : {&root, &cached}) {
       const bool same =
           search->found(i) == found && (!found || search->distance2_m2(i) == expected);
@@ -46,13 +46,14 @@ Times Replay(const ScanPair& pair, int bucket_size, const NanoflannTree* nanofla
   const ScanModel ref(pair.ref, {.bucket_size = bucket_size});
   const ScanModel cur(pair.cur, {.bucket_size = bucket_size});
   IcpTrace trace;
-  const IcpOptions options{.metric = IcpMetric::kPointToPoint, .max_distance_m = kMaxDistanceM};
+  const IcpOptions options{.metric = IcpMetric::kPointToPoint, .max_distance_m = kMaxDistance_m};
   static_cast<void>(Align(ref, cur, pair.T_ref_cur_guess, options, &trace));
   trace.pop_back();  // No neighbours are searched at the last pose.
 
   const std::size_t size = cur.points.size();
-  CachedSearch root(ref.tree, size, {.max_distance_m = kMaxDistanceM, .start = SearchStart::kRoot});
-  CachedSearch cached(ref.tree, size, {.max_distance_m = kMaxDistanceM});
+  CachedSearch root(
+      ref.tree, size, {.max_distance_m = kMaxDistance_m, .start = SearchStart::kRoot});
+  CachedSearch cached(ref.tree, size, {.max_distance_m = kMaxDistance_m});
   std::vector<double> distances2_m2(size);
   Times times;
   for (const Pose3& T_ref_cur : trace) {

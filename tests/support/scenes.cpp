@@ -7,8 +7,8 @@
 namespace qwsm::test {
 namespace {
 
-constexpr double kCellM = 0.5;
-constexpr double kTableLegM = 0.04;
+constexpr double kCell_m = 0.5;
+constexpr double kTableLeg_m = 0.04;
 
 constexpr std::string_view kRoom = R"(
 ####################
@@ -125,11 +125,11 @@ constexpr std::string_view kOffices = R"(
 }  // namespace
 
 Scene FurnishedRoom() {
-  return Moved(SceneFromDrawing(kRoom, kCellM, kTableLegM), {4.0, 1.0, 0.25});
+  return Moved(SceneFromDrawing(kRoom, kCell_m, kTableLeg_m), {4.0, 1.0, 0.25});
 }
 
 Scene TwoRoomsAndCorridor() {
-  return Moved(SceneFromDrawing(kTwoRooms, kCellM, kTableLegM), {3.0, -7.0, 0.3});
+  return Moved(SceneFromDrawing(kTwoRooms, kCell_m, kTableLeg_m), {3.0, -7.0, 0.3});
 }
 
 Scene LongCorridor() {
@@ -152,13 +152,13 @@ Scene LongCorridor() {
 }
 
 Scene Park() {
-  constexpr double kParkCellM = 1.2;
-  constexpr double kTrunkM = 0.2;
-  return Moved(SceneFromDrawing(kPark, kParkCellM, kTrunkM), {-10.0, -10.0, 0.1});
+  constexpr double kParkCell_m = 1.2;
+  constexpr double kTrunk_m = 0.2;
+  return Moved(SceneFromDrawing(kPark, kParkCell_m, kTrunk_m), {-10.0, -10.0, 0.1});
 }
 
 Scene OfficeLoop() {
-  return Moved(SceneFromDrawing(kOffices, kCellM, kTableLegM), {-20.0, 4.0, 0.2});
+  return Moved(SceneFromDrawing(kOffices, kCell_m, kTableLeg_m), {-20.0, 4.0, 0.2});
 }
 
 }  // namespace qwsm::test

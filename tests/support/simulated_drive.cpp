@@ -10,9 +10,9 @@ namespace qwsm::test {
 namespace {
 
 // Beyond this heading error the robot turns on the spot.
-constexpr double kAsideRad = 0.5;
-constexpr double kSimulationStepS = 0.01;
-constexpr double kArrivedM = 0.1;
+constexpr double kAside_rad = 0.5;
+constexpr double kSimulationStep_s = 0.01;
+constexpr double kArrived_m = 0.1;
 
 // Where the robot is a moment later when it steers for `goal_m`.
 Pose2 StepTowards(const Pose2& T_world_robot,
@@ -20,10 +20,10 @@ Pose2 StepTowards(const Pose2& T_world_robot,
                   const DriveOptions& options) {
   const Eigen::Vector2d ahead_m = T_world_robot.Inverse() * goal_m;
   const double aside_rad = std::atan2(ahead_m.y(), ahead_m.x());
-  const double turn_limit_rad = options.turn_rate_radps * kSimulationStepS;
+  const double turn_limit_rad = options.turn_rate_radps * kSimulationStep_s;
   const double turn_rad = std::clamp(aside_rad, -turn_limit_rad, turn_limit_rad);
   const double step_m =
-      std::abs(aside_rad) > kAsideRad ? 0.0 : options.speed_mps * kSimulationStepS;
+      std::abs(aside_rad) > kAside_rad ? 0.0 : options.speed_mps * kSimulationStep_s;
   return T_world_robot * Pose2{std::min(step_m, ahead_m.norm()), 0.0, turn_rad};
 }
 
@@ -49,11 +49,11 @@ std::vector<Pose2> PosesAlong(std::span<const Eigen::Vector2d> route_m,
   if (route_m.size() < 2) throw std::invalid_argument("a route has at least two points");
   const Eigen::Vector2d first_leg_m = route_m[1] - route_m[0];
   Pose2 T_world_robot{route_m[0].x(), route_m[0].y(), std::atan2(first_leg_m.y(), first_leg_m.x())};
-  const auto steps_per_scan = std::max(1L, std::lround(options.scan_period_s / kSimulationStepS));
+  const auto steps_per_scan = std::max(1L, std::lround(options.scan_period_s / kSimulationStep_s));
   std::vector<Pose2> poses = {T_world_robot};
   long steps = 0;
   for (const Eigen::Vector2d& goal_m : route_m.subspan(1)) {
-    while ((goal_m - T_world_robot.translation_m()).norm() > kArrivedM) {
+    while ((goal_m - T_world_robot.translation_m()).norm() > kArrived_m) {
       T_world_robot = StepTowards(T_world_robot, goal_m, options);
       if (++steps % steps_per_scan == 0) poses.push_back(T_world_robot);
     }

@@ -58,7 +58,7 @@ class RandomRecords {
 LaserGeometry SomeGeometry() {
   return {.first_bearing_rad = -2.1F,
           .bearing_step_rad = 0.0123456F,
-          .range_min_m = kNearestReadingM,
+          .range_min_m = kNearestReading_m,
           .range_max_m = 29.7F,
           .T_robot_laser = {0.1 / 3.0, -0.2 / 3.0, 0.3 / 7.0}};
 }

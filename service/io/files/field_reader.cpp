@@ -12,7 +12,7 @@ namespace qwsm::io {
 namespace {
 
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
-constexpr double kMaxStampS = 9e9;  // The year 2255; nanoseconds in 64 bits end in 2262.
+constexpr double kMaxStamp_s = 9e9;  // The year 2255; nanoseconds in 64 bits end in 2262.
 
 bool IsBlank(char c) { return c == ' ' || c == '\t'; }
 
@@ -27,7 +27,7 @@ std::string_view WithoutPlus(std::string_view text) {
 /// ".5", "1.2e+09": rare, and not written by those who care for nanoseconds.
 std::optional<Timestamp> ParseRoundedStamp(std::string_view seconds) {
   const std::optional<double> value_s = ParseNumber(seconds);
-  if (!value_s || !(*value_s >= 0.0 && *value_s <= kMaxStampS)) return std::nullopt;
+  if (!value_s || !(*value_s >= 0.0 && *value_s <= kMaxStamp_s)) return std::nullopt;
   return Timestamp(std::llround(*value_s * static_cast<double>(kNanosecondsPerSecond)));
 }
 
@@ -94,7 +94,7 @@ std::optional<Timestamp> ParseStamp(std::string_view seconds) {
   auto [rest, error] = std::from_chars(seconds.data(), end, whole_s);
   if (error != std::errc() || !IsDigit(seconds.front())) return ParseRoundedStamp(seconds);
   if (rest != end && *rest++ != '.') return ParseRoundedStamp(seconds);
-  if (static_cast<double>(whole_s) > kMaxStampS) return std::nullopt;
+  if (static_cast<double>(whole_s) > kMaxStamp_s) return std::nullopt;
   std::int64_t nanoseconds = whole_s * kNanosecondsPerSecond;
   std::int64_t digit_value_ns = kNanosecondsPerSecond / 10;
   for (; rest != end; ++rest, digit_value_ns /= 10) {  // Digits beyond the ninth count nothing.

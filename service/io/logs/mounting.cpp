@@ -9,9 +9,9 @@ namespace qwsm::io {
 namespace {
 
 // Poses are written with two or more decimals.
-constexpr double kSameM = 0.02;
-constexpr double kSameRad = 0.02;
-constexpr double kFarthestM = 3.0;  // No robot carries its laser farther out.
+constexpr double kSame_m = 0.02;
+constexpr double kSame_rad = 0.02;
+constexpr double kFarthest_m = 3.0;  // No robot carries its laser farther out.
 constexpr double kAgreeingShare = 0.95;
 
 template <class Component>
@@ -27,8 +27,8 @@ double Median(std::vector<Pose2> poses, Component component) {
 double RoundedM(double value_m) { return std::round(value_m * 1e4) / 1e4 + 0.0; }  // No -0.
 
 bool IsNear(const Pose2& a, const Pose2& b) {
-  return (a.translation_m() - b.translation_m()).norm() < kSameM &&
-         std::abs(NormalizeAngle(a.theta_rad - b.theta_rad)) < kSameRad;
+  return (a.translation_m() - b.translation_m()).norm() < kSame_m &&
+         std::abs(NormalizeAngle(a.theta_rad - b.theta_rad)) < kSame_rad;
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ std::optional<Pose2> MountingEstimator::Estimate() const {
       T_robot_laser_, [&](const Pose2& pose) { return IsNear(pose, median); });
   const bool constant =
       static_cast<double>(agreeing) >= kAgreeingShare * static_cast<double>(T_robot_laser_.size());
-  if (!constant || median.translation_m().norm() > kFarthestM) return std::nullopt;
+  if (!constant || median.translation_m().norm() > kFarthest_m) return std::nullopt;
   return IsNear(median, Pose2{}) ? Pose2{} : median;
 }
 

@@ -44,14 +44,14 @@ bool HasCount(FieldReader fields) {
 
 /// False where the bearings are not evenly spaced, as those of a sweep are but for their rounding.
 bool SetEvenBearings(LaserGeometry& geometry, std::span<const double> bearings_rad) {
-  constexpr double kRoundingRad = 0.002;
+  constexpr double kRounding_rad = 0.002;
   if (bearings_rad.empty()) return false;
   const double first_rad = bearings_rad.front();
   const double steps = std::max(1.0, static_cast<double>(bearings_rad.size()) - 1.0);
   const double step_rad = (bearings_rad.back() - first_rad) / steps;
   for (std::size_t i = 0; i < bearings_rad.size(); ++i) {
     const double even_rad = first_rad + static_cast<double>(i) * step_rad;
-    if (!(std::abs(bearings_rad[i] - even_rad) < kRoundingRad)) return false;
+    if (!(std::abs(bearings_rad[i] - even_rad) < kRounding_rad)) return false;
   }
   geometry.first_bearing_rad = static_cast<float>(NormalizeAngle(first_rad));
   geometry.bearing_step_rad = static_cast<float>(step_rad);
@@ -197,7 +197,7 @@ ParsedLine PlayerParser::Complete(const Header& header, Sweep sweep) {
   sweep.reading.laser = "laser:" + std::to_string(header.index);
   sweep.reading.scan.stamp = header.stamp;
   LaserGeometry& geometry = sweep.reading.scan.geometry;
-  geometry.range_min_m = kNearestReadingM;
+  geometry.range_min_m = kNearestReading_m;
   if (IsOtherRobot(header)) {
     sweep.reading.laser.append("@").append(NameOf(header));
   } else if (const auto known = T_robot_laser_.find(header.index); known != T_robot_laser_.end()) {

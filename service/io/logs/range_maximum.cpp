@@ -9,17 +9,17 @@
 namespace qwsm::io {
 namespace {
 
-constexpr float kShortestM = 1.0F;
-constexpr float kLongestM = 1024.0F;
+constexpr float kShortest_m = 1.0F;
+constexpr float kLongest_m = 1024.0F;
 
 /// Bins of 0.05 - 0.1 % of the range: the leading bits of a float are nearly its logarithm.
 constexpr std::uint32_t BinOf(float range_m) {
   constexpr std::uint32_t kDroppedBits = 13;
-  return (std::bit_cast<std::uint32_t>(range_m) - std::bit_cast<std::uint32_t>(kShortestM)) >>
+  return (std::bit_cast<std::uint32_t>(range_m) - std::bit_cast<std::uint32_t>(kShortest_m)) >>
          kDroppedBits;
 }
 
-constexpr std::size_t kBins = BinOf(kLongestM);
+constexpr std::size_t kBins = BinOf(kLongest_m);
 
 // The codes of one scanner lie within 0.2 % of each other (8183 - 8191 mm; 51.10 - 51.16 m).
 constexpr std::size_t kSpikeBins = 6;
@@ -27,12 +27,12 @@ constexpr std::size_t kSpikeBins = 6;
 constexpr std::size_t kBelowBins = 128;
 constexpr std::uint64_t kMinSpikeCount = 20;
 constexpr std::size_t kMinPlaces = 10;
-constexpr double kPlaceSpacingM = 0.1;
+constexpr double kPlaceSpacing_m = 0.1;
 constexpr std::size_t kSweepsWithoutOdometry = 10;
 constexpr std::size_t kSweepsOfARobotAtRest = 500;
 
 /// What a SICK LMS writes for "no echo" in its longest setting.
-constexpr float kLongestCommonM = 81.91F;
+constexpr float kLongestCommon_m = 81.91F;
 constexpr float kMarginOverReadings = 1.1F;
 
 }  // namespace
@@ -44,7 +44,7 @@ void RangeMaximumEstimator::Add(std::span<const float> ranges_m,
   if (!IsNewPlace(T_odom_robot)) return;
   ++places_;
   for (const float range_m : ranges_m) {
-    if (!(range_m >= kShortestM && range_m < kLongestM)) continue;
+    if (!(range_m >= kShortest_m && range_m < kLongest_m)) continue;
     const std::uint32_t bin = BinOf(range_m);
     ++counts_[bin];
     largest_m_[bin] = std::max(largest_m_[bin], range_m);
@@ -56,9 +56,9 @@ void RangeMaximumEstimator::Add(std::span<const float> ranges_m,
 bool RangeMaximumEstimator::IsNewPlace(const std::optional<Pose2>& T_odom_robot) {
   ++sweeps_at_place_;
   const bool moved =
-      T_odom_robot &&
-      (!T_odom_sampled_ ||
-       (T_odom_robot->translation_m() - T_odom_sampled_->translation_m()).norm() >= kPlaceSpacingM);
+      T_odom_robot && (!T_odom_sampled_ ||
+                       (T_odom_robot->translation_m() - T_odom_sampled_->translation_m()).norm() >=
+                           kPlaceSpacing_m);
   const std::size_t enough = T_odom_robot ? kSweepsOfARobotAtRest : kSweepsWithoutOdometry;
   if (!moved && sweeps_at_place_ < enough && places_ > 0) return false;
   if (T_odom_robot) T_odom_sampled_ = T_odom_robot;
@@ -77,7 +77,7 @@ float RangeMaximumEstimator::Estimate() const {
     above += counts_[top];
     if (longest_m == 0.0F && above > garbage) longest_m = largest_m_[top];
   }
-  return std::max(kLongestCommonM, kMarginOverReadings * longest_m);
+  return std::max(kLongestCommon_m, kMarginOverReadings * longest_m);
 }
 
 /// Whether the readings in the bins up to `top` stand out from those below, with next to nothing

@@ -11,7 +11,7 @@
 namespace qwsm::io {
 namespace {
 
-constexpr double kFullCircleRad = 2.0 * std::numbers::pi;
+constexpr double kFullCircle_rad = 2.0 * std::numbers::pi;
 
 /// A scanner known by how many readings it gives.
 struct KnownScanner {
@@ -20,25 +20,25 @@ struct KnownScanner {
   double step_deg;
 };
 
-constexpr double kUrgStepDeg = 360.0 / 1024.0;
+constexpr double kUrgStep_deg = 360.0 / 1024.0;
 constexpr std::array kKnownScanners{
-    KnownScanner{180, -90.0, 1.0},                         // SICK LMS 2xx, the last beam left out.
-    KnownScanner{181, -90.0, 1.0},                         // SICK LMS 2xx.
-    KnownScanner{360, -90.0, 0.5},                         //
-    KnownScanner{361, -90.0, 0.5},                         //
-    KnownScanner{400, -50.0, 0.25},                        //
-    KnownScanner{401, -50.0, 0.25},                        //
-    KnownScanner{541, -135.0, 0.5},                        // SICK LMS 1xx.
-    KnownScanner{1081, -135.0, 0.25},                      // Hokuyo UTM-30LX.
-    KnownScanner{682, -340.5 * kUrgStepDeg, kUrgStepDeg},  // Hokuyo URG-04LX, 240 degrees.
-    KnownScanner{683, -341.0 * kUrgStepDeg, kUrgStepDeg},
-    KnownScanner{726, -362.5 * kUrgStepDeg, kUrgStepDeg},
+    KnownScanner{180, -90.0, 1.0},     // SICK LMS 2xx, the last beam left out.
+    KnownScanner{181, -90.0, 1.0},     // SICK LMS 2xx.
+    KnownScanner{360, -90.0, 0.5},     //
+    KnownScanner{361, -90.0, 0.5},     //
+    KnownScanner{400, -50.0, 0.25},    //
+    KnownScanner{401, -50.0, 0.25},    //
+    KnownScanner{541, -135.0, 0.5},    // SICK LMS 1xx.
+    KnownScanner{1081, -135.0, 0.25},  // Hokuyo UTM-30LX.
+    KnownScanner{682, -340.5 * kUrgStep_deg, kUrgStep_deg},  // Hokuyo URG-04LX, 240 degrees.
+    KnownScanner{683, -341.0 * kUrgStep_deg, kUrgStep_deg},
+    KnownScanner{726, -362.5 * kUrgStep_deg, kUrgStep_deg},
 };
 
 LaserGeometry MakeGeometry(double first_bearing_rad, double step_rad) {
   return {.first_bearing_rad = static_cast<float>(first_bearing_rad),
           .bearing_step_rad = static_cast<float>(step_rad),
-          .range_min_m = kNearestReadingM,
+          .range_min_m = kNearestReading_m,
           .T_robot_laser = {}};
 }
 
@@ -60,7 +60,7 @@ LaserGeometry GuessGeometry(std::size_t readings, std::optional<double> field_of
 std::optional<double> BearingStep(double span_rad, double stated_step_rad, std::size_t readings) {
   constexpr double kSlack = 1.01;  // Rounded to a few digits, or a beam too many.
   if (!std::isfinite(span_rad) || !std::isfinite(stated_step_rad)) return std::nullopt;
-  if (std::abs(span_rad) > kSlack * kFullCircleRad) return std::nullopt;
+  if (std::abs(span_rad) > kSlack * kFullCircle_rad) return std::nullopt;
   if (readings < 2) return stated_step_rad;
   const double closed_rad = span_rad / static_cast<double>(readings - 1);
   const double open_rad = span_rad / static_cast<double>(readings);
@@ -72,7 +72,7 @@ std::optional<double> BearingStep(double span_rad, double stated_step_rad, std::
   if (span_rad != 0.0 && agrees(open_rad)) return open_rad;
   // The resolution alone: a scanner that left beams out, or a field of view rounded or not stated.
   const double swept_rad = std::abs(stated_step_rad) * static_cast<double>(readings - 1);
-  if (stated_step_rad == 0.0 || swept_rad > kSlack * kFullCircleRad) return std::nullopt;
+  if (stated_step_rad == 0.0 || swept_rad > kSlack * kFullCircle_rad) return std::nullopt;
   return stated_step_rad;
 }
 

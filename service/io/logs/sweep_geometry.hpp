@@ -11,7 +11,7 @@ namespace qwsm::io {
 
 /// Readings nearer than this lie inside the housing of every scanner; small numbers there are error
 /// codes (Hokuyo's URG writes them as 0 - 19 mm).
-inline constexpr float kNearestReadingM = 0.02F;
+inline constexpr float kNearestReading_m = 0.02F;
 
 /// The bearings of a sweep whose line states only how many readings it has, as CARMEN guesses them
 /// (carmen_laser_guess_fov, carmen_laser_guess_angle_increment): 180 degrees, for 180 and 360

@@ -15,9 +15,9 @@ using qwsm::io::Canvas;
 using qwsm::io::Color;
 using qwsm::io::FromBytes;
 
-constexpr double kLongSidePx = 1400.0;
-constexpr double kMarginPx = 50.0;
-constexpr double kLeastExtentM = 1.0;
+constexpr double kLongSide_px = 1400.0;
+constexpr double kMargin_px = 50.0;
+constexpr double kLeastExtent_m = 1.0;
 /// This share of the points at either end of an axis may lie outside.
 constexpr double kStrayShare = 0.002;
 
@@ -46,7 +46,7 @@ class Projection {
  public:
   Projection(const CloudWindow& window, CloudView view) : window_(window), view_(view) {
     const Eigen::Vector2d extent_m = window.high_m - window.low_m;
-    px_per_m_ = kLongSidePx / extent_m.maxCoeff();
+    px_per_m_ = kLongSide_px / extent_m.maxCoeff();
     size_px_ = (extent_m * px_per_m_).array().ceil().max(40.0);
   }
 
@@ -91,7 +91,7 @@ qwsm::io::PixelImage Shade(const PointCloud& points, const Projection& projectio
 }
 
 void WriteScale(const Projection& projection, const Eigen::Vector2d& corner_px, Canvas& canvas) {
-  const double length_m = qwsm::io::RoundUpToNice(0.08 * kLongSidePx / projection.px_per_m());
+  const double length_m = qwsm::io::RoundUpToNice(0.08 * kLongSide_px / projection.px_per_m());
   const Eigen::Vector2d end_px = corner_px + Eigen::Vector2d(length_m * projection.px_per_m(), 0.0);
   canvas.StrokeLine(corner_px, end_px, {.color = kText, .width_px = 3.0});
   canvas.Write(qwsm::io::LengthLabel(length_m),
@@ -117,8 +117,8 @@ CloudWindow WindowOf(const CloudScene& scene, CloudView view) {
     window.low_m = window.low_m.cwiseMin(Seen(stop_m, view));
     window.high_m = window.high_m.cwiseMax(Seen(stop_m, view));
   }
-  window.low_m.array() -= 0.5 * kLeastExtentM;
-  window.high_m.array() += 0.5 * kLeastExtentM;
+  window.low_m.array() -= 0.5 * kLeastExtent_m;
+  window.high_m.array() += 0.5 * kLeastExtent_m;
   return window;
 }
 
@@ -127,7 +127,7 @@ void WriteCloudPicture(const std::filesystem::path& file,
                        CloudView view,
                        const CloudWindow& window) {
   const Projection projection(window, view);
-  const Eigen::Vector2d corner_px(kMarginPx, kMarginPx);
+  const Eigen::Vector2d corner_px(kMargin_px, kMargin_px);
   const Eigen::Vector2d size_px = projection.size_px() + 2.0 * corner_px;
   Canvas canvas(static_cast<int>(size_px.x()), static_cast<int>(size_px.y()));
   canvas.Draw(Shade(scene.points, projection), corner_px);
@@ -139,8 +139,8 @@ void WriteCloudPicture(const std::filesystem::path& file,
   for (const Eigen::Vector2d& stop_px : path_px) {
     canvas.Stroke({&stop_px, 1}, {.color = kPath, .width_px = 6.0});
   }
-  canvas.Write(scene.title, {kMarginPx, 0.5 * kMarginPx}, {.color = kText, .size_px = 18.0});
-  WriteScale(projection, {kMarginPx, size_px.y() - 0.5 * kMarginPx}, canvas);
+  canvas.Write(scene.title, {kMargin_px, 0.5 * kMargin_px}, {.color = kText, .size_px = 18.0});
+  WriteScale(projection, {kMargin_px, size_px.y() - 0.5 * kMargin_px}, canvas);
   canvas.Save(file);
 }
 

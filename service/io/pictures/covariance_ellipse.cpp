@@ -33,14 +33,14 @@ std::vector<Eigen::Vector2d> EllipseOutline(const Eigen::Vector2d& center_m,
 }
 
 double Enlargement(std::vector<double> radii_px) {
-  constexpr double kVisiblePx = 8.0;
+  constexpr double kVisible_px = 8.0;
   constexpr double kMost = 1000.0;
   if (radii_px.empty()) return 1.0;
   std::ranges::sort(radii_px);
   const double median_px = radii_px[radii_px.size() / 2];
-  if (median_px >= kVisiblePx) return 1.0;
-  if (median_px * kMost <= kVisiblePx) return kMost;
-  return RoundUpToNice(kVisiblePx / median_px);
+  if (median_px >= kVisible_px) return 1.0;
+  if (median_px * kMost <= kVisible_px) return kMost;
+  return RoundUpToNice(kVisible_px / median_px);
 }
 
 }  // namespace qwsm::io

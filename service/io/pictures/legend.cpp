@@ -7,23 +7,23 @@
 namespace qwsm::io {
 namespace {
 
-constexpr double kLineHeightPx = 26.0;
-constexpr double kLineSamplePx = 30.0;
-constexpr double kSampleToLabelPx = 8.0;
-constexpr double kBetweenItemsPx = 28.0;
+constexpr double kLineHeight_px = 26.0;
+constexpr double kLineSample_px = 30.0;
+constexpr double kSampleToLabel_px = 8.0;
+constexpr double kBetweenItems_px = 28.0;
 const TextStyle kLabelStyle{.color = FromBytes(40, 46, 56), .size_px = 15.0};
 
 double LabelOffset(const LegendItem& item) {
-  return item.sample_width_px > 0.0 ? item.sample_width_px + kSampleToLabelPx : 0.0;
+  return item.sample_width_px > 0.0 ? item.sample_width_px + kSampleToLabel_px : 0.0;
 }
 
 }  // namespace
 
 LegendItem LineItem(const std::string& label, const LineStyle& style) {
   return {.label = label,
-          .sample_width_px = kLineSamplePx,
+          .sample_width_px = kLineSample_px,
           .draw_sample = [style](Canvas& canvas, const Eigen::Vector2d& left_px) {
-            canvas.StrokeLine(left_px, left_px + Eigen::Vector2d(kLineSamplePx, 0.0), style);
+            canvas.StrokeLine(left_px, left_px + Eigen::Vector2d(kLineSample_px, 0.0), style);
           }};
 }
 
@@ -40,12 +40,13 @@ Legend::Legend(std::vector<LegendItem> items, double width_px) {
       ++lines_;
       x_px = 0.0;
     }
-    placed_.push_back({.item = std::move(item), .left_px = {x_px, (lines_ - 0.5) * kLineHeightPx}});
-    x_px += item_px + kBetweenItemsPx;
+    placed_.push_back(
+        {.item = std::move(item), .left_px = {x_px, (lines_ - 0.5) * kLineHeight_px}});
+    x_px += item_px + kBetweenItems_px;
   }
 }
 
-double Legend::height_px() const { return lines_ * kLineHeightPx; }
+double Legend::height_px() const { return lines_ * kLineHeight_px; }
 
 void Legend::Draw(Canvas& canvas, const Eigen::Vector2d& corner_px) const {
   for (const Placed& placed : placed_) {

@@ -14,13 +14,13 @@ namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
 
-constexpr int kWidthPx = 1200;
-constexpr int kHeightPx = 560;
-constexpr double kLeftPx = 86.0;
-constexpr double kRightPx = 28.0;
-constexpr double kTitlePx = 30.0;
-constexpr double kGapPx = 14.0;
-constexpr double kBottomPx = 70.0;
+constexpr int kWidth_px = 1200;
+constexpr int kHeight_px = 560;
+constexpr double kLeft_px = 86.0;
+constexpr double kRight_px = 28.0;
+constexpr double kTitle_px = 30.0;
+constexpr double kGap_px = 14.0;
+constexpr double kBottom_px = 70.0;
 
 constexpr Color kInk = FromBytes(40, 46, 56);
 constexpr Color kAxis = FromBytes(120, 126, 136);
@@ -86,7 +86,7 @@ Legend LegendOf(const LinePlot& plot) {
   for (const PlotSeries& series : plot.series) {
     items.push_back(LineItem(series.label, {.color = series.color, .width_px = 3.0}));
   }
-  return {std::move(items), kWidthPx - kLeftPx - kRightPx};
+  return {std::move(items), kWidth_px - kLeft_px - kRight_px};
 }
 
 class PlotPainter {
@@ -96,16 +96,16 @@ class PlotPainter {
         x_(RangeOfX(plot)),
         y_(RangeOfY(plot)),
         legend_(LegendOf(plot)),
-        area_{.corner_px = {kLeftPx, kTitlePx + legend_.height_px() + 2.0 * kGapPx},
-              .size_px = {kWidthPx - kLeftPx - kRightPx, 0.0}} {
-    area_.size_px.y() = kHeightPx - kBottomPx - area_.corner_px.y();
+        area_{.corner_px = {kLeft_px, kTitle_px + legend_.height_px() + 2.0 * kGap_px},
+              .size_px = {kWidth_px - kLeft_px - kRight_px, 0.0}} {
+    area_.size_px.y() = kHeight_px - kBottom_px - area_.corner_px.y();
   }
 
   void Paint() {
     canvas_.Write(plot_.title,
-                  {kLeftPx, kGapPx + 0.5 * kTitlePx},
+                  {kLeft_px, kGap_px + 0.5 * kTitle_px},
                   {.color = kInk, .size_px = 18.0, .bold = true});
-    legend_.Draw(canvas_, {kLeftPx, kGapPx + kTitlePx});
+    legend_.Draw(canvas_, {kLeft_px, kGap_px + kTitle_px});
     PaintTicksOfX();
     PaintTicksOfY();
     canvas_.Clip(area_);
@@ -208,7 +208,7 @@ class PlotPainter {
   Range y_;
   Legend legend_;
   Rectangle area_;
-  Canvas canvas_{kWidthPx, kHeightPx};
+  Canvas canvas_{kWidth_px, kHeight_px};
 };
 
 }  // namespace

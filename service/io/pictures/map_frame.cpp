@@ -13,25 +13,25 @@
 namespace qwsm::io {
 namespace {
 
-constexpr int kMarginPx = 16;
-constexpr int kNarrowestPx = 640;  // So that a legend fits below a narrow map.
+constexpr int kMargin_px = 16;
+constexpr int kNarrowest_px = 640;  // So that a legend fits below a narrow map.
 constexpr Color kFrameColor = FromBytes(170, 176, 186);
 constexpr Color kInk = FromBytes(40, 46, 56);
 
 int CanvasWidth(const MapView& view) {
-  return std::max(view.width_px() + 2 * kMarginPx, kNarrowestPx);
+  return std::max(view.width_px() + 2 * kMargin_px, kNarrowest_px);
 }
 
 LegendItem ScaleItem(double px_per_m) {
-  constexpr double kAboutPx = 60.0;
-  constexpr double kHalfHeightPx = 5.0;
-  const double length_m = RoundUpToNice(kAboutPx / px_per_m);
+  constexpr double kAbout_px = 60.0;
+  constexpr double kHalfHeight_px = 5.0;
+  const double length_m = RoundUpToNice(kAbout_px / px_per_m);
   const double length_px = length_m * px_per_m;
   return {.label = LengthLabel(length_m),
           .sample_width_px = length_px,
           .draw_sample = [length_px](Canvas& canvas, const Eigen::Vector2d& left_px) {
             const Eigen::Vector2d right_px = left_px + Eigen::Vector2d(length_px, 0.0);
-            const Eigen::Vector2d up_px(0.0, -kHalfHeightPx);
+            const Eigen::Vector2d up_px(0.0, -kHalfHeight_px);
             const LineStyle style{.color = kInk, .width_px = 2.0};
             canvas.StrokeLine(left_px, right_px, style);
             canvas.StrokeLine(left_px - up_px, left_px + up_px, style);
@@ -52,7 +52,7 @@ Legend LegendFor(const OccupancyGrid& grid, const MapView& view, std::vector<Leg
                                  TextItem("grid " + LengthLabel(view.grid_step_m())),
                                  TextItem(ExtentLabel(grid))};
   std::ranges::move(items, std::back_inserter(all));
-  return {std::move(all), static_cast<double>(CanvasWidth(view) - 2 * kMarginPx)};
+  return {std::move(all), static_cast<double>(CanvasWidth(view) - 2 * kMargin_px)};
 }
 
 void DrawBorder(Canvas& canvas, const Rectangle& area) {
@@ -74,11 +74,11 @@ MapFrame::MapFrame(const OccupancyGrid& grid, const MapView& view, std::vector<L
 MapFrame::MapFrame(const OccupancyGrid& grid, const MapView& view, const Legend& legend)
     : view_(view),
       canvas_(CanvasWidth(view),
-              view.height_px() + 3 * kMarginPx + static_cast<int>(std::ceil(legend.height_px()))),
-      corner_px_((canvas_.width_px() - view.width_px()) / 2, kMarginPx) {
+              view.height_px() + 3 * kMargin_px + static_cast<int>(std::ceil(legend.height_px()))),
+      corner_px_((canvas_.width_px() - view.width_px()) / 2, kMargin_px) {
   canvas_.Draw(RenderMap(grid, view), corner_px_);
   DrawBorder(canvas_, map_area());
-  legend.Draw(canvas_, {kMarginPx, view.height_px() + 2.0 * kMarginPx});
+  legend.Draw(canvas_, {kMargin_px, view.height_px() + 2.0 * kMargin_px});
 }
 
 }  // namespace qwsm::io

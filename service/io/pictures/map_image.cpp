@@ -19,8 +19,8 @@ constexpr Color kFree = FromBytes(255, 255, 255);
 constexpr Color kGridLine = FromBytes(226, 230, 236);
 constexpr Color kWall = FromBytes(0, 40, 120);
 
-constexpr double kGridStepPx = 28.0;  // At least, between lines.
-constexpr double kLongerSidePx = 1400.0;
+constexpr double kGridStep_px = 28.0;  // At least, between lines.
+constexpr double kLongerSide_px = 1400.0;
 constexpr double kMostPxPerCell = 20.0;
 
 // Pixels per cell: a whole number, or one over it.
@@ -113,7 +113,7 @@ MapView::MapView(const OccupancyGrid& grid,
   const Eigen::Array2d more_high =
       ((high_map_m - grid_high_m) / grid.cell_m).array().ceil().max(0.0);
   const Eigen::Array2d cells = Eigen::Array2d(grid.width, grid.height) + more_low + more_high;
-  const double px_per_cell = WholeScale(kLongerSidePx / cells.maxCoeff());
+  const double px_per_cell = WholeScale(kLongerSide_px / cells.maxCoeff());
   low_map_m_ = grid.origin_map_m.array() - more_low * grid.cell_m;
   px_per_m_ = px_per_cell / grid.cell_m;
   width_px_ = static_cast<int>(std::ceil(cells.x() * px_per_cell - 1e-6));
@@ -121,7 +121,7 @@ MapView::MapView(const OccupancyGrid& grid,
 }
 
 double MapView::grid_step_m() const {
-  return std::max(1.0, RoundUpToNice(kGridStepPx / px_per_m_));
+  return std::max(1.0, RoundUpToNice(kGridStep_px / px_per_m_));
 }
 
 PixelImage RenderMap(const OccupancyGrid& grid, const MapView& view) {

@@ -29,8 +29,8 @@ constexpr Color kEllipseFill = FromBytes(150, 0, 140, 0.12);
 constexpr Color kDeadReckoned = FromBytes(225, 20, 30);
 constexpr Color kStartFill = FromBytes(255, 200, 0);
 constexpr Color kStartEdge = FromBytes(90, 70, 0);
-constexpr double kPathWidthPx = 2.8;
-constexpr double kDotPx = 3.0;
+constexpr double kPathWidth_px = 2.8;
+constexpr double kDot_px = 3.0;
 
 // From the beginning to the end, as a share of the path.
 Color ColorAlongPath(double share) {
@@ -49,7 +49,7 @@ Color ColorAlongPath(double share) {
 }
 
 void DrawDot(Canvas& canvas, const Eigen::Vector2d& center_px) {
-  canvas.FillPolygon(EllipseOutline(center_px, kDotPx * Eigen::Matrix2d::Identity()),
+  canvas.FillPolygon(EllipseOutline(center_px, kDot_px * Eigen::Matrix2d::Identity()),
                      kDeadReckoned);
 }
 
@@ -125,9 +125,9 @@ LegendItem StartItem() {
 
 LegendItem DeadReckonedItem(std::ptrdiff_t count, std::size_t of) {
   return {.label = "dead reckoned (" + std::to_string(count) + " of " + std::to_string(of) + ")",
-          .sample_width_px = 2.0 * kDotPx,
+          .sample_width_px = 2.0 * kDot_px,
           .draw_sample = [](Canvas& canvas, const Eigen::Vector2d& left_px) {
-            DrawDot(canvas, left_px + Eigen::Vector2d(kDotPx, 0.0));
+            DrawDot(canvas, left_px + Eigen::Vector2d(kDot_px, 0.0));
           }};
 }
 
@@ -154,7 +154,7 @@ class OverlayPainter {
  public:
   OverlayPainter(const OccupancyGrid& grid, const MapView& view, const MapOverlay& overlay)
       : overlay_(overlay),
-        ellipses_(EllipsesAlong(overlay.path, kApartPx / view.px_per_m())),
+        ellipses_(EllipsesAlong(overlay.path, kApart_px / view.px_per_m())),
         enlargement_(EnlargementOf(ellipses_, view.px_per_m())),
         frame_(grid, view, Items()) {}
 
@@ -176,7 +176,7 @@ class OverlayPainter {
   const Canvas& canvas() { return frame_.canvas(); }
 
  private:
-  static constexpr double kApartPx = 70.0;
+  static constexpr double kApart_px = 70.0;
 
   std::vector<LegendItem> Items() const {
     std::vector<LegendItem> items;
@@ -192,12 +192,12 @@ class OverlayPainter {
   // Without the poses that are within a pixel of the one before: a robot that waits has thousands.
   template <class Pose>
   Points ToCanvas(std::span<const Pose> path) const {
-    constexpr double kLeastStepPx = 1.0;
+    constexpr double kLeastStep_px = 1.0;
     Points points_px;
     for (const Pose& pose : path) {
       const Eigen::Vector2d point_px = frame_.ToCanvas(PositionOf(pose));
       const bool is_last = &pose == &path.back();
-      if (points_px.empty() || is_last || (point_px - points_px.back()).norm() >= kLeastStepPx) {
+      if (points_px.empty() || is_last || (point_px - points_px.back()).norm() >= kLeastStep_px) {
         points_px.push_back(point_px);
       }
     }
@@ -219,7 +219,7 @@ class OverlayPainter {
       if (end - first < 2) continue;
       frame_.canvas().Stroke(
           ToCanvas(path.subspan(first, end - first)),
-          {.color = ColorAlongPath(static_cast<double>(step) / kSteps), .width_px = kPathWidthPx});
+          {.color = ColorAlongPath(static_cast<double>(step) / kSteps), .width_px = kPathWidth_px});
     }
     for (const PathPose& pose : path) {
       if (IsDeadReckoned(pose)) DrawDot(frame_.canvas(), frame_.ToCanvas(PositionOf(pose)));

@@ -24,7 +24,7 @@ std::uint64_t MortonCode(const CubePlace& place) {
 }
 
 /// Farther away nothing was ever measured; and the extent of what is nearer is a number.
-constexpr double kFarthestM = 1e9;
+constexpr double kFarthest_m = 1e9;
 
 /// A cloud's finite points and the box around them.
 struct Extent {
@@ -38,7 +38,7 @@ Extent ExtentOf(const PointCloud& cloud) {
   extent.points.reserve(cloud.size());
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Eigen::Vector3d point_m = cloud[i];
-    if (!(point_m.cwiseAbs().maxCoeff() < kFarthestM) || !point_m.allFinite()) continue;
+    if (!(point_m.cwiseAbs().maxCoeff() < kFarthest_m) || !point_m.allFinite()) continue;
     extent.low_m = extent.points.empty() ? point_m : extent.low_m.cwiseMin(point_m);
     extent.high_m = extent.points.empty() ? point_m : extent.high_m.cwiseMax(point_m);
     extent.points.push_back(static_cast<std::uint32_t>(i));

@@ -13,11 +13,11 @@ std::vector<double> PathShares(const std::vector<Pose3>& poses,
                                std::size_t first,
                                std::size_t last) {
   // Scans on one spot are told apart by their number.
-  constexpr double kLeastStepM = 1e-3;
+  constexpr double kLeastStep_m = 1e-3;
   std::vector<double> shares{0.0};
   for (std::size_t scan = first + 1; scan <= last; ++scan) {
     const double step_m = (poses[scan].translation_m - poses[scan - 1].translation_m).norm();
-    shares.push_back(shares.back() + step_m + kLeastStepM);
+    shares.push_back(shares.back() + step_m + kLeastStep_m);
   }
   const double length_m = shares.back();
   for (double& share : shares) share /= length_m;

@@ -15,8 +15,8 @@ namespace {
 constexpr std::size_t kLeastPoints = 3;
 
 /// The covariance of a registration assumes independent errors; nothing is better than this.
-constexpr double kLeastSigmaM = 1e-3;
-constexpr double kLeastSigmaRad = 1e-4;
+constexpr double kLeastSigma_m = 1e-3;
+constexpr double kLeastSigma_rad = 1e-4;
 
 /// The search tries motions within its ranges; a registration from there may lead so many times as
 /// far.
@@ -65,7 +65,7 @@ Matrix6d CovarianceOfGuess(const IcpOptions& options) {
 }
 
 Matrix6d CovarianceOf(const IcpResult& result) {
-  return result.covariance + CovarianceOf(kLeastSigmaM, kLeastSigmaRad);
+  return result.covariance + CovarianceOf(kLeastSigma_m, kLeastSigma_rad);
 }
 
 /// Whether a registration stayed near the guess. What slides farther found other surfaces.
