@@ -27,7 +27,7 @@ void MapLog(const char* path) {
     ++scans;
     if (step.status == qwsm::StepStatus::kDeadReckoned) ++dead_reckoned;
   }
-  std::cerr << scans << " scans, " << dead_reckoned << " dead reckoned, "
+  std::cerr << scans << " scans, " << dead_reckoned << " dead-reckoned, "
             << mapper.map().scans().size() << " in the map, "
             << mapper.map().surfaces().quadtree().size() << " points\n";
 }

@@ -39,7 +39,7 @@ void Summarize(const team::TeamStatus& status) {
   };
   for (const team::RobotStatus& robot : status.robots) {
     fmt::print(
-        "{:<14} {} of {} scans answered, {} dead reckoned, {} without odometry, {} dropped, "
+        "{:<14} {} of {} scans answered, {} dead-reckoned, {} without odometry, {} dropped, "
         "{} unplaced, {} relevant; "
         "latency {:.2f} ms, p99 {:.2f} ms\n",
         team::DisplayName(robot.name),

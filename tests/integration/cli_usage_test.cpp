@@ -82,6 +82,26 @@ TEST(Usage, RefusesLogsWithoutScans) {
   EXPECT_EQ(outcome.errors, "qwsm: there is no scan in " + log.string() + "\n");
 }
 
+TEST(Usage, NamesWhatOptionsOfBeforeAreCalledNow) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "robot.yaml";
+  std::ofstream(file) << "mapper:\n  surroundings:\n    points: 100\n";
+  const Outcome outcome = RunProgram({"config",
+                                      "dump",
+                                      "--config",
+                                      file,
+                                      "--set",
+                                      "mapper.surroundings.points=100",
+                                      "--set",
+                                      "mapper.locator.known_places.search.prior_points=0.2"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.errors,
+            file.string() + ":2:3: mapper.surroundings: is now called 'mapper.submap'\n" +
+                "--set mapper.surroundings.points: is now called 'mapper.submap.points'\n" +
+                "--set mapper.locator.known_places.search.prior_points: is now called "
+                "'mapper.locator.loop_closure.search.prior_cost_points'\n");
+}
+
 TEST(Usage, ReportsAllConfigurationProblemsBeforeAnythingIsDone) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "robot.yaml";

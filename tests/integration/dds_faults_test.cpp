@@ -98,7 +98,7 @@ TEST_F(DdsFaults, RobotThatDiesIsLostAndComesBackWhereItLeft) {
   EXPECT_EQ(replay.exit_code, 0) << replay.errors;
   const Outcome served = service.End();
   EXPECT_EQ(served.exit_code, 0) << served.errors;
-  EXPECT_NE(served.output.find(" 0 dead reckoned"), std::string::npos) << served.output;
+  EXPECT_NE(served.output.find(" 0 dead-reckoned"), std::string::npos) << served.output;
 
   const Pose2 T_start_end = PoseInRoom(0).Inverse() * PoseInRoom(kScans - 1);
   const Eigen::Vector2d end_m = EndOf(ReadFile(Path("served/robot1/trajectory.tum")));

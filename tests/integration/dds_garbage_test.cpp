@@ -30,7 +30,7 @@ class StandingRobot {
   explicit StandingRobot(RobotInRoom& robot)
       : robot_(robot), observation_(robot.NextObservation()) {}
 
-  /// @returns how many answers came meanwhile. None is dead reckoned.
+  /// @returns how many answers came meanwhile. None is dead-reckoned.
   std::size_t Measure() {
     observation_.scan.stamp += 100ms;
     robot_.Publish(observation_);

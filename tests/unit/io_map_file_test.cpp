@@ -9,6 +9,7 @@
 #include "qwsm/mapping/mapper.hpp"
 #include "service/io/files/atomic_file.hpp"
 #include "service/io/maps/map_file.hpp"
+#include "service/io/maps/option_codec.hpp"
 #include "tests/support/room_drive.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -43,6 +44,19 @@ TEST(MapFile, GivesTheSameMapBack) {
   EXPECT_EQ(loaded.options().max_density_points, 4);
   EXPECT_EQ(loaded.scans().size(), map.scans().size());
   EXPECT_EQ(loaded.surfaces().quadtree().size(), map.surfaces().quadtree().size());
+}
+
+TEST(MapFile, TakesOptionsByTheirNamesOfBefore) {
+  BinaryWriter before;
+  AddOptions(before, {{"crowd_points", 4.0}, {"crowd_radius_m", 0.07}});
+  BinaryReader reader(before.bytes());
+  OptionValues values = ReadOptions(reader);
+  ScanMapOptions options;
+  OptionRestorer restorer(values);
+  Describe(restorer, options);
+  EXPECT_TRUE(values.empty());
+  EXPECT_EQ(options.max_density_points, 4);
+  EXPECT_EQ(options.density_radius_m, 0.07);
 }
 
 TEST(MapFile, MappingGoesOnAsIfItHadNeverStopped) {

@@ -246,7 +246,7 @@ void OccupancyPainter::CountHit(CellIndex index) {
   if (CountSeen(cell)) ++cell.hits;
 }
 
-// All cells on the line but the last one, by Bresenham's algorithm.
+// All cells on the line but the last one, by Bresenham's algorithm (1965).
 void OccupancyPainter::CountFreeLine(CellIndex from, CellIndex to) {
   const int dx = std::abs(to.x - from.x);
   const int dy = -std::abs(to.y - from.y);

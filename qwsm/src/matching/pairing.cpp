@@ -18,7 +18,8 @@ constexpr double kAnnealed_rad = 0.0002;
 constexpr double kInlierSigmas = 3.0;
 constexpr double kFirstCircle_m = 0.1;  // Beyond a point that cannot be paired: the next surface.
 
-// Geman-McClure: falls from 1 to a quarter at the outlier limit, and on towards 0.
+// Weight of Geman & McClure (1987): falls from 1 to a quarter at the outlier limit, and on towards
+// 0.
 double RobustWeight(double mahalanobis2, double outlier_sigmas) {
   const double w = 1.0 / (1.0 + mahalanobis2 / (outlier_sigmas * outlier_sigmas));
   return w * w;

@@ -85,14 +85,14 @@ pipeline::Registration Register(pipeline::ScanSeries& series,
   return pipeline::RegisterSeries(series, options, observer);
 }
 
-void TellDoubts(const pipeline::Registration& registration) {
+void WarnOfDoubtfulScans(const pipeline::Registration& registration) {
   for (const pipeline::RegisteredScan& scan : registration.scans) {
     if (scan.step.status == SlamStatus::kDeadReckoned) {
       spdlog::warn(
           "{}: could not be registered with the scans before it ({}, overlap {:.0f} %); it "
           "is where odometry has it",
           scan.file.string(),
-          Reason(scan.step.match.status),
+          Name(scan.step.match.status),
           100.0 * scan.step.overlap);
     } else if (scan.step.status == SlamStatus::kUnusable) {
       spdlog::warn(
@@ -116,7 +116,7 @@ ExitCode RunRegister(const RegisterArguments& arguments) {
   pipeline::ScanSeries series(files, starts, options);
   const pipeline::Registration registration =
       Register(series, options, interruption, arguments.verbosity);
-  TellDoubts(registration);
+  WarnOfDoubtfulScans(registration);
   pipeline::WriteResults(registration, options, folder);
   const std::string summary = pipeline::SummaryText(registration);
   spdlog::info("\n{}", summary);

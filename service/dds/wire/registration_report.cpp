@@ -16,7 +16,7 @@ RegistrationReport ReportOf(const team::CloudAnswer& answer) {
           .stamp = answer.step.stamp,
           .map_robot = answer.step.map_robot,
           .status = status,
-          .reason = std::string(has_match ? Reason(registration.match.status) : NameOf(status)),
+          .reason = std::string(has_match ? Name(registration.match.status) : Name(status)),
           .points = static_cast<std::uint32_t>(registration.points),
           .pairs = static_cast<std::uint32_t>(registration.match.pairs),
           .iterations = static_cast<std::uint32_t>(registration.match.iterations),

@@ -124,7 +124,7 @@ LegendItem StartItem() {
 }
 
 LegendItem DeadReckonedItem(std::ptrdiff_t count, std::size_t of) {
-  return {.label = "dead reckoned (" + std::to_string(count) + " of " + std::to_string(of) + ")",
+  return {.label = "dead-reckoned (" + std::to_string(count) + " of " + std::to_string(of) + ")",
           .sample_width_px = 2.0 * kDot_px,
           .draw_sample = [](Canvas& canvas, const Eigen::Vector2d& left_px) {
             DrawDot(canvas, left_px + Eigen::Vector2d(kDot_px, 0.0));

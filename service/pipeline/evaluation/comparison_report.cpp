@@ -31,8 +31,8 @@ std::vector<Duel> Duels(const std::list<Contestant>& contestants) {
   std::vector<Duel> duels;
   const Contestant& first = contestants.front();
   for (auto other = std::next(contestants.begin()); other != contestants.end(); ++other) {
-    duels.push_back({.candidate = NameOf(first.matcher()),
-                     .baseline = NameOf(other->matcher()),
+    duels.push_back({.candidate = Name(first.matcher()),
+                     .baseline = Name(other->matcher()),
                      .comparison = CompareMatchers(first.figures.scans(), other->figures.scans())});
   }
   return duels;
@@ -54,7 +54,7 @@ std::string MatcherTable(const std::list<Contestant>& contestants) {
     const RunStatistics& run = contestant.results.statistics();
     const bool has_scans = run.scans() > 0;
     rows.push_back(
-        {std::string(NameOf(contestant.matcher())),
+        {std::string(Name(contestant.matcher())),
          fmt::format("{}", run.Count(StepStatus::kMatched) + run.Count(StepStatus::kExtended)),
          fmt::format("{}", run.Count(StepStatus::kDeadReckoned)),
          fmt::format("{:.2f}", run.MeanResidual_mm()),
@@ -73,7 +73,7 @@ std::string ComparisonCsv(const std::list<Contestant>& contestants) {
   header.Add("stamp_s");
   for (const Contestant& contestant : contestants) {
     for (const std::string_view column : {"status", "residual_mm", "trace", "ms"}) {
-      header.Add(fmt::format("{}_{}", NameOf(contestant.matcher()), column));
+      header.Add(fmt::format("{}_{}", Name(contestant.matcher()), column));
     }
   }
   std::string text = header.Finish();

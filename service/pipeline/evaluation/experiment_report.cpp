@@ -85,7 +85,7 @@ std::vector<std::string> Heading(const ExperimentRun& run) {
 Rows TableOf(const std::vector<ExperimentRun>& runs) {
   Rows rows{Heading(runs.front())};
   const auto add = [&](MatcherKind matcher, const std::string& what, std::vector<std::string> row) {
-    row.insert(row.begin(), {std::string(NameOf(matcher)), what});
+    row.insert(row.begin(), {std::string(Name(matcher)), what});
     rows.push_back(std::move(row));
   };
   const auto median = [](std::vector<double> values) {
@@ -128,7 +128,7 @@ std::vector<ExperimentRun> RunsOf(const std::list<Contestant>& contestants, int 
 std::string ExperimentJson(const std::vector<ExperimentRun>& runs) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const ExperimentRun& run : runs) {
-    nlohmann::ordered_json object{{"seed", run.seed}, {"matcher", NameOf(run.matcher)}};
+    nlohmann::ordered_json object{{"seed", run.seed}, {"matcher", Name(run.matcher)}};
     for (const Figure& figure : FiguresOf(run)) {
       // JSON knows no NaN.
       object[std::string(figure.name)] =
@@ -148,7 +148,7 @@ std::string ExperimentCsv(const std::vector<ExperimentRun>& runs) {
   for (const ExperimentRun& run : runs) {
     io::CsvRow row;
     row.Add(static_cast<double>(run.seed));
-    row.Add(NameOf(run.matcher));
+    row.Add(Name(run.matcher));
     for (const Figure& figure : FiguresOf(run)) row.Add(figure.value);
     text += row.Finish();
   }

@@ -16,7 +16,7 @@ struct ExperimentRun {
   int seed = 0;
   MatcherKind matcher = MatcherKind::kQWsm;
   std::size_t scans = 0;
-  std::size_t failures = 0;       ///< Scans that were dead reckoned.
+  std::size_t failures = 0;       ///< Scans that were dead-reckoned.
   double residual_mm = 0.0;       ///< Mean over the scans it matched.
   double trace_m2 = 0.0;          ///< The same; see PositionTrace_m2().
   MatcherComparison to_baseline;  ///< Over the scans that both matched.

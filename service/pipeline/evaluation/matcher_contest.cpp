@@ -18,7 +18,7 @@ MatcherContest::MatcherContest(const MapperOptions& options,
   for (const MatcherKind matcher : matchers) {
     MapperOptions own = options;
     own.matcher = matcher;
-    contestants_.emplace_back(own, ResultsFolder(folder / NameOf(matcher), false));
+    contestants_.emplace_back(own, ResultsFolder(folder / Name(matcher), false));
   }
 }
 
@@ -37,7 +37,7 @@ void MatcherContest::Finish(const OccupancyGridOptions& rendering, const Traject
     contestant.results.Finish(contestant.mapper, rendering, truth);
     // The first matcher stands in front, as in the paper.
     residuals.insert(residuals.begin(),
-                     {.name = std::string(NameOf(contestant.matcher())),
+                     {.name = std::string(Name(contestant.matcher())),
                       .residual_mm = contestant.figures.Residuals_mm()});
   }
   io::WriteResidualPlot(folder_ / "residual.png", residuals);

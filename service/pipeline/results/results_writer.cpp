@@ -40,7 +40,7 @@ void ResultsWriter::Finish(const Mapper& mapper,
   io::WriteTextFile(folder_ / "metrics.json",
                     MetricsJson(statistics_, mapper.map(), matcher, truth_report_));
   const std::array<io::ResidualSeries, 1> series{
-      {{.name = std::string(NameOf(matcher)), .residual_mm = history_.residuals_mm()}}};
+      {{.name = std::string(Name(matcher)), .residual_mm = history_.residuals_mm()}}};
   io::WriteResidualPlot(folder_ / "residual.png", series);
   DrawMap(mapper, rendering, truth_in_map);
 }

@@ -29,7 +29,7 @@ void AddTo(nlohmann::ordered_json& json, const TruthReport& truth) {
 
 }  // namespace
 
-std::string_view NameOf(MatcherKind matcher) {
+std::string_view Name(MatcherKind matcher) {
   const auto found =
       std::ranges::find(Names(matcher), matcher, [](const auto& named) { return named.second; });
   return found->first;
@@ -41,7 +41,7 @@ std::string MetricsJson(const RunStatistics& run,
                         const std::optional<TruthReport>& truth) {
   const PointQuadtreeStatistics points = map.surfaces().quadtree().Statistics();
   nlohmann::ordered_json json;
-  json["matcher"] = NameOf(matcher);
+  json["matcher"] = Name(matcher);
   json["scans"] = run.scans();
   json["matched"] = run.Count(StepStatus::kMatched);
   json["extended"] = run.Count(StepStatus::kExtended);
@@ -81,7 +81,7 @@ std::string SummaryText(const RunStatistics& run,
       fmt::format("matched        {}, of which {} showed much that is new\n",
                   WithThousands(run.Count(StepStatus::kMatched) + run.Count(StepStatus::kExtended)),
                   WithThousands(run.Count(StepStatus::kExtended)));
-  text += fmt::format("dead reckoned  {}\n", WithThousands(run.Count(StepStatus::kDeadReckoned)));
+  text += fmt::format("dead-reckoned  {}\n", WithThousands(run.Count(StepStatus::kDeadReckoned)));
   text += fmt::format("mean residual  {:.2f} mm\n", run.MeanResidual_mm());
   text += fmt::format("map            {} points of {} relevant scans, {:.1f} MB\n",
                       WithThousands(points.points),

@@ -12,7 +12,7 @@
 namespace qwsm::pipeline {
 
 /// As it is given after --matcher.
-std::string_view NameOf(MatcherKind matcher);
+std::string_view Name(MatcherKind matcher);
 
 /// The figures of a run as JSON; every name ends in its unit. Names are only ever added.
 std::string MetricsJson(const RunStatistics& run,

@@ -20,13 +20,13 @@ namespace {
 
 constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
-struct PosePair {
+struct PosePair3 {
   Pose3 estimate;
   Pose3 truth;
 };
 
-std::vector<PosePair> PairUp(const io::NumberedPoses& estimate, const io::NumberedPoses& truth) {
-  std::vector<PosePair> pairs;
+std::vector<PosePair3> PairUp(const io::NumberedPoses& estimate, const io::NumberedPoses& truth) {
+  std::vector<PosePair3> pairs;
   for (const auto& [number, pose] : estimate) {
     const auto found = truth.find(number);
     if (found != truth.end()) pairs.push_back({pose, found->second});
@@ -36,17 +36,17 @@ std::vector<PosePair> PairUp(const io::NumberedPoses& estimate, const io::Number
 }
 
 /// The motion that lays the estimate over the truth.
-Pose3 AlignmentOf(const std::vector<PosePair>& pairs, PoseAlignment alignment) {
+Pose3 AlignmentOf(const std::vector<PosePair3>& pairs, PoseAlignment alignment) {
   if (alignment == PoseAlignment::kNone) return {};
   if (alignment == PoseAlignment::kFirst) {
     return pairs.front().truth * pairs.front().estimate.Inverse();
   }
   PairMoments moments{.count = static_cast<double>(pairs.size())};
-  for (const PosePair& pair : pairs) {
+  for (const PosePair3& pair : pairs) {
     moments.center_ref_m += pair.truth.translation_m / moments.count;
     moments.center_cur_m += pair.estimate.translation_m / moments.count;
   }
-  for (const PosePair& pair : pairs) {
+  for (const PosePair3& pair : pairs) {
     moments.H_m2 += (pair.estimate.translation_m - moments.center_cur_m) *
                     (pair.truth.translation_m - moments.center_ref_m).transpose();
   }
@@ -60,13 +60,13 @@ Pose3 AlignmentOf(const std::vector<PosePair>& pairs, PoseAlignment alignment) {
 PoseErrors Compare(const io::NumberedPoses& estimate,
                    const io::NumberedPoses& truth,
                    PoseAlignment alignment) {
-  const std::vector<PosePair> pairs = PairUp(estimate, truth);
+  const std::vector<PosePair3> pairs = PairUp(estimate, truth);
   const Pose3 T_truth_estimate = AlignmentOf(pairs, alignment);
   PoseErrors errors{.poses = pairs.size()};
   const auto count = static_cast<double>(pairs.size());
   double sum_m2 = 0.0;
   double sum_rad2 = 0.0;
-  for (const PosePair& pair : pairs) {
+  for (const PosePair3& pair : pairs) {
     const Pose3 error = pair.truth.Inverse() * (T_truth_estimate * pair.estimate);
     const double distance_m = error.translation_m.norm();
     const double angle_rad = RotationAngle(error.rotation);

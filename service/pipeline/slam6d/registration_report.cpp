@@ -54,10 +54,9 @@ std::string MetricsJson(const Registration& registration) {
   nlohmann::ordered_json json;
   json["scans"] = registration.scans.size();
   json["scans_in_series"] = registration.series_size;
-  for (const SlamStatus status :
-       {SlamStatus::kMatched, SlamStatus::kDeadReckoned, SlamStatus::kUnusable}) {
-    json[std::string(NameOf(status))] = Count(registration, status);
-  }
+  json["matched"] = Count(registration, SlamStatus::kMatched);
+  json["dead_reckoned"] = Count(registration, SlamStatus::kDeadReckoned);
+  json["unusable"] = Count(registration, SlamStatus::kUnusable);
   json["loops_closed"] = figures.loops;
   json["points"] = figures.points;
   json["path_length_m"] = figures.path_m;
@@ -82,7 +81,7 @@ std::string SummaryText(const Registration& registration) {
                       Count(registration, SlamStatus::kMatched),
                       100.0 * figures.mean_overlap,
                       1000.0 * figures.mean_rms_m);
-  text += fmt::format("dead reckoned  {}\n", Count(registration, SlamStatus::kDeadReckoned));
+  text += fmt::format("dead-reckoned  {}\n", Count(registration, SlamStatus::kDeadReckoned));
   text += fmt::format("unusable       {}\n", Count(registration, SlamStatus::kUnusable));
   text += fmt::format("loops          {} closed\n", figures.loops);
   text += fmt::format("path           {:.1f} m\n", figures.path_m);

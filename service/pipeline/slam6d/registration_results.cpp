@@ -64,7 +64,7 @@ std::string Table(const Registration& registration) {
         "{},{},{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{},{},{:.6f},{:.3f},{},{:.4f}\n",
         i,
         scan.name,
-        NameOf(scan.step.status),
+        Name(scan.step.status),
         scan.step.points,
         pose.translation_m.x(),
         pose.translation_m.y(),

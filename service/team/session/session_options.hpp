@@ -23,7 +23,7 @@ void Describe(Visitor& visit, RobotStartOptions& o) {
   visit("y_m", o.y_m, {.help = "where it starts", .min = -1e4, .max = 1e4});
   visit("heading_rad", o.heading_rad, {.help = "heading at the start", .min = -7, .max = 7});
   visit("sigma_m", o.sigma_m, {.help = "how far off that may be", .min = 0, .max = 10});
-  visit("sigma_rad", o.sigma_rad, {.help = "and how far the heading", .min = 0, .max = 3.2});
+  visit("sigma_rad", o.sigma_rad, {.help = "how far off the heading may be", .min = 0, .max = 3.2});
 }
 
 /// How one robot is listened to.
@@ -49,7 +49,7 @@ void Describe(Visitor& visit, SessionOptions& o) {
         {.help = "odometry that moves faster has jumped", .min = 0.01, .max = 1000});
   visit("max_turn_rate_radps",
         o.max_turn_rate_radps,
-        {.help = "or turns faster", .min = 0.01, .max = 1000});
+        {.help = "odometry that turns faster has jumped", .min = 0.01, .max = 1000});
 }
 
 }  // namespace qwsm::team

@@ -79,10 +79,10 @@ void Describe(Visitor& visit, DriverOptions& o) {
   visit(
       "laps", o.laps, {.help = "how often the way points are gone through", .min = 1, .max = 1000});
   visit("commands", o.commands, {.help = "a recorded drive, in the order of its times"});
-  visit(
-      "command_log",
-      o.command_log,
-      {.help = "or a file of it, beside the scenario: lines of 'stamp_s forward_mps turn_rad_s'"});
+  visit("command_log",
+        o.command_log,
+        {.help =
+             "a file of commands, beside the scenario: lines of 'stamp_s forward_mps turn_rad_s'"});
 }
 
 template <class Report>

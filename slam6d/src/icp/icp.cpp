@@ -38,7 +38,7 @@ IcpResult Stop(IcpResult result, IcpStatus status, const IcpMinimizer& minimizer
 
 }  // namespace
 
-std::string_view Reason(IcpStatus status) {
+std::string_view Name(IcpStatus status) {
   switch (status) {
     case IcpStatus::kConverged:
       return "converged";

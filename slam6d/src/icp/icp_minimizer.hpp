@@ -22,10 +22,10 @@ struct IcpStep {
   bool settled = true;  ///< False while the weights still change by themselves.
 };
 
-/// Where the current scan is thought to be.
-struct PosePair {
+/// Where the current scan is thought to be, now and when the registration began.
+struct PoseAndGuess {
   Pose3 now;
-  Pose3 guess;  ///< From which the registration began.
+  Pose3 guess;
 };
 
 /// Pairs, and the step they ask for, under one metric. Each object serves one registration.

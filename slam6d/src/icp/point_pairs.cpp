@@ -117,7 +117,7 @@ PointSums PointPairs::Collect(const Pose3& T_ref_cur, int iteration) {
   return result;
 }
 
-IcpStep PointPairs::Step(const Sums& sums, const PosePair&, const IcpOptions& options) {
+IcpStep PointPairs::Step(const Sums& sums, const PoseAndGuess&, const IcpOptions& options) {
   return {
       .pairs = static_cast<std::size_t>(sums.moments.count),
       .rms_residual_m = std::sqrt(sums.distance2_m2 / std::max(sums.moments.count, 1.0)),

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "slam6d/src/icp/held_motions.hpp"
+#include "slam6d/src/icp/observable_motions.hpp"
 #include "slam6d/src/parallel.hpp"
 
 namespace slam6d {
@@ -198,20 +198,20 @@ NormalEquations SurfelPairs::Collect(const Pose3& T_ref_cur, int iteration) {
   return total;
 }
 
-IcpStep SurfelPairs::Step(const Sums& sums, const PosePair& T_map, const IcpOptions& options) {
+IcpStep SurfelPairs::Step(const Sums& sums, const PoseAndGuess& T_map, const IcpOptions& options) {
   const double count = static_cast<double>(std::max<std::size_t>(sums.pairs, 1));
   IcpStep step{.pairs = sums.pairs,
                .rms_residual_m = std::sqrt(sums.residual2_m2 / count),
                .settled = sums.settled};
   if (sums.pairs < 6 || LeavesMotionOpen(sums.A)) return step;
-  const HeldMotions held(sums.A, sums.A_noise);
+  const ObservableMotions observable(sums.A, sums.A_noise);
   Vector6d to_guess;
   to_guess << T_map.guess.translation_m - T_map.now.translation_m,
       RotationVector(T_map.guess.rotation * T_map.now.rotation.transpose());
   const Matrix6d prior = GuessInformation(options);
-  const Vector6d x = (held.Information() + prior)
+  const Vector6d x = (observable.Information() + prior)
                          .ldlt()
-                         .solve(held.Project(sums.b - sums.b_noise) + prior * to_guess);
+                         .solve(observable.Project(sums.b - sums.b_noise) + prior * to_guess);
   // The rotation is about the origin of cur: T <- (x, R(x) about t).
   const Eigen::Matrix3d rotation = RotationFromVector(x.tail<3>());
   const Eigen::Vector3d& center_m = T_map.now.translation_m;
@@ -224,9 +224,9 @@ Matrix6d SurfelPairs::Covariance(const Sums& sums,
                                  const Matrix6d& information,
                                  const IcpOptions& options) {
   const double freedom = std::max(static_cast<double>(sums.pairs) - 6.0, 1.0);
-  const double misfit = std::max(sums.weighted_residual2 / freedom, 1.0);
-  const HeldMotions held(information, sums.A_noise);
-  return (held.Information() / misfit + GuessInformation(options)).inverse();
+  const double reduced_chi2 = std::max(sums.weighted_residual2 / freedom, 1.0);
+  const ObservableMotions observable(information, sums.A_noise);
+  return (observable.Information() / reduced_chi2 + GuessInformation(options)).inverse();
 }
 
 }  // namespace slam6d

@@ -35,7 +35,7 @@ class SurfelPairs {
   const Matrix6d& Information() const { return information_; }
   const SearchStatistics& statistics() const { return statistics_; }
 
-  static IcpStep Step(const Sums& sums, const PosePair& T_map, const IcpOptions& options);
+  static IcpStep Step(const Sums& sums, const PoseAndGuess& T_map, const IcpOptions& options);
   static Matrix6d Covariance(const Sums& sums,
                              const Matrix6d& information,
                              const IcpOptions& options);

@@ -87,8 +87,8 @@ bool HasPose(const IcpResult& result) {
 
 }  // namespace
 
-std::string_view NameOf(SlamStatus status) {
-  constexpr std::array<std::string_view, 4> kNames{"first", "matched", "dead_reckoned", "unusable"};
+std::string_view Name(SlamStatus status) {
+  constexpr std::array<std::string_view, 4> kNames{"first", "matched", "dead-reckoned", "unusable"};
   return kNames[static_cast<std::size_t>(status)];
 }
 

@@ -55,9 +55,9 @@ struct UncertainPose2 {
   /// their errors are independent of each other.
   static UncertainPose2 WithSigmas(const Pose2& T_a_b, double sigma_m, double sigma_rad);
 
-  double SigmaXY_m() const;  ///< Of both axes together: the root of their mean variance.
+  double SigmaXY_m() const;  ///< Sigma of the position: the root of the mean variance of both axes.
   double SigmaTheta_rad() const;
-  /// The same pose with all sigmas multiplied.
+  /// Returns the same pose with all sigmas multiplied.
   UncertainPose2 Inflated(double factor) const;
 };
 

@@ -37,10 +37,12 @@ void Describe(Visitor& visit, FreeSpaceOptions& o) {
          .max = 10});
   visit("margin_beams",
         o.margin_beams,
-        {.help = "and so many beams to both sides of it", .min = 0, .max = 100});
+        {.help = "beams on both sides of a direction that have to see through as well",
+         .min = 0,
+         .max = 100});
   visit("max_moving_share",
         o.max_moving_share,
-        {.help = "if more of a scan seems to have moved, it is the pose that is wrong",
+        {.help = "where more of a scan seems to have moved, it is the pose that is wrong",
          .min = 0,
          .max = 1});
 }

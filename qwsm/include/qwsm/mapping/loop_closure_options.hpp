@@ -47,12 +47,16 @@ void Describe(Visitor& visit, LoopClosureOptions& o) {
   visit("window_sigmas",
         o.window_sigmas,
         {.help = "half the window, in sigmas of the drift", .min = 0, .max = 10});
-  visit("max_window_m", o.max_window_m, {.help = "and at most this far", .min = 0, .max = 100});
-  visit("max_window_rad", o.max_window_rad, {.help = "and this turn", .min = 0, .max = 3.2});
+  visit("max_window_m",
+        o.max_window_m,
+        {.help = "most that half the search window measures", .min = 0, .max = 100});
+  visit("max_window_rad",
+        o.max_window_rad,
+        {.help = "most that half the range of headings measures", .min = 0, .max = 3.2});
   visit("min_score", o.min_score, {.help = "score of a loop closure", .min = 0, .max = 1});
   visit("uniqueness",
         o.uniqueness,
-        {.help = "by how much it must beat that of every other place", .min = 0, .max = 1});
+        {.help = "by how much the score must beat that of every other place", .min = 0, .max = 1});
   visit("min_overlap",
         o.min_overlap,
         {.help = "share of the scan that then agrees with such surfaces", .min = 0, .max = 1});

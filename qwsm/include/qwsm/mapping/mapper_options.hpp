@@ -15,7 +15,7 @@
 
 namespace qwsm {
 
-/// What a scan is matched with, and how.
+/// Says what a scan is matched with, and how.
 enum class MatcherKind {
   kQWsm,  ///< Weighted, against the quadtree of all relevant scans (Visser et al. 2009).
   kWsm,   ///< Weighted, against the last relevant scan only: the paper's incremental baseline.
@@ -64,7 +64,9 @@ void Describe(Visitor& visit, MapperOptions& o) {
          .max = 100});
   visit("relevant_rotation_rad",
         o.relevant_rotation_rad,
-        {.help = "or turned this far", .min = 0, .max = 3.2});
+        {.help = "a scan is relevant when the robot turned this far since the last one",
+         .min = 0,
+         .max = 3.2});
   visit("extended_below_overlap",
         o.extended_below_overlap,
         {.help = "a match of less of the scan is told as 'extended'; odometry does not adapt to it",

@@ -10,7 +10,7 @@
 
 namespace qwsm {
 
-/// Where a pose comes from.
+/// Tells where a pose comes from.
 enum class StepStatus {
   kFirst,         ///< The first scan: it defines the map's frame.
   kMatched,       ///< The match is the pose.
@@ -24,13 +24,14 @@ std::string_view Name(StepStatus status);
 struct MappingStep {
   Timestamp stamp{};
   UncertainPose2 map_robot{};  ///< Covariance of all error since the start.
-  /// Of the error relative to the map around the robot; the drift of that map aside.
+  /// Covariance of the error relative to the map around the robot, without the drift of that map.
   Eigen::Matrix3d local_covariance = Eigen::Matrix3d::Zero();
   StepStatus status = StepStatus::kFirst;
   std::string_view reason{};  ///< Why that status, in words.
-  MatchResult match{};        ///< Covariance of the match alone.
-  bool relevant = false;      ///< The map is extended with this scan,
-  LaserScan relevant_scan{};  ///< then, without the beams that ended on what moves.
+  MatchResult match{};        ///< The match that gave the pose, or the bad one that did not.
+  bool relevant = false;      ///< Whether the map is to be extended with this scan.
+  /// The scan without the beams that ended on what moves; empty unless it is relevant.
+  LaserScan relevant_scan{};
 };
 
 }  // namespace qwsm

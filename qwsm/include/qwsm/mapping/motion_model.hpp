@@ -11,7 +11,7 @@
 
 namespace qwsm {
 
-/// Standard deviations of the motion between two scans, as told by odometry.
+/// Standard deviations of the motion between two scans that odometry reads.
 struct MotionNoise {
   double translation_floor_m = 0.03;
   double translation_per_translation = 0.15;
@@ -29,22 +29,24 @@ void Describe(Visitor& visit, MotionNoise& o) {
         {.help = "sigma of the position between scans, at rest", .min = 1e-4, .max = 10});
   visit("translation_per_translation",
         o.translation_per_translation,
-        {.help = "more of it per metre moved", .min = 0, .max = 10});
+        {.help = "sigma of the position per metre moved", .min = 0, .max = 10});
   visit("translation_per_rotation_m",
         o.translation_per_rotation_m,
-        {.help = "more of it per radian turned", .min = 0, .max = 10});
+        {.help = "sigma of the position per radian turned", .min = 0, .max = 10});
   visit("rotation_floor_rad",
         o.rotation_floor_rad,
         {.help = "sigma of the heading between scans, at rest", .min = 1e-4, .max = 3});
   visit("rotation_per_rotation",
         o.rotation_per_rotation,
-        {.help = "more of it per radian turned", .min = 0, .max = 10});
+        {.help = "sigma of the heading per radian turned", .min = 0, .max = 10});
   visit("rotation_per_translation_rad",
         o.rotation_per_translation_rad,
-        {.help = "more of it per metre moved", .min = 0, .max = 3});
+        {.help = "sigma of the heading per metre moved", .min = 0, .max = 3});
   visit("without_odometry",
         o.without_odometry,
-        {.help = "factor on all of it where only the last motion is known", .min = 1, .max = 100});
+        {.help = "factor on all these sigmas where only the last motion is known",
+         .min = 1,
+         .max = 100});
 }
 
 /// Predicts how the robot moved since the last scan: by odometry, or as it moved before.
@@ -52,10 +54,10 @@ class MotionModel {
  public:
   explicit MotionModel(const MotionNoise& noise = {}) : noise_(noise) {}
 
-  /// Pose of the robot now in its own last frame.
+  /// Predicts the pose of the robot now in its own last frame.
   PosePrediction Predict(const std::optional<Pose2>& T_odom_robot) const;
 
-  /// Tells how the robot really moved, and with which odometry reading.
+  /// Remembers how the robot really moved, and with which odometry reading.
   void Remember(const Pose2& T_last_robot, const std::optional<Pose2>& T_odom_robot);
 
   /// Adapts the noise to where the robot was found, having been expected at `predicted`. Each part

@@ -65,10 +65,10 @@ enum class RenderStatus {
 
 struct [[nodiscard]] OccupancyGridResult {
   RenderStatus status = RenderStatus::kNothingMeasured;
-  OccupancyGrid grid;     ///< Empty unless rendered.
-  double extent_x_m = 0;  ///< Of what was measured; may be infinite when too large.
-  double extent_y_m = 0;
-  double smallest_cell_m = 0;  ///< At which the map would not be too large.
+  OccupancyGrid grid;          ///< Empty unless rendered.
+  double extent_x_m = 0;       ///< Extent of what was measured; may be infinite when too large.
+  double extent_y_m = 0;       ///< Extent of what was measured; may be infinite when too large.
+  double smallest_cell_m = 0;  ///< Smallest cell at which the map would not be too large.
 };
 
 /// Renders what the scans saw. A scan counts once for every cell: as hit if a beam ended there,

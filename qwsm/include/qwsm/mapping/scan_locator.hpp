@@ -42,37 +42,55 @@ void Describe(Visitor& visit, ScanLocatorOptions& o) {
          .formerly = "known_places"});
   visit("narrow_share",
         o.narrow_share,
-        {.help = "first search only this share of the window", .min = 0, .max = 1});
+        {.help = "share of the window that is searched first", .min = 0, .max = 1});
   visit("confident_overlap",
         o.confident_overlap,
-        {.help = "and all of it where less of the scan agrees with the map", .min = 0, .max = 1});
+        {.help = "the whole window is searched where less of the scan agrees with the map",
+         .min = 0,
+         .max = 1});
   visit("confident_score",
         o.confident_score,
-        {.help = "... or where the pose that the search found scores less", .min = 0, .max = 1});
-  visit("max_reduced_chi2",
-        o.max_reduced_chi2,
-        {.help = "search further where the pairs' squared errors are this many times the modelled",
-         .formerly = "max_misfit",
-         .min = 0.1,
-         .max = 1000});
+        {.help = "the whole window is searched where the pose found in its first share scores less",
+         .min = 0,
+         .max = 1});
+  visit(
+      "max_reduced_chi2",
+      o.max_reduced_chi2,
+      {.help = "a wider search follows where the pairs' squared errors are more times the modelled",
+       .formerly = "max_misfit",
+       .min = 0.1,
+       .max = 1000});
   visit("search_spacing_m",
         o.search_spacing_m,
-        {.help = "points of the scan this near count once in searches", .min = 0, .max = 10});
+        {.help = "points of the scan this near to each other count once in searches",
+         .min = 0,
+         .max = 10});
   visit("search_error_m",
         o.search_error_m,
-        {.help = "how far off the found pose may be", .min = 0.001, .max = 1});
+        {.help = "sigma of the pose that a search finds", .min = 0.001, .max = 1});
   visit("window_sigmas",
         o.window_sigmas,
         {.help = "half the search window, in sigmas of the prediction", .min = 0, .max = 10});
-  visit("max_window_m", o.max_window_m, {.help = "and at most this far", .min = 0, .max = 100});
-  visit("max_window_rad", o.max_window_rad, {.help = "and this turn", .min = 0, .max = 3.2});
+  visit("max_window_m",
+        o.max_window_m,
+        {.help = "most that half the search window measures", .min = 0, .max = 100});
+  visit("max_window_rad",
+        o.max_window_rad,
+        {.help = "most that half the range of headings measures", .min = 0, .max = 3.2});
   visit("widen_below_overlap",
         o.widen_below_overlap,
-        {.help = "search wider where less of the scan agrees with the map", .min = 0, .max = 1});
-  visit("widen_factor", o.widen_factor, {.help = "this much wider", .min = 1, .max = 20});
+        {.help = "a wider search follows where less of the scan agrees with the map",
+         .min = 0,
+         .max = 1});
+  visit(
+      "widen_factor",
+      o.widen_factor,
+      {.help = "factor on the sigmas of the prediction in the wider search", .min = 1, .max = 20});
   visit("widen_gain",
         o.widen_gain,
-        {.help = "and believe it if that much more agrees", .min = 0, .max = 1});
+        {.help = "the wider search is believed if that much more of the scan agrees",
+         .min = 0,
+         .max = 1});
 }
 
 /// Finds where in the map a scan was taken, from a rough prediction.

@@ -44,13 +44,13 @@ void Describe(Visitor& visit, ScanMapOptions& o) {
   visit("insertion", o.insertion, {.help = "which points of a relevant scan are stored"});
   visit("density_radius_m",
         o.density_radius_m,
-        {.help = "new-surface: a point is not stored if this near to it",
+        {.help = "new-surface: radius in which older points are counted before a point is stored",
          .formerly = "crowd_radius_m",
          .min = 0,
          .max = 5});
   visit("max_density_points",
         o.max_density_points,
-        {.help = "new-surface: ... lie this many older points",
+        {.help = "new-surface: where so many older points lie in it, the point is not stored",
          .formerly = "crowd_points",
          .min = 1,
          .max = 1000});
@@ -61,7 +61,7 @@ struct MapAddition {
   LaserScan scan;
   UncertainPose2 map_robot;
   std::vector<MapPoint> points;  ///< Those of its points that are stored.
-  FrameCovariance own_error;     ///< What it did not take over from the scans it lies on.
+  FrameCovariance own_error;     ///< Error that it did not take over from the scans it lies on.
 };
 
 /// The union of all relevant scans: their points, searchable, and the scans themselves.
@@ -78,10 +78,11 @@ class ScanMap {
   ScanId Insert(const LaserScan& scan,
                 std::span<const ScanPoint> points,
                 const UncertainPose2& map_robot);
-  /// The same in two steps: what would be added to the map as it is now, and adding it.
+  /// Prepares what Insert() would add to the map as it is now.
   MapAddition Prepare(const LaserScan& scan,
                       std::span<const ScanPoint> points,
                       const UncertainPose2& map_robot) const;
+  /// Adds what was prepared.
   ScanId Add(MapAddition addition);
   /// Forgets all points, but not the scans: what follows is matched to what is inserted next.
   void ForgetPoints();
@@ -97,8 +98,8 @@ class ScanMap {
  private:
   // Of a scan's frame, in two parts that are independent of each other.
   struct ScanError {
-    FrameCovariance shared;  // With the scans it lies on;
-    FrameCovariance own;     // independent of all scans before.
+    FrameCovariance shared;  // What it shares with the scans it lies on.
+    FrameCovariance own;     // What is independent of all scans before.
   };
 
   bool IsNewSurface(const Eigen::Vector2d& p_map_m) const;

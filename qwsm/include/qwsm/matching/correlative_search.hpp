@@ -37,26 +37,27 @@ void Describe(Visitor& visit, CorrelativeSearchOptions& o) {
          .max = 100});
 }
 
-/// Where to look for a pose.
+/// Describes where to search for a pose.
 struct SearchWindow {
   UncertainPose2 predicted;        ///< The prediction; poses cost the more sigmas they are away.
   double translation_m = 0.0;      ///< Half the side of the square of positions.
   double rotation_rad = 0.0;       ///< Half the range of headings.
   double min_score = 0.0;          ///< Poses that score no better are not found.
   std::optional<Pose2> exclude{};  ///< Positions no further than `exclude_m` from it are left out.
-  double exclude_m = 0.0;          ///< Around `exclude`.
+  double exclude_m = 0.0;          ///< Radius around `exclude`.
   /// Surfaces that drifted more do not count; see LikelihoodPyramid::DriftCode().
   std::uint8_t max_drift_code = LikelihoodPyramid::kUnmapped;
 };
 
+/// A pose that a search found.
 struct FoundPose {
   Pose2 T_map_robot;
   double score = 0.0;  ///< Mean likelihood of the beam ends, 0..1, less the cost of the prior.
 };
 
-/// The best pose of a window, by branch and bound over the pyramid's levels (Olson 2009; Hess et
-/// al. 2016): exhaustive in steps of a cell and of the heading that moves a far point by a cell.
-/// The position is then interpolated between the cells.
+/// Searches a window for its best pose, by branch and bound over the pyramid's levels (Olson 2009;
+/// Hess et al. 2016): exhaustive in steps of a cell and of the heading that moves a far point by a
+/// cell. The position is then interpolated between the cells.
 ///
 /// @param points_robot_m the scan's points in the robot's frame, thinned out: cost is linear in
 /// them, and near surfaces, on which beams are dense, would outvote the rest.

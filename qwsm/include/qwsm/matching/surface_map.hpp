@@ -53,7 +53,7 @@ struct MapPoint {
   Eigen::Vector2d p_map_m = Eigen::Vector2d::Zero();
   /// Towards the laser that saw it; zero where the scan shows no line.
   Eigen::Vector2d normal_map = Eigen::Vector2d::Zero();
-  double spacing_m = 0.0;  ///< To the next sample of its surface.
+  double spacing_m = 0.0;  ///< Distance to the next sample of its surface.
   double drift_m2 = 0.0;   ///< Variance of its position owing to the pose it was seen from.
 };
 
@@ -68,7 +68,7 @@ struct Surface {
   double sampling_m2 = 0.0;   ///< Correspondence error: variance along it of the nearest sample.
   double observations = 1.0;  ///< Scans that the mean is of: readings of one scan share errors.
   bool is_line = false;
-  bool is_sample = false;  ///< What there is of it is one sample rather than a mean.
+  bool is_sample = false;  ///< The mean is a single sample: too few are known around it.
 };
 
 /// Variance of what is uniform over a length: the correspondence error along a surface whose
@@ -93,17 +93,18 @@ class SurfaceMap {
   bool empty() const { return quadtree_.empty(); }
   const PointQuadtree& quadtree() const { return quadtree_; }
   const LikelihoodPyramid& likelihood() const { return likelihood_; }
-  /// All memory held. Complexity: linear in the nodes of the quadtree.
+  /// Bytes of all memory held. Complexity: linear in the nodes of the quadtree.
   std::size_t bytes() const;
-  /// @pre quadtree().Contains(id), here and below.
+  /// Returns the surface around a stored point. @pre quadtree().Contains(id), here and below.
   Surface SurfaceAt(PointId id) const;
   /// Has the memory fetched that the calls below need.
   void Prefetch(PointId id) const {
     __builtin_prefetch(&neighborhoods_[id]);
     quadtree_.Prefetch(id);
   }
+  /// Variance of the position of a stored point owing to the pose it was seen from.
   double Drift_m2(PointId id) const { return static_cast<double>(neighborhoods_[id].drift_m2); }
-  /// The normal a point was stored with; zero if none.
+  /// Returns the normal a point was stored with; zero if none.
   Eigen::Vector2d OwnNormal(PointId id) const {
     const Neighborhood& own = neighborhoods_[id];
     return Eigen::Vector2d(own.own_normal_x, own.own_normal_y) * (1.0 / kNormalScale);

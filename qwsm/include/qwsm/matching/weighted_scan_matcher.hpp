@@ -14,10 +14,10 @@
 
 namespace qwsm {
 
-/// How much a pair counts.
+/// Says by what pairs are weighted.
 enum class PairWeighting {
-  kModelled,  ///< By the inverse of its modelled errors (Pfister et al. 2002).
-  kIdentity,  ///< All the same: plain point-to-point ICP.
+  kModelled,  ///< Each counts by the inverse of its modelled errors (Pfister et al. 2002).
+  kIdentity,  ///< All count the same: plain point-to-point ICP.
 };
 
 struct WeightedScanMatcherOptions {
@@ -84,7 +84,9 @@ void Describe(Visitor& visit, WeightedScanMatcherOptions& o) {
         {.help = "a match is inconsistent if less of the scan agrees with it", .min = 0, .max = 1});
   visit("max_prior_sigmas",
         o.max_prior_sigmas,
-        {.help = "... or if it is further from the prediction", .min = 1, .max = 1000});
+        {.help = "a match is inconsistent if it is more sigmas away from the prediction",
+         .min = 1,
+         .max = 1000});
 }
 
 /// Standard deviations of a first guess.
@@ -93,11 +95,11 @@ struct StartError {
   double rotation_rad = 0.0;
 };
 
-/// Where a match starts from.
+/// What is known of a pose before the match.
 struct MatchPrior {
   UncertainPose2 predicted;  ///< Prediction of T_ref_cur; it is fused into the answer.
   Pose2 start;               ///< First guess: the prediction, or what a search found near it.
-  StartError start_error;    ///< Of the start: pairs are sought five times as far.
+  StartError start_error;    ///< How far off the start may be; pairs are sought five times as far.
   /// Stored points that drifted more are not paired.
   double max_drift_m2 = std::numeric_limits<double>::infinity();
 };
@@ -113,6 +115,7 @@ class WeightedScanMatcher {
   explicit WeightedScanMatcher(const WeightedScanMatcherOptions& options = {})
       : options_(options) {}
 
+  /// Matches the points of a scan with the surfaces of the reference.
   /// @param trace if given, gets one entry per iteration.
   MatchResult Match(const SurfaceMap& reference,
                     std::span<const ScanPoint> points,

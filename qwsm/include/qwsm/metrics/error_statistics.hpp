@@ -12,7 +12,7 @@ namespace qwsm {
 struct ErrorStatistics {
   std::size_t count = 0;
   double mean = 0.0;
-  double standard_deviation = 0.0;  ///< Of the population: divided by the count.
+  double standard_deviation = 0.0;  ///< That of a population: divided by the count.
   double rmse = 0.0;
   double median = 0.0;         ///< The mean of the two middle values where the count is even.
   double upper_median = 0.0;   ///< The larger of the two middle values where the count is even.
@@ -22,10 +22,10 @@ struct ErrorStatistics {
   double sum_of_squares = 0.0;
 };
 
-/// O(n log n).
+/// Summarises error magnitudes in O(n log n).
 ErrorStatistics Summarize(std::vector<double> errors);
 
-/// The statistics of the squared errors.
+/// Summarises the squares of error magnitudes.
 ErrorStatistics SummarizeSquares(std::vector<double> errors);
 
 }  // namespace qwsm

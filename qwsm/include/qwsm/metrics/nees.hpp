@@ -26,10 +26,11 @@ struct NeesSummary {
   /// the errors independent: the chi-square test of Bar-Shalom et al. (2001), Eq. (5.4.2-10).
   double consistent_low = 0.0;
   double consistent_high = 0.0;
-  double share_in_95_percent_ellipsoid = 0.0;  ///< Of the values; 0.95 when all is well.
+  /// Share of the values within the ellipsoid of 95 %; 0.95 when the covariances are right.
+  double share_in_95_percent_ellipsoid = 0.0;
 };
 
-/// All but the count are NaN for fewer than two values.
+/// Summarises NEES values. All but the count are NaN for fewer than two of them.
 NeesSummary SummarizeNees(std::span<const double> values);
 
 }  // namespace qwsm

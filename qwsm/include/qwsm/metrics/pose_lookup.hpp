@@ -10,22 +10,22 @@
 
 namespace qwsm {
 
-/// The same poses with rising stamps; equal stamps keep their order.
+/// Sorts poses by rising stamps; equal stamps keep their order.
 Trajectory SortedByStamp(Trajectory trajectory);
 
-/// The index of the pose nearest in time, the earlier of two at equal distance; none if it is
+/// Finds the index of the pose nearest in time, the earlier of two at equal distance; none if it is
 /// further away than `tolerance`. O(log n).
 /// @pre `sorted` has rising stamps.
 std::optional<std::size_t> NearestIndex(const Trajectory& sorted,
                                         Timestamp stamp,
                                         std::chrono::nanoseconds tolerance);
 
-/// The pose at `share` of the way from a (0) to b (1): straight ahead, turning the shorter way
-/// round.
+/// Interpolates the pose at `share` of the way from a (0) to b (1): straight ahead, turning the
+/// shorter way round.
 Pose2 Between(const Pose2& a, const Pose2& b, double share);
 
-/// The pose at `stamp`, on the straight line between the poses before and after it; before the
-/// first and after the last pose theirs, as far as `tolerance`. O(log n).
+/// Interpolates the pose at `stamp`, on the straight line between the poses before and after it;
+/// before the first and after the last pose theirs, as far as `tolerance`. O(log n).
 /// @pre `sorted` has rising stamps.
 std::optional<Pose2> InterpolatedPose(const Trajectory& sorted,
                                       Timestamp stamp,

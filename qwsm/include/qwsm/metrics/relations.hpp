@@ -52,7 +52,7 @@ struct RelationsResult {
   RelationsSummary local;
   RelationsSummary global;
   std::size_t skipped = 0;            ///< Relations whose stamps the trajectory does not cover.
-  std::vector<RelationError> errors;  ///< Of the others, in their order.
+  std::vector<RelationError> errors;  ///< Errors of the relations not skipped, in their order.
 };
 
 /// The relations metric of Kuemmerle et al. (2009), Eq. (4): the error of a relation is

@@ -14,22 +14,23 @@ namespace qwsm {
 
 /// A true pose and the estimate of the same moment, each in the frame of its own trajectory.
 struct PosePair {
-  Timestamp stamp{};  ///< Of the true pose.
+  Timestamp stamp{};  ///< Stamp of the true pose.
   Pose2 T_ref_robot;
   Pose2 T_map_robot;
 };
 
-/// Every pose of the shorter trajectory with the nearest in time of the longer one (the estimate
-/// counts as the shorter of two equally long), as evo does it: in the order of time, and a pose of
-/// the longer may serve twice.
+/// Pairs every pose of the shorter trajectory with the nearest in time of the longer one (the
+/// estimate counts as the shorter of two equally long), as evo does it: in the order of time, and a
+/// pose of the longer may serve twice.
 std::vector<PosePair> Associate(Trajectory reference,
                                 Trajectory estimate,
                                 std::chrono::nanoseconds max_difference);
 
-/// The T_ref_map that brings the estimated positions nearest to the true ones in the least-squares
-/// sense, without scale (Umeyama 1991). For planar poses this is evo's `--align`, but for one case:
-/// a mirrored trajectory, which evo is free to turn over in space, stays mirrored here. Where all
-/// positions coincide, no turn is better than another and none is made. The identity for no pairs.
+/// Finds the T_ref_map that brings the estimated positions nearest to the true ones in the
+/// least-squares sense, without scale (Umeyama 1991). For planar poses this is evo's `--align`, but
+/// for one case: a mirrored trajectory, which evo is free to turn over in space, stays mirrored
+/// here. Where all positions coincide, no turn is better than another and none is made. The
+/// identity for no pairs.
 Pose2 AlignUmeyama(std::span<const PosePair> pairs);
 
 /// Absolute trajectory error (Sturm et al. 2012): the distances between true and estimated

@@ -71,18 +71,20 @@ class LikelihoodPyramid {
   GridCell CellAt(const Eigen::Vector2d& p_m) const {
     return {CellIndex(p_m.x()), CellIndex(p_m.y())};
   }
-  /// The cell of `level` around the level-0 cell (x, y); 0 where nothing is stored.
+  /// Likelihood of the cell of `level` around the level-0 cell (x, y); 0 where nothing is stored.
   std::uint8_t LikelihoodAt(int level, int x, int y) const;
-  /// The same of the drift; kUnmapped where nothing is stored.
+  /// Drift code of the cell of `level` around the level-0 cell (x, y); kUnmapped where nothing is
+  /// stored.
   std::uint8_t DriftCodeAt(int level, int x, int y) const;
   /// The tile of the level-0 cells column * kSide .. column * kSide + kSide - 1, and so for rows;
   /// an empty one where nothing is stored. Valid until the next insertion.
   const Tile& FindTile(int column, int row) const;
-  /// The same for the tiles of so many columns and rows from one on, row by row.
+  /// Finds the tiles of so many columns and rows from one on, row by row, as FindTile() does.
   std::vector<const Tile*> FindTiles(GridCell first, GridCell count) const;
 
   /// Drift variance on a logarithmic scale of 8 bits: monotone, a fifth of an octave per step.
   static std::uint8_t DriftCode(double drift_m2);
+  /// Drift variance in m^2 that a code stands for.
   static double DriftOf(std::uint8_t drift_code);
 
   std::size_t bytes() const;

@@ -24,7 +24,7 @@ class LikelihoodWindow {
                    GridCell high,
                    std::uint8_t max_drift_code);
 
-  /// Of blocks of this level all offsets are summed at once.
+  /// SumsOfBlock() sums all offsets of a block of this level at once.
   static constexpr int kBlockLevel = 1;
   static constexpr int kBlockSide = 1 << LikelihoodTile::ShiftOf(kBlockLevel);
   using BlockSums = std::array<int, std::size_t{kBlockSide} * kBlockSide>;

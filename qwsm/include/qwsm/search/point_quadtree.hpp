@@ -90,8 +90,9 @@ class PointQuadtree {
   /// The nearest point not farther than `max_distance_m`; exact.
   std::optional<Neighbor> Nearest(const Eigen::Vector2d& query_m, double max_distance_m) const;
 
-  /// The same, with the same distance, but quicker if the cursor comes from a search nearby. A
-  /// cursor from another tree, or from before a change of this one, is noticed and starts afresh.
+  /// Finds a nearest point at the same distance, but quicker if the cursor comes from a search
+  /// nearby. A cursor from another tree, or from before a change of this one, is noticed and starts
+  /// afresh.
   std::optional<Neighbor> Nearest(const Eigen::Vector2d& query_m,
                                   double max_distance_m,
                                   SearchCursor& cursor) const;

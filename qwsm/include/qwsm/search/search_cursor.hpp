@@ -14,10 +14,10 @@ using PointId = std::uint32_t;
 /// What a query remembers for its next search (Nuechter et al. 2007, section 4.1). A default one
 /// remembers nothing. It may be copied: the cursor of the neighbouring beam is a fair start.
 struct SearchCursor {
-  std::uint64_t revision = 0;               ///< Of the tree that was searched; 0 is none.
+  std::uint64_t revision = 0;               ///< Revision of the tree that was searched; 0 is none.
   std::uint32_t leaf = quadtree::kNoIndex;  ///< Leaf of the neighbour; kNoIndex if none was found.
-  PointId id = 0;                           ///< The neighbour,
-  quadtree::UnitPoint neighbor{};           ///< and where it is.
+  PointId id = 0;                           ///< The neighbour.
+  quadtree::UnitPoint neighbor{};           ///< Where the neighbour is.
   quadtree::UnitPoint query{};              ///< Where the query was.
   double clearance_of_point = 0.0;          ///< No other point was nearer than this, in units.
 };

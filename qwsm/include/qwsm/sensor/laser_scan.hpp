@@ -16,10 +16,11 @@ using Timestamp = std::chrono::nanoseconds;
 /// Where the beams of a scan point. Single precision, as sensors and sensor_msgs/LaserScan have it,
 /// so that a scan survives the wire bit for bit.
 struct LaserGeometry {
-  float first_bearing_rad = 0.0F;  ///< Of beam 0 in the laser frame.
-  float bearing_step_rad = 0.0F;   ///< Between beams; negative for a scanner that turns clockwise.
-  float range_min_m = 0.0F;        ///< Readings below are too near to be trusted.
-  float range_max_m = 0.0F;        ///< Readings near it and beyond mean "no echo"; see StateOf().
+  float first_bearing_rad = 0.0F;  ///< Bearing of beam 0 in the laser frame.
+  /// Angle between neighbouring beams; negative for a scanner that turns clockwise.
+  float bearing_step_rad = 0.0F;
+  float range_min_m = 0.0F;  ///< Readings below are too near to be trusted.
+  float range_max_m = 0.0F;  ///< Readings near it and beyond mean "no echo"; see StateOf().
   Pose2 T_robot_laser;
 
   double Bearing(std::size_t beam) const {
@@ -34,8 +35,8 @@ struct LaserGeometry {
 enum class BeamState {
   kHit,      ///< A surface was measured.
   kMiss,     ///< No echo within the range: the way is free, how far is not known.
-  kTooNear,  ///< Below the range minimum: dust, the robot itself, or a failed reading.
-  kInvalid,  ///< Not a number.
+  kTooNear,  ///< A reading below the range minimum: dust, the robot itself, or a failed one.
+  kInvalid,  ///< The reading is not a number.
 };
 
 /// One sweep of a planar laser.
@@ -51,6 +52,7 @@ struct LaserScan {
 /// value near their maximum, not as the maximum itself.
 inline constexpr float kMissShareOfMaximum = 0.97F;
 
+/// Tells what a reading says, by the range limits of its laser.
 BeamState StateOf(float range_m, const LaserGeometry& geometry);
 
 }  // namespace qwsm

@@ -22,7 +22,8 @@ void Describe(Visitor& visit, RangeNoise& o) {
         {.help = "standard deviation of a beam's direction", .min = 1e-5, .max = 0.2});
 }
 
-/// Measurement noise of a point, in m^2, in the frame of `beam`.
+/// Covariance of the measurement noise of a point, in m^2, in the frame of `beam`: that of the
+/// delta c in Visser et al. (2009), Eq. (2), whose bias b is taken as 0 as there.
 ///
 /// Pfister et al. (2002), noise of one beam: N = s_r^2 e e^T + (r s_b)^2 f f^T.
 /// @param beam unit vector from the laser to the point, e; f is perpendicular to it.
@@ -35,7 +36,8 @@ inline Eigen::Matrix2d PointCovariance(const Eigen::Vector2d& beam,
   return along_m2 * beam * beam.transpose() + across_m * across_m * across * across.transpose();
 }
 
-/// Its variance along a direction, n^T N n. @param direction unit vector.
+/// Variance of the measurement noise of a point along a direction, n^T N n, in m^2.
+/// @param direction unit vector n.
 inline double NoiseAlong(const Eigen::Vector2d& direction,
                          const Eigen::Vector2d& beam,
                          double range_m,

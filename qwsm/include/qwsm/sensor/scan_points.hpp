@@ -21,25 +21,26 @@ struct ScanPoint {
   /// Unit normal of the surface, towards the laser, by a line through the neighbouring beams'
   /// points; zero where they are no line (a corner, an edge, a lone point).
   Eigen::Vector2d normal_robot = Eigen::Vector2d::Zero();
-  /// From here to the mean of the points of its surface within kSurfaceReach_m.
+  /// Vector from this point to the mean of the points of its surface within kSurfaceReach_m.
   Eigen::Vector2d to_mean_robot_m = Eigen::Vector2d::Zero();
   double range_m = 0.0;
-  double arc_m = 0.0;      ///< From this beam to the next one at this range.
-  double spacing_m = 0.0;  ///< To the next sample of the same surface; arc_m for a small object.
-  std::size_t beam = 0;    ///< Index of the beam in its scan.
+  double arc_m = 0.0;  ///< Distance between this beam and the next one at this range.
+  /// Distance to the next sample of the same surface; for a small object as `arc_m`.
+  double spacing_m = 0.0;
+  std::size_t beam = 0;  ///< Index of the beam in its scan.
 };
 
-/// The points of all beams that hit something.
+/// Returns the points of all beams that hit something.
 std::vector<ScanPoint> ToPoints(const LaserScan& scan);
 
-/// The point as another robot pose sees it.
+/// Returns the point as another robot pose sees it.
 ScanPoint operator*(const RigidTransform2& T_other_robot, const ScanPoint& point);
 
-/// Points at least `spacing_m` apart, walking along the scan: near surfaces, on which beams crowd,
-/// count no more than far ones.
+/// Returns points at least `spacing_m` apart, walking along the scan: near surfaces, on which beams
+/// are dense, count no more than far ones.
 std::vector<ScanPoint> ThinOut(std::span<const ScanPoint> points, double spacing_m);
 
-/// Where they are in the robot's frame.
+/// Returns the positions of points in the robot's frame.
 std::vector<Eigen::Vector2d> PositionsOf(std::span<const ScanPoint> points);
 
 }  // namespace qwsm

@@ -49,7 +49,7 @@ struct IcpOptions {
   double residual_scale_m = 0.02;
   /// To planes: what surfels are off by beside their scatter.
   double surface_noise_m = 0.001;
-  /// To planes: what the guess may be off by; it holds what the pairs leave open, as along a
+  /// To planes: what the guess may be off by; it tells what the pairs leave open, as along a
   /// corridor.
   double guess_sigma_m = 0.3;
   double guess_sigma_rad = 0.1;
@@ -87,7 +87,7 @@ void Describe(Visitor& visit, IcpOptions& o) {
         {.help = "to planes: error of a surfel beside its scatter", .min = 1e-6, .max = 10});
   visit("guess_sigma_m",
         o.guess_sigma_m,
-        {.help = "to planes: error of the guess, which holds what the pairs leave open",
+        {.help = "to planes: error of the guess, which tells what the pairs leave open",
          .min = 1e-3,
          .max = 1e3});
   visit("guess_sigma_rad",
@@ -104,7 +104,7 @@ enum class IcpStatus {
 };
 
 /// Why, in words for a person.
-std::string_view Reason(IcpStatus status);
+std::string_view Name(IcpStatus status);
 
 struct [[nodiscard]] IcpResult {
   IcpStatus status = IcpStatus::kTooFewPairs;

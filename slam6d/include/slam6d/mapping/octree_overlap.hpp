@@ -39,7 +39,7 @@ void Describe(Visitor& visit, OverlapOptions& o) {
         {.help = "the guess may be off by so much in x and y", .min = 0, .max = 1000});
   visit("rotation_range_rad",
         o.rotation_range_rad,
-        {.help = "and by so much in yaw", .min = 0, .max = std::numbers::pi});
+        {.help = "the guess may be off by so much in yaw", .min = 0, .max = std::numbers::pi});
   visit("max_cubes",
         o.max_cubes,
         {.help = "cubes looked up for each motion tried", .min = 10, .max = 1e6});

@@ -62,7 +62,7 @@ enum class SlamStatus {
   kUnusable,      ///< Too few points, or all the same: odometry alone, and no reference for others.
 };
 
-std::string_view NameOf(SlamStatus status);
+std::string_view Name(SlamStatus status);
 
 /// What became of one scan.
 struct SlamStep {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "slam6d/src/icp/held_motions.hpp"
+#include "slam6d/src/icp/observable_motions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +11,9 @@ namespace {
 /// Below this share of the largest eigenvalue the surfaces leave a motion open.
 constexpr double kOpenShare = 1e-9;
 
-/// A motion is held where the pairs tell so many times as much of it as the errors of the normals
-/// would by themselves.
-constexpr double kHeldShare = 3.0;
+/// A motion is observable where the pairs tell so many times as much of it as the errors of the
+/// normals would by themselves.
+constexpr double kObservableShare = 3.0;
 
 }  // namespace
 
@@ -28,19 +28,19 @@ bool LeavesMotionOpen(const Matrix6d& A) {
   return !(eigenvalues(0) > kOpenShare * eigenvalues(5));
 }
 
-HeldMotions::HeldMotions(const Matrix6d& A, const Matrix6d& A_noise)
+ObservableMotions::ObservableMotions(const Matrix6d& A, const Matrix6d& A_noise)
     : eigen_(A, A_noise),
       to_gradient_(A_noise * eigen_.eigenvectors()),
-      held_(eigen_.eigenvalues().array() > kHeldShare) {}
+      is_observable_(eigen_.eigenvalues().array() > kObservableShare) {}
 
-Matrix6d HeldMotions::Information() const {
-  const Vector6d told = held_.select(eigen_.eigenvalues().array() - 1.0, 0.0);
+Matrix6d ObservableMotions::Information() const {
+  const Vector6d told = is_observable_.select(eigen_.eigenvalues().array() - 1.0, 0.0);
   return to_gradient_ * told.asDiagonal() * to_gradient_.transpose();
 }
 
-Vector6d HeldMotions::Project(const Vector6d& b) const {
+Vector6d ObservableMotions::Project(const Vector6d& b) const {
   const Vector6d along = eigen_.eigenvectors().transpose() * b;
-  return to_gradient_ * held_.select(along.array(), 0.0).matrix();
+  return to_gradient_ * is_observable_.select(along.array(), 0.0).matrix();
 }
 
 }  // namespace slam6d
