@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "qwsm/logs/log_reader.hpp"
 #include "service/config/options_io.hpp"
-#include "service/io/logs/log_reader.hpp"
 #include "service/options/program_options.hpp"
 
 namespace qwsm::apps {

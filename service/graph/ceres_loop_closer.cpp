@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "service/graph/ceres_loop_closer.hpp"
+#include "slam6d/graph/ceres_loop_closer.hpp"
 
 #include <ceres/ceres.h>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/graph/loop_distribution.hpp"
 
-#include "service/graph/ceres_loop_closer.hpp"
+#include "slam6d/graph/ceres_loop_closer.hpp"
 
 namespace slam6d::graph {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "qwsm/logs/log_reader.hpp"
 #include "service/io/logs/carmen_writer.hpp"
-#include "service/io/logs/log_reader.hpp"
 #include "tests/fuzz/expect.hpp"
 
 namespace {

@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-#include "service/io/logs/log_reader.hpp"
+#include "qwsm/logs/log_reader.hpp"
 #include "service/io/trajectories/trajectory_file.hpp"
 #include "tests/support/program.hpp"
 

@@ -73,8 +73,15 @@ INCLUDE = re.compile(r'\s*#\s*include\s+[<"]([^>"]+)[>"]')
 CLOCK = re.compile(r"\w*_clock::now|\bgettimeofday\b|\bclock_gettime\b|\bstd::time\(")
 
 
+# Installed headers of the service's layers, which are included as those of the libraries are.
+INSTALLED = {"qwsm/logs/": "service/io", "slam6d/graph/": "service/graph"}
+
+
 def layer_of(path):
     """The layer a file of the tree, or an included header of the project, belongs to."""
+    for folder, layer in INSTALLED.items():
+        if path.startswith(folder):
+            return layer
     parts = path.split("/")
     if parts[0] == "service":
         return "/".join(parts[:2])

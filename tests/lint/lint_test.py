@@ -37,6 +37,11 @@ class Layers(unittest.TestCase):
         self.refuses("qwsm/src/a.cpp", '#include "service/io/x.hpp"')
         self.allows("sim/src/a.cpp", '#include "qwsm/geometry/pose2.hpp"')
 
+    def test_an_installed_header_belongs_to_the_layer_it_is_of(self):
+        self.refuses("qwsm/src/a.cpp", '#include "qwsm/logs/log_reader.hpp"')
+        self.refuses("service/io/logs/a.cpp", '#include "slam6d/graph/ceres_loop_closer.hpp"')
+        self.allows("service/pipeline/a.cpp", '#include "qwsm/logs/log_reader.hpp"')
+
     def test_libraries_do_not_print_or_read_clocks(self):
         self.refuses("qwsm/src/a.cpp", "#include <iostream>")
         self.refuses("slam6d/src/a.cpp", "auto t = std::chrono::steady_clock::now();")

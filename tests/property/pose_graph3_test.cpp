@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "service/graph/ceres_loop_closer.hpp"
+#include "slam6d/graph/ceres_loop_closer.hpp"
 #include "slam6d/mapping/loop_hypotheses.hpp"
 #include "slam6d/mapping/pose_graph.hpp"
 #include "tests/support/room3.hpp"

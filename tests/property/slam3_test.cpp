@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "service/graph/ceres_loop_closer.hpp"
+#include "slam6d/graph/ceres_loop_closer.hpp"
 #include "slam6d/mapping/slam.hpp"
 #include "tests/support/drive3.hpp"
 

@@ -7,9 +7,9 @@
 #include <set>
 #include <string>
 
+#include "qwsm/logs/log_reader.hpp"
 #include "qwsm/metrics/relations.hpp"
 #include "service/io/logs/evaluation_odometry.hpp"
-#include "service/io/logs/log_reader.hpp"
 #include "service/io/trajectories/relations_file.hpp"
 #include "tests/support/log_text.hpp"
 

@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <numbers>
 
-#include "service/graph/ceres_loop_closer.hpp"
 #include "service/io/clouds/uos_scan.hpp"
+#include "slam6d/graph/ceres_loop_closer.hpp"
 #include "slam6d/mapping/slam.hpp"
 
 namespace slam6d {

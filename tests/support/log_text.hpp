@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "service/io/logs/log_reader.hpp"
+#include "qwsm/logs/log_reader.hpp"
 
 namespace qwsm::test {
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "qwsm/logs/log_reader.hpp"
 #include "service/io/journal/journal_file.hpp"
 #include "service/io/journal/scan_codec.hpp"
 #include "service/io/journal/sqlite_database.hpp"
-#include "service/io/logs/log_reader.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/room_drive.hpp"
 #include "tests/support/temporary_folder.hpp"

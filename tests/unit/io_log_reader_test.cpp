@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-#include "service/io/logs/log_reader.hpp"
+#include "qwsm/logs/log_reader.hpp"
 #include "tests/support/log_text.hpp"
 
 namespace qwsm::io {

@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "service/io/logs/log_record.hpp"
+#include "qwsm/logs/log_record.hpp"
 
 namespace qwsm::io {
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "qwsm/logs/log_reader.hpp"
 #include "qwsm/metrics/stamped_pose.hpp"
-#include "service/io/logs/log_reader.hpp"
 
 namespace qwsm::io {
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "qwsm/logs/log_reader.hpp"
 #include "service/io/journal/journal_file.hpp"
-#include "service/io/logs/log_reader.hpp"
 
 namespace qwsm::io {
 

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <variant>
 
+#include "qwsm/logs/log_record.hpp"
 #include "service/io/files/field_reader.hpp"
-#include "service/io/logs/log_record.hpp"
 
 namespace qwsm::io {
 

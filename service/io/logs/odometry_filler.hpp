@@ -7,7 +7,7 @@
 #include <deque>
 #include <optional>
 
-#include "service/io/logs/log_record.hpp"
+#include "qwsm/logs/log_record.hpp"
 
 namespace qwsm::io {
 

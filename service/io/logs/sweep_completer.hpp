@@ -9,8 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "qwsm/logs/log_reader.hpp"
 #include "service/io/logs/log_parser.hpp"
-#include "service/io/logs/log_reader.hpp"
 #include "service/io/logs/mounting.hpp"
 #include "service/io/logs/range_maximum.hpp"
 

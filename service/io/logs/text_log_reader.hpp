@@ -10,9 +10,9 @@
 #include <string_view>
 #include <variant>
 
+#include "qwsm/logs/log_reader.hpp"
 #include "service/io/files/line_reader.hpp"
 #include "service/io/logs/log_parser.hpp"
-#include "service/io/logs/log_reader.hpp"
 #include "service/io/logs/odometry_filler.hpp"
 #include "service/io/logs/sweep_completer.hpp"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "service/io/logs/log_reader.hpp"
+#include "qwsm/logs/log_reader.hpp"
 #include "service/pipeline/run/scan_source.hpp"
 
 namespace qwsm::pipeline {

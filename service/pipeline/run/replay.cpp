@@ -5,7 +5,7 @@
 #include <chrono>
 #include <optional>
 
-#include "service/io/logs/log_reader.hpp"
+#include "qwsm/logs/log_reader.hpp"
 
 namespace qwsm::pipeline {
 namespace {

@@ -12,8 +12,8 @@
 #include <string>
 #include <string_view>
 
-#include "service/io/logs/log_record.hpp"
-#include "service/io/logs/log_report.hpp"
+#include "qwsm/logs/log_record.hpp"
+#include "qwsm/logs/log_report.hpp"
 
 namespace qwsm::io {
 
