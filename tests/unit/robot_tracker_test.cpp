@@ -27,17 +27,11 @@ LaserScan ScanFrom(const Pose2& T_world_robot, const World& world = Room(), unsi
   return Measure({.beams = 361, .range_max_m = 20.0}, world, T_world_robot, random);
 }
 
-UncertainPose2 WithSigmas(const Pose2& pose, double sigma_m, double sigma_rad) {
-  UncertainPose2 uncertain{.T_a_b = pose};
-  uncertain.covariance.diagonal() = Eigen::Vector3d(sigma_m, sigma_m, sigma_rad).cwiseAbs2();
-  return uncertain;
-}
-
 /// A map of the room, made when the pose of the robot was exact.
 ScanMap MapFrom(const Pose2& T_map_robot) {
   ScanMap map;
   const LaserScan scan = ScanFrom(T_map_robot);
-  map.Insert(scan, ToPoints(scan), WithSigmas(T_map_robot, 0.01, 0.001));
+  map.Insert(scan, ToPoints(scan), UncertainPose2::WithSigmas(T_map_robot, 0.01, 0.001));
   return map;
 }
 
@@ -49,7 +43,7 @@ TEST(RobotTracker, HasTheStatusOfTheLoopClosureThatReplacesABadMatch) {
   options.locator.matcher.max_prior_sigmas = 1.5;  // The scan fits further from the estimate.
   RobotTracker tracker(options);
   const Pose2 drifted{kStart.x_m + 0.6, kStart.y_m + 0.7, kStart.theta_rad + 0.01};
-  tracker.PlaceAt(WithSigmas(drifted, 0.4, 0.02));
+  tracker.PlaceAt(UncertainPose2::WithSigmas(drifted, 0.4, 0.02));
 
   const LaserScan scan = ScanFrom(kStart, Room(), 4);
   const MappingStep step = tracker.Track(map, {.scan = scan, .T_odom_robot = {}}, ToPoints(scan));
@@ -66,7 +60,7 @@ TEST(RobotTracker, FindsAScanRelevantByMotionAloneHoweverLittleOfItAgreesWithThe
   options.extended_below_overlap = 1.0;
   options.relevant_translation_m = 0.5;
   RobotTracker tracker(options);
-  tracker.PlaceAt(WithSigmas(kStart, 0.01, 0.001), Pose2{});
+  tracker.PlaceAt(UncertainPose2::WithSigmas(kStart, 0.01, 0.001), Pose2{});
   World rearranged = Room();
   rearranged.columns.push_back({.center_m = {2.5, 0.5}, .radius_m = 0.4});
   Pose2 T_map_relevant;
