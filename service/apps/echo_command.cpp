@@ -14,6 +14,7 @@
 
 #include "service/apps/command.hpp"
 #include "service/apps/network.hpp"
+#include "service/apps/number_arguments.hpp"
 #include "service/dds/robot/match_report_reader.hpp"
 #include "service/io/files/atomic_file.hpp"
 #include "service/io/trajectories/trajectory_file.hpp"
@@ -126,7 +127,7 @@ Command AddEchoCommand(CLI::App& program) {
   parser->add_option("ROBOT", arguments->robots, "namespaces of robots; else all")->type_name("");
   parser->add_option("--count", arguments->count, "stop after so many")->type_name("N");
   parser->add_option("--duration", arguments->duration_s, "stop after so many seconds")
-      ->check(CLI::NonNegativeNumber)
+      ->check(NumberBetween(0.0, kLongest_s))
       ->type_name("S");
   parser->add_option("--to", arguments->format, "text or tum")
       ->check(CLI::IsMember({"text", "tum"}))

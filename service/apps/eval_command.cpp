@@ -12,6 +12,7 @@
 
 #include "qwsm/geometry/angle.hpp"
 #include "service/apps/command.hpp"
+#include "service/apps/number_arguments.hpp"
 #include "service/pipeline/evaluation/evaluation.hpp"
 
 namespace qwsm::apps {
@@ -106,7 +107,7 @@ ExitCode RunEval(const EvalArguments& arguments) {
 void AddBounds(CLI::App& parser, Bounds& bounds) {
   const auto add = [&parser](const char* name, std::optional<double>& bound, const char* help) {
     parser.add_option(name, bound, help)
-        ->check(CLI::NonNegativeNumber)
+        ->check(NumberBetween(0.0, 1e9))
         ->group("Bounds (exit code 1)");
   };
   add("--max-relations", bounds.relations_m, "mean translation of relations, in metres");
@@ -141,7 +142,7 @@ Command AddEvalCommand(CLI::App& program) {
       ->add_option("--max-time-diff",
                    arguments->max_time_difference_s,
                    "seconds between a pose and its truth")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(NumberBetween(0.0, 1e6))
       ->capture_default_str();
   parser->add_option("--rpe-step", options.relative_step, "poses between the ends of an RPE")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1000000000}))

@@ -10,9 +10,11 @@
 #include <vector>
 
 #include "qwsm/geometry/angle.hpp"
+#include "qwsm/geometry/position.hpp"
 #include "qwsm/mapping/relocalization.hpp"
 #include "service/apps/command.hpp"
 #include "service/apps/messages.hpp"
+#include "service/apps/number_arguments.hpp"
 #include "service/apps/run_session.hpp"
 #include "service/io/maps/map_file.hpp"
 #include "service/pipeline/results/results_writer.hpp"
@@ -100,7 +102,7 @@ Command AddLocalizeCommand(CLI::App& program) {
       ->type_name("MAP");
   parser->add_option("--at", arguments->at, "where the robot starts: metres and degrees")
       ->expected(3)
-      ->check(CLI::Number)
+      ->check(NumberBetween(-kFarthest_m, kFarthest_m))
       ->type_name("X Y DEG");
   AddRunArguments(*parser, arguments->run);
   return {.parser = parser, .run = [arguments] { return RunLocalize(*arguments); }};

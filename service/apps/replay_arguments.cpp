@@ -2,21 +2,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/apps/replay_arguments.hpp"
 
-#include <cstdlib>
 #include <optional>
+
+#include "service/apps/number_arguments.hpp"
+#include "service/config/number_text.hpp"
 
 namespace qwsm::apps {
 namespace {
 
+constexpr double kSlowestRate = 1e-6;
+constexpr double kFastestRate = 1e6;
+
 /// Seconds of the record in one of ours; nothing for as fast as the service answers.
 std::optional<double> FactorOf(const std::string& rate) {
   if (rate == "max") return std::nullopt;
-  char* end = nullptr;
-  const double factor = std::strtod(rate.c_str(), &end);
-  if (end == rate.c_str() || *end != '\0' || !(factor > 0.0 && factor <= 1e6)) {
-    throw UsageError(fmt::format("--rate: must be a positive number or max, got '{}'", rate));
-  }
-  return factor;
+  const std::optional<double> factor = config::ParseNumber(rate);
+  if (factor && *factor >= kSlowestRate && *factor <= kFastestRate) return factor;
+  throw UsageError(fmt::format("--rate: must be a number between {} and {}, or max, got '{}'",
+                               kSlowestRate,
+                               kFastestRate,
+                               rate));
 }
 
 }  // namespace
@@ -28,7 +33,7 @@ void AddReplayArguments(CLI::App& parser, ReplayArguments& arguments) {
       ->type_name("FACTOR")
       ->capture_default_str();
   parser.add_option("--wait", arguments.wait_s, "seconds to wait for somebody who listens")
-      ->check(CLI::Range(0.0, 86400.0))
+      ->check(NumberBetween(0.0, 86400.0))
       ->type_name("S")
       ->capture_default_str();
 }

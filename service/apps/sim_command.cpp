@@ -11,6 +11,7 @@
 
 #include "service/apps/command.hpp"
 #include "service/apps/messages.hpp"
+#include "service/apps/number_arguments.hpp"
 #include "service/apps/scenario_arguments.hpp"
 #include "service/apps/version.hpp"
 #include "service/config/options_io.hpp"
@@ -177,7 +178,7 @@ Command AddSimCommand(CLI::App& program) {
       ->add_option("--speed",
                    arguments->real_time_factor,
                    "simulated seconds in a real one; else as fast as it can")
-      ->check(CLI::PositiveNumber)
+      ->check(NumberBetween(1e-3, 1e6))
       ->type_name("FACTOR")
       ->group("Simulation");
   AddNetworkSettings(*parser, *arguments);

@@ -13,6 +13,7 @@
 
 #include "service/apps/command.hpp"
 #include "service/apps/network.hpp"
+#include "service/apps/number_arguments.hpp"
 #include "service/dds/robot/match_report_reader.hpp"
 #include "service/io/files/atomic_file.hpp"
 #include "service/pipeline/run/interruption.hpp"
@@ -90,10 +91,10 @@ Command AddWatchCommand(CLI::App& program) {
       "  qwsm watch --period 10 >> team.txt  a table every ten seconds, one below the other");
   parser->add_option("ROBOT", arguments->robots, "namespaces of robots; else all")->type_name("");
   parser->add_option("--duration", arguments->duration_s, "stop after so many seconds")
-      ->check(CLI::NonNegativeNumber)
+      ->check(NumberBetween(0.0, kLongest_s))
       ->type_name("S");
   parser->add_option("--period", arguments->period_s, "seconds between two looks")
-      ->check(CLI::Range(0.1, 3600.0))
+      ->check(NumberBetween(0.1, 3600.0))
       ->type_name("S")
       ->capture_default_str();
   AddNetworkArguments(*parser, arguments->network, {});

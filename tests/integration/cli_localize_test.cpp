@@ -81,6 +81,18 @@ TEST_F(LocalizeCommand, StartsWhereItIsTold) {
   ExpectOnThePath();
 }
 
+TEST_F(LocalizeCommand, RefusesToStartNowhere) {
+  for (const std::string number : {"nan", "inf", "-1e300", "3e7", "here"}) {
+    const Outcome outcome =
+        RunProgram({"localize", "--map", map_, part_, "-o", results_, "--at", number, "0", "0"});
+    EXPECT_EQ(outcome.exit_code, 2) << number;
+    EXPECT_NE(outcome.errors.find("--at: must be a number between -10000000 and 10000000, got '" +
+                                  number + "'"),
+              std::string::npos)
+        << outcome.errors;
+  }
+}
+
 TEST_F(LocalizeCommand, LeavesTheMapAsItIs) {
   const std::string before = ReadFile(map_);
   RunProgram({"localize", "--map", map_, part_, "-o", results_});

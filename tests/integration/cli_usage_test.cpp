@@ -6,6 +6,7 @@
 
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "tests/support/program.hpp"
 #include "tests/support/room_log.hpp"
@@ -117,6 +118,26 @@ TEST(Usage, ReportsAllConfigurationProblemsBeforeAnythingIsDone) {
                 "--set mapper.matcher: must be one of q-wsm, wsm, icp, got 'wms'; "
                 "did you mean 'wsm'?\n");
   EXPECT_FALSE(std::filesystem::exists(results));
+}
+
+TEST(Usage, RefusesNumbersThatAreNone) {
+  const std::vector<std::vector<std::string>> commands{
+      {"sim", "park", "--speed", "nan"},
+      {"sim", "park", "--speed", "inf"},
+      {"sim", "park", "--duration", "nan"},
+      {"replay", "room.log", "--rate", "1e-300"},
+      {"replay", "room.log", "--wait", "nan"},
+      {"eval", "a.tum", "--truth", "b.tum", "--max-time-diff", "nan"},
+      {"eval", "a.tum", "--truth", "b.tum", "--max-ate", "nan"},
+      {"echo", "--duration", "inf"},
+      {"watch", "--duration", "1e300"},
+      {"watch", "--period", "nan"}};
+  for (const std::vector<std::string>& command : commands) {
+    SCOPED_TRACE(command.front() + " " + command[command.size() - 2]);
+    const Outcome outcome = RunProgram(command);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.errors.find(command.back()), std::string::npos) << outcome.errors;
+  }
 }
 
 TEST(Usage, SaysWhyResultsCannotBeWritten) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "qwsm/sensor/scan_limits.hpp"
 #include "tests/support/log_text.hpp"
 
 namespace qwsm::io {
@@ -28,6 +29,30 @@ TEST(CarmenLog, ReadsOdometryWithItsExactStamp) {
   EXPECT_EQ(log.odometry[0].stamp, 976052857337531us);
   EXPECT_EQ(log.odometry[0].T_odom_robot, (Pose2{1.5, -2.25, 3.0}));
   EXPECT_EQ(log.report.format, "CARMEN");
+}
+
+TEST(CarmenLog, PassesOverPlacesThatAreNone) {
+  const LogContent log = ReadLogText(
+      "ODOM 1 2 0 0 0 0 1 host 1\n"
+      "ODOM 1e9 2 0 0 0 0 2 host 2\n"
+      "ODOM 1 -1e300 0 0 0 0 3 host 3\n"
+      "ODOM 4000000 5500000 0 0 0 0 4 host 4\n"
+      "PARAM robot_frontlaser_offset 1e9\n");
+  ASSERT_EQ(log.odometry.size(), 2U);
+  EXPECT_EQ(log.odometry[1].stamp, 4s);
+  ASSERT_EQ(log.report.faults.size(), 2U);
+  EXPECT_TRUE(log.report.faults[0].what.starts_with("ODOM: a position is more than 10000 km"));
+  EXPECT_EQ(log.report.faults[0].count, 2U);
+  EXPECT_EQ(log.report.faults[0].first_line, 2U);
+  EXPECT_TRUE(log.report.faults[1].what.starts_with("PARAM: a position is more than 10000 km"));
+}
+
+TEST(CarmenLog, BelievesNoRangeMaximumThatNoLaserHas) {
+  const LogContent log = ReadLogText(
+      "ROBOTLASER1 0 -1.5 3.0 1.5 1e30 0.01 0 3 1.5 1e20 2.5 0 0 0 0 0 0 0 0 0 0 0 0 1 host 1\n");
+  ASSERT_EQ(log.scans.size(), 1U);
+  EXPECT_EQ(ObjectionTo(log.scans[0].scan), "");
+  EXPECT_EQ(StateOf(log.scans[0].scan.ranges_m[1], log.scans[0].scan.geometry), BeamState::kMiss);
 }
 
 TEST(CarmenLog, ReadsAFlaserLineWithTheOdometryAtItsEnd) {

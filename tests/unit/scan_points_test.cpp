@@ -121,6 +121,42 @@ TEST_F(PointFiles, SayWhatIsWrongWithAHeader) {
   EXPECT_NE(problem("a.las", "LASF").find("not a known file of points"), std::string::npos);
 }
 
+TEST_F(PointFiles, WithHeadersThatMakeNoSenseAreRefused) {
+  const auto problem = [&](const std::string& count, const std::string& points) {
+    const std::string header = "FIELDS a x y z\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT " + count +
+                               "\nPOINTS " + points + "\nDATA binary\n";
+    try {
+      return std::to_string(
+          ReadScanPoints(Write("a.pcd", header + Bytes({1, 2, 3, 4}))).cloud.size());
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(problem("1 1 1 1", "1"), "1");
+  EXPECT_EQ(problem("1 1 1 1", "0"), "0");
+  EXPECT_EQ(problem("1 1 1 1", "99999999999999999"), "1");
+  EXPECT_NE(problem("0 0 0 0", "1").find("names no fields x, y and z"), std::string::npos);
+  EXPECT_NE(problem("1 1 1 0", "1").find("names no fields x, y and z"), std::string::npos);
+  EXPECT_NE(problem("4611686018427387904 1 1 1", "1").find("more than 10000 numbers"),
+            std::string::npos);
+}
+
+TEST_F(PointFiles, LeaveOutPointsThatNoScannerCanHaveSeen) {
+  const ScanPoints points =
+      ReadScanPoints(Write("a.xyz", "1 2 3\n1e9 0 0\n4000000 5500000 100\n0 0 -1e300\n"));
+  EXPECT_EQ(points.cloud.size(), 2U);
+  EXPECT_EQ(points.skipped_lines, 2U);
+  EXPECT_NE(points.first_problem.find("a.xyz: point 1 is more than 10000 km away"),
+            std::string::npos);
+}
+
+TEST_F(PointFiles, WithPosesThatAreNowhereAreRefused) {
+  const fs::path pose = Write("scan000.pose", "1e12 0 0\n0 0 0\n");
+  EXPECT_THROW(ReadUosPose(pose), std::runtime_error);
+  const fs::path tum = Write("poses.tum", "0 0 1e9 0 0 0 0 1\n");
+  EXPECT_THROW(ReadPoses(tum), std::runtime_error);
+}
+
 TEST_F(PointFiles, AreInTheUnitThatIsStated) {
   const fs::path xyz = Write("a.xyz", "1000 0 0\n");
   const fs::path uos = Write("a.3d", "0 0 1\n");

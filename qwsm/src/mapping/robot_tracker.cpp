@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "qwsm/geometry/position.hpp"
+
 namespace qwsm {
 namespace {
 
@@ -119,6 +121,8 @@ void RobotTracker::Locate(const ScanMap& map,
                           MappingStep& step) {
   PosePrediction last_robot =
       stands_at_initial_pose_ ? Unmoved() : motion_.Predict(observation.T_odom_robot);
+  // No robot drives out of all maps: its odometry has failed.
+  if (!IsPosition((map_last_ * last_robot.conservative).T_a_b)) last_robot = Unmoved();
   step.match = locator_.Locate(map, points, local_last_ * last_robot.conservative, seen_free_);
   if (is_odometry_suspect_) {
     const PosePrediction without_odometry = motion_.Predict(std::nullopt);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "service/apps/number_arguments.hpp"
 #include "service/apps/slam6d/commands.hpp"
 #include "service/pipeline/results/results_folder.hpp"
 #include "service/pipeline/slam6d/scan_series.hpp"
@@ -71,10 +72,10 @@ Command AddBenchSearchCommand(CLI::App& program) {
       ->type_name("");
   parser->add_option("-o,--output", arguments->output, "folder for the pictures")->type_name("DIR");
   parser->add_option("--max-distance", arguments->max_distance_m, "of a pair, in metres")
-      ->check(CLI::PositiveNumber)
+      ->check(qwsm::apps::NumberBetween(1e-6, 1e6))
       ->capture_default_str();
   parser->add_option("--max-range", arguments->max_range_m, "farther points are misses, in metres")
-      ->check(CLI::PositiveNumber);
+      ->check(qwsm::apps::NumberBetween(1e-6, 1e6));
   parser->add_flag("--force", arguments->force, "write into a folder that holds other things");
   return {.parser = parser, .run = [arguments] { return RunBench(*arguments); }};
 }

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "service/apps/number_arguments.hpp"
 #include "service/apps/slam6d/commands.hpp"
 #include "service/pipeline/slam6d/pose_evaluation.hpp"
 
@@ -81,11 +82,11 @@ Command AddEvalCommand(CLI::App& program) {
       ->type_name("HOW");
   const char* const bounds = "Bounds (exit code 1)";
   parser->add_option("--max-ate", arguments->max_ate_m, "rmse of the translation, in metres")
-      ->check(CLI::NonNegativeNumber)
+      ->check(qwsm::apps::NumberBetween(0.0, 1e9))
       ->group(bounds);
   parser
       ->add_option("--max-ate-rotation", arguments->max_ate_deg, "rmse of the rotation, in degrees")
-      ->check(CLI::NonNegativeNumber)
+      ->check(qwsm::apps::NumberBetween(0.0, 1e9))
       ->group(bounds);
   parser->add_flag("--json", arguments->json, "the same as JSON");
   return {.parser = parser, .run = [arguments] { return RunEval(*arguments); }};

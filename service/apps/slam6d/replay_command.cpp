@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "service/apps/number_arguments.hpp"
 #include "service/apps/replay_arguments.hpp"
 #include "service/apps/slam6d/commands.hpp"
 #include "service/apps/slam6d/network.hpp"
@@ -59,7 +60,7 @@ Command AddReplayCommand(CLI::App& program) {
                    "odometry: TUM by scan number, or a folder of .pose or .frames")
       ->type_name("FILE");
   parser->add_option("--period", arguments->period_s, "seconds from one scan to the next")
-      ->check(CLI::Range(0.001, 3600.0))
+      ->check(qwsm::apps::NumberBetween(0.001, 3600.0))
       ->type_name("S")
       ->capture_default_str();
   qwsm::apps::AddReplayArguments(*parser, arguments->replay);

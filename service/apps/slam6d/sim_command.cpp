@@ -9,6 +9,7 @@
 #include <string>
 
 #include "service/apps/messages.hpp"
+#include "service/apps/number_arguments.hpp"
 #include "service/apps/scenario_arguments.hpp"
 #include "service/apps/slam6d/commands.hpp"
 #include "service/io/clouds/uos_scan.hpp"
@@ -93,7 +94,7 @@ Command AddSimCommand(CLI::App& program) {
       ->type_name("DIR");
   parser->add_option("--scans", arguments->scans, "stop after so many")->type_name("N");
   parser->add_option("--every", arguments->stop_every_m, "metres from one scan to the next")
-      ->check(CLI::PositiveNumber)
+      ->check(qwsm::apps::NumberBetween(0.05, 1e3))
       ->type_name("M");
   parser->add_flag("--force", arguments->force, "write into a folder that holds other things");
   qwsm::apps::AddScenarioSettings(*parser, arguments->scenario);

@@ -5,8 +5,9 @@
 #include <cstring>
 #include <utility>
 
+#include "qwsm/geometry/position.hpp"
 #include "service/dds/wire/wire_kind.hpp"
-#include "service/team/scans/team_scan.hpp"
+#include "slam6d/geometry/position.hpp"
 
 namespace qwsm::dds {
 namespace {
@@ -20,7 +21,9 @@ template <class Kind>
 std::string_view ObjectionToPose(const wire::Header& header, const wire::Pose& pose) {
   if (!FromWire(header.stamp)) return "its stamp is no time";
   if (!OnWire<Kind>::IsRotation(pose.orientation)) return "its orientation is no rotation";
-  if (!IsFinite(OnWire<Kind>::PoseOf(pose))) return "its pose is not finite";
+  if (!IsPosition(OnWire<Kind>::PoseOf(pose))) {
+    return "its pose is not finite, or more than 10000 km away";
+  }
   return {};
 }
 
@@ -103,7 +106,7 @@ void BasicRobotInbox<Kind>::TakeInitialPose(const wire::PoseWithCovarianceStampe
       .T_a_b = OnWire<Kind>::PoseOf(sample.pose.pose),
       .covariance = OnWire<Kind>::CovarianceOf(sample.pose.covariance)};
   std::string_view objection = ObjectionToPose<Kind>(sample.header, sample.pose.pose);
-  if (objection.empty()) objection = team::ObjectionTo(map_robot);
+  if (objection.empty()) objection = ObjectionTo(map_robot);
   if (!objection.empty()) return refusals_.Add(names_.Topic(kInitialPoseTopic), objection);
   listener.PlaceAt(names_.name(), map_robot);
 }

@@ -4,6 +4,7 @@
 
 #include "service/dds/wire/report_fields.hpp"
 #include "service/dds/wire/spatial.hpp"
+#include "slam6d/geometry/position.hpp"
 
 namespace qwsm::dds {
 
@@ -46,7 +47,7 @@ wire::RegistrationReport ToWire(const RegistrationReport& report, const std::str
 
 std::optional<RegistrationReport> FromWire(const wire::RegistrationReport& sample) {
   auto report = CommonFieldsOf<RegistrationReport>(sample, slam6d::SlamStatus::kUnusable);
-  if (!report) return std::nullopt;
+  if (!report || !slam6d::IsPosition(SpatialPose(sample.pose.pose))) return std::nullopt;
   report->map_robot = {.T_a_b = SpatialPose(sample.pose.pose),
                        .covariance = SpatialCovariance(sample.pose.covariance)};
   report->points = sample.points;

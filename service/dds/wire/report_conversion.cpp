@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/dds/wire/report_conversion.hpp"
 
+#include "qwsm/geometry/position.hpp"
 #include "service/dds/wire/planar.hpp"
 #include "service/dds/wire/report_fields.hpp"
 
@@ -40,7 +41,7 @@ wire::MatchReport ToWire(const MatchReport& report, const std::string& map_frame
 
 std::optional<MatchReport> FromWire(const wire::MatchReport& sample) {
   auto report = CommonFieldsOf<MatchReport>(sample, StepStatus::kDeadReckoned);
-  if (!report) return std::nullopt;
+  if (!report || !IsPosition(FromWire(sample.pose))) return std::nullopt;
   report->map_robot = {.T_a_b = FromWire(sample.pose),
                        .covariance = CovarianceOf(sample.covariance)};
   report->relevant = sample.relevant;

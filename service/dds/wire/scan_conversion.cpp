@@ -5,6 +5,8 @@
 #include <cstring>
 #include <vector>
 
+#include "qwsm/geometry/position.hpp"
+#include "qwsm/sensor/scan_limits.hpp"
 #include "service/dds/wire/planar.hpp"
 #include "service/dds/wire/robot_names.hpp"
 
@@ -16,7 +18,7 @@ std::size_t LengthOf(const char* name) { return strnlen(name, kMaxNameLength + 1
 // Before the ranges are copied: an absurd count is to cost nothing.
 std::string_view ObjectionTo(const dds_sequence_float& ranges) {
   if (ranges._length == 0) return "it has no ranges";
-  if (ranges._length > team::kMaxBeams) return "it has more than 100000 ranges";
+  if (ranges._length > kMostBeams) return "it has more than 100000 ranges";
   return {};
 }
 
@@ -90,7 +92,9 @@ std::string_view ObjectionTo(const wire::RelevantScan& sample) {
   if (LengthOf(sample.origin) > kMaxNameLength || LengthOf(sample.robot) > kMaxNameLength) {
     return "a name in it is too long";
   }
-  if (sample.has_odometry && !IsFinite(FromWire(sample.odometry))) return "its odometry is no pose";
+  if (sample.has_odometry && !IsPosition(FromWire(sample.odometry))) {
+    return "its odometry is no position";
+  }
   return ObjectionTo(sample.ranges);
 }
 

@@ -10,7 +10,7 @@
 #include "service/team/scans/team_scan.hpp"
 
 /// Scans on the wire. What comes from there is never trusted: here is checked what only the wire
-/// can get wrong, the rest where the service takes the scan (team::ObjectionTo).
+/// can get wrong, the rest where the service takes the scan (qwsm::ObjectionTo).
 namespace qwsm::dds {
 
 /// A sample that points into the scan and the name of the frame: write it while both live.

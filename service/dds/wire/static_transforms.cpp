@@ -4,7 +4,9 @@
 
 #include <cstring>
 
+#include "qwsm/geometry/position.hpp"
 #include "service/dds/wire/robot_names.hpp"
+#include "slam6d/geometry/position.hpp"
 
 namespace qwsm::dds {
 namespace {
@@ -23,7 +25,7 @@ void BasicStaticTransforms<Kind>::Take(const wire::TFMessage& message) {
     const wire::Quaternion& rotation = transform.transform.rotation;
     const Pose T_parent_child = OnWire<Kind>::PoseOf({{p.x, p.y, p.z}, rotation});
     if (!IsName(transform.header.frame_id) || !IsName(transform.child_frame_id)) continue;
-    if (!IsFinite(T_parent_child) || !OnWire<Kind>::IsRotation(rotation)) continue;
+    if (!IsPosition(T_parent_child) || !OnWire<Kind>::IsRotation(rotation)) continue;
     if (links_.size() >= kMaxFrames && !links_.contains(transform.child_frame_id)) continue;
     links_[transform.child_frame_id] = {.parent = transform.header.frame_id,
                                         .T_parent_child = T_parent_child,

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "service/io/files/binary.hpp"
+#include "slam6d/geometry/position.hpp"
 
 namespace slam6d::io {
 namespace {
@@ -22,7 +23,7 @@ Pose3 ReadPose(BinaryReader& reader) {
   Pose3 pose;
   for (double& entry : pose.rotation.reshaped()) entry = reader.Double();
   for (double& entry_m : pose.translation_m) entry_m = reader.Double();
-  if (!IsFinite(pose)) throw BinaryError("a pose is not finite");
+  if (!IsPosition(pose)) throw BinaryError("a pose is not finite, or absurdly far away");
   return pose;
 }
 

@@ -15,6 +15,7 @@
 namespace slam6d::io {
 namespace {
 
+constexpr std::size_t kMostColumns = 10'000;
 constexpr std::size_t kBufferBytes = std::size_t{1} << 18U;
 
 // The formats are little endian, and so are the machines this is built for.
@@ -77,14 +78,19 @@ std::size_t SizeOf(NumberType type) {
 
 void RecordLayout::Add(std::string_view name, NumberType type, std::size_t count) {
   constexpr std::array<std::string_view, 3> kNames{"x", "y", "z"};
+  count = std::min(count, kMostColumns + 1);  // Check() refuses it; sums are not to overflow.
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (name == kNames[axis]) xyz[axis] = Field{.offset = bytes, .column = columns, .type = type};
+    if (name == kNames[axis] && count > 0)
+      xyz[axis] = Field{.offset = bytes, .column = columns, .type = type};
   }
   bytes += count * SizeOf(type);
   columns += count;
 }
 
 void RecordLayout::Check(const std::filesystem::path& file) const {
+  if (columns > kMostColumns) {
+    throw std::runtime_error(file.string() + ": its header gives a point more than 10000 numbers");
+  }
   if (xyz[0] && xyz[1] && xyz[2]) return;
   throw std::runtime_error(file.string() + ": its header names no fields x, y and z");
 }

@@ -31,7 +31,8 @@ struct RecordLayout {
 
   /// Appends a field of `count` numbers; those called x, y and z are remembered.
   void Add(std::string_view name, NumberType type, std::size_t count = 1);
-  /// @throws std::runtime_error naming the file where a coordinate is missing.
+  /// @throws std::runtime_error naming the file where a coordinate is missing, or where there are
+  ///         absurdly many columns.
   void Check(const std::filesystem::path& file) const;
 };
 

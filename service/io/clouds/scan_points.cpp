@@ -14,6 +14,7 @@
 #include "service/io/clouds/point_records.hpp"
 #include "service/io/clouds/text_points.hpp"
 #include "service/io/clouds/uos_scan.hpp"
+#include "slam6d/geometry/position.hpp"
 
 namespace slam6d::io {
 namespace {
@@ -44,6 +45,21 @@ std::optional<PointFormat> Recognize(const std::filesystem::path& file) {
 PointCloud Scaled(const PointCloud& cloud, double factor) {
   const Pose3 scaling{.rotation = factor * Eigen::Matrix3d::Identity(), .translation_m = {0, 0, 0}};
   return scaling * cloud;
+}
+
+/// Takes out the points that no scanner can have seen.
+void DropAbsurd(const std::filesystem::path& file, ScanPoints& points) {
+  PointCloud kept;
+  kept.reserve(points.cloud.size());
+  for (std::size_t i = 0; i < points.cloud.size(); ++i) {
+    if (IsPosition(points.cloud[i])) {
+      kept.push_back(points.cloud[i]);
+    } else {
+      points.Skip(file.string() + ": point " + std::to_string(i) +
+                  " is more than 10000 km away; are the units right?");
+    }
+  }
+  if (kept.size() < points.cloud.size()) points.cloud = std::move(kept);
 }
 
 ScanPoints Read(const std::filesystem::path& file, PointFormat format) {
@@ -87,6 +103,7 @@ ScanPoints ReadScanPoints(const std::filesystem::path& file, const PointFileOpti
   const double factor =
       format == PointFormat::kUos ? options.uos_unit_m / kMetresPerUosUnit : options.unit_m;
   if (factor != 1.0) points.cloud = Scaled(points.cloud, factor);
+  DropAbsurd(file, points);
   return points;
 }
 

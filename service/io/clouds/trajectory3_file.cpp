@@ -36,7 +36,7 @@ NumberedPoses ReadTum3(const fs::path& file) {
       stream, file.string(), "a line is 't x y z qx qy qz qw'", [&](qwsm::io::FieldReader& fields) {
         const double stamp = fields.Number();
         Pose3 pose;
-        for (int axis = 0; axis < 3; ++axis) pose.translation_m(axis) = fields.Number();
+        for (int axis = 0; axis < 3; ++axis) pose.translation_m(axis) = fields.Coordinate();
         Eigen::Quaterniond q;
         for (double* const part : {&q.x(), &q.y(), &q.z(), &q.w()}) *part = fields.Number();
         if (!(q.norm() > 0.0)) fields.Fail(qwsm::io::FieldFault::kNoRotation);

@@ -15,11 +15,16 @@
 #include "service/io/files/file_error.hpp"
 #include "service/io/files/line_reader.hpp"
 #include "service/io/files/number_text.hpp"
+#include "slam6d/geometry/position.hpp"
 
 namespace slam6d::io {
 namespace {
 
 /// Kinds of steps in a .frames file, by which the viewer colours a scan.
+constexpr const char* kTooFar =
+    "the position is more than 10000 km from the origin; its source had failed, or its unit is no "
+    "centimetre";
+
 constexpr int kStartStep = 1;
 constexpr int kMatchedStep = 2;
 
@@ -76,6 +81,7 @@ Pose3 ReadUosPose(const std::filesystem::path& file) {
   std::string_view text = content;
   const std::optional<Eigen::Vector3d> position_cm = NextTriple(text);
   if (!position_cm) Fail(file, 1, "expected a position 'x y z'");
+  if (!IsPosition(Eigen::Vector3d(kMetresPerUosUnit * *position_cm))) Fail(file, 1, kTooFar);
   const std::optional<Eigen::Vector3d> angles_deg = NextTriple(text);
   if (!angles_deg) Fail(file, 2, "expected three angles in degrees");
   const Eigen::Vector3d angles_rad = *angles_deg * (std::numbers::pi / 180.0);
@@ -96,6 +102,8 @@ Pose3 ReadUosFrames(const std::filesystem::path& file) {
     if (!value) Fail(file, lines.back().first, "expected sixteen numbers and a kind");
     matrix(i % 4, i / 4) = *value;
   }
+  const Eigen::Vector3d position_m = kMetresPerUosUnit * matrix.topRightCorner<3, 1>();
+  if (!IsPosition(position_m)) Fail(file, lines.back().first, kTooFar);
   return PoseFromUos(NearestRotation(matrix.topLeftCorner<3, 3>()), matrix.topRightCorner<3, 1>());
 }
 

@@ -8,6 +8,9 @@
 #include <cstdint>
 #include <limits>
 
+#include "qwsm/geometry/position.hpp"
+#include "qwsm/sensor/scan_limits.hpp"
+
 namespace qwsm::io {
 namespace {
 
@@ -53,6 +56,9 @@ std::string_view Explain(FieldFault fault) {
       return "a field is not a number; numbers may have run together, or the count is wrong";
     case FieldFault::kNotFinite:
       return "a pose or an angle is not finite; its source had failed, delete the line";
+    case FieldFault::kTooFar:
+      return "a position is more than 10000 km from the origin; its source had failed, or its unit "
+             "is no metre";
     case FieldFault::kBadCount:
       return "the count of readings is not a whole number from 1 to 100000";
     case FieldFault::kBadStamp:
@@ -147,14 +153,21 @@ std::size_t FieldReader::Count(std::size_t least) {
   std::size_t count = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
   const bool whole = error == std::errc() && end == word.data() + word.size();
-  if (whole && count >= least && count <= kMaxReadings) return count;
+  if (whole && count >= least && count <= kMostBeams) return count;
   Fail(word.empty() ? FieldFault::kEndsEarly : FieldFault::kBadCount);
   return 0;
 }
 
+double FieldReader::Coordinate() {
+  const double coordinate_m = Number();
+  if (IsCoordinate(coordinate_m)) return coordinate_m;
+  Fail(FieldFault::kTooFar);
+  return 0.0;
+}
+
 Pose2 FieldReader::Pose() {
-  const double x_m = Number();
-  const double y_m = Number();
+  const double x_m = Coordinate();
+  const double y_m = Coordinate();
   const double theta_rad = Number();
   return {x_m, y_m, NormalizeAngle(theta_rad)};
 }

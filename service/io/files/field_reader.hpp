@@ -12,14 +12,12 @@
 
 namespace qwsm::io {
 
-/// More readings than this in one sweep are a mistake of the file.
-inline constexpr std::size_t kMaxReadings = 100'000;
-
 /// What is wrong with a line of text.
 enum class FieldFault {
   kEndsEarly,
   kNotANumber,
   kNotFinite,
+  kTooFar,
   kBadCount,
   kBadStamp,
   kBadGeometry,
@@ -49,8 +47,10 @@ class FieldReader {
   std::string_view Word();
   /// The next field as a finite number.
   double Number();
-  /// The next field as a whole number from `least` to kMaxReadings.
+  /// The next field as a whole number from `least` to kMostBeams.
   std::size_t Count(std::size_t least);
+  /// The next field as a coordinate in metres.
+  double Coordinate();
   /// The next three fields as x, y (metres) and theta (radians).
   Pose2 Pose();
   /// The next field as seconds since the epoch, exact to the nanosecond.

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/io/journal/scan_codec.hpp"
 
-#include <cmath>
 #include <cstdint>
 #include <utility>
 
+#include "qwsm/geometry/position.hpp"
+#include "qwsm/sensor/scan_limits.hpp"
+
 namespace qwsm::io {
 namespace {
-
-constexpr std::size_t kMaxBeams = 100'000;
 
 void AddPose(BinaryWriter& writer, const Pose2& pose) {
   writer.Add(pose.x_m);
@@ -22,7 +22,7 @@ Pose2 ReadPose(BinaryReader& reader) {
   pose.x_m = reader.Double();
   pose.y_m = reader.Double();
   pose.theta_rad = reader.Double();
-  if (!IsFinite(pose)) throw BinaryError("a pose is not finite");
+  if (!IsPosition(pose)) throw BinaryError("a pose is not finite, or absurdly far away");
   return pose;
 }
 
@@ -33,10 +33,6 @@ LaserGeometry ReadGeometry(BinaryReader& reader) {
   geometry.range_min_m = reader.Float();
   geometry.range_max_m = reader.Float();
   geometry.T_robot_laser = ReadPose(reader);
-  if (!std::isfinite(geometry.Bearing(kMaxBeams)) || std::isnan(geometry.range_min_m) ||
-      std::isnan(geometry.range_max_m)) {
-    throw BinaryError("the geometry of a laser is not finite");
-  }
   return geometry;
 }
 
@@ -62,12 +58,14 @@ RelevantScan ReadScan(BinaryReader& reader) {
   relevant.scan.stamp = Timestamp(reader.Signed64());
   relevant.map_robot.T_a_b = ReadPose(reader);
   for (double& entry : relevant.map_robot.covariance.reshaped()) entry = reader.Double();
-  if (!relevant.map_robot.covariance.allFinite()) throw BinaryError("a covariance is not finite");
   relevant.scan.geometry = ReadGeometry(reader);
   const std::size_t beams = reader.Count(sizeof(float));
-  if (beams > kMaxBeams) throw BinaryError("a scan has too many beams");
   relevant.scan.ranges_m.resize(beams);
   for (float& range_m : relevant.scan.ranges_m) range_m = reader.Float();
+  for (const std::string_view objection :
+       {ObjectionTo(relevant.scan), ObjectionTo(relevant.map_robot)}) {
+    if (!objection.empty()) throw BinaryError(std::string(objection));
+  }
   return relevant;
 }
 

@@ -13,7 +13,7 @@ namespace qwsm::io {
 
 /// Relevant scans as bytes, in map files and journals. Their ids are not among them.
 void AddScan(BinaryWriter& writer, const RelevantScan& relevant);
-/// @throws BinaryError where there is no scan, or one with numbers that are not finite.
+/// @throws BinaryError where there is no scan, or one that may not be matched.
 RelevantScan ReadScan(BinaryReader& reader);
 
 /// What a journal keeps of a relevant scan.

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "qwsm/sensor/scan_limits.hpp"
 #include "service/io/logs/sweep_geometry.hpp"
 
 namespace qwsm::io {
@@ -94,7 +95,7 @@ Configuration ReadConfiguration(FieldReader& fields) {
 /// Nothing where the configuration is none of a sweep.
 std::optional<LaserGeometry> GeometryOf(const Configuration& configuration, std::size_t readings) {
   LaserGeometry geometry = GuessGeometry(readings, std::nullopt);
-  geometry.range_max_m = static_cast<float>(std::max(0.0, configuration.range_max_m));
+  geometry.range_max_m = StatedRangeMaximum(configuration.range_max_m);
   if (configuration.field_of_view_rad == 0.0 && configuration.resolution_rad == 0.0) {
     return geometry;
   }
@@ -192,11 +193,15 @@ ParsedLine CarmenParser::ParseParameter(FieldReader fields) {
   const auto mounting = std::ranges::find_if(
       mountings_, [&](const Mounting& known) { return name.starts_with(known.parameter); });
   if (mounting == mountings_.end()) return OtherMessage{};
-  double* const value = Axis(mounting->T_robot_laser, name.substr(mounting->parameter.size()));
-  if (value == nullptr) return OtherMessage{};
+  const std::string_view axis = name.substr(mounting->parameter.size());
+  if (Axis(mounting->T_robot_laser, axis) == nullptr) return OtherMessage{};
   const double number = fields.Number();
   if (fields.fault()) return MalformedLine{"PARAM", *fields.fault()};
-  *value = value == &mounting->T_robot_laser.theta_rad ? NormalizeAngle(number) : number;
+  Pose2 T_robot_laser = mounting->T_robot_laser;
+  *Axis(T_robot_laser, axis) = number;
+  if (!IsMounting(T_robot_laser)) return MalformedLine{"PARAM", FieldFault::kTooFar};
+  T_robot_laser.theta_rad = NormalizeAngle(T_robot_laser.theta_rad);
+  mounting->T_robot_laser = T_robot_laser;
   mounting->known = true;
   return OtherMessage{};
 }

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "qwsm/sensor/scan_limits.hpp"
 #include "service/io/logs/sweep_geometry.hpp"
 
 namespace qwsm::io {
@@ -168,7 +169,7 @@ ParsedLine PlayerParser::ParseLaser(const Header& header, FieldReader fields) {
   if (!step_rad) return MalformedLine{"laser", FieldFault::kBadGeometry};
   scan.geometry.first_bearing_rad = static_cast<float>(NormalizeAngle(first_bearing_rad));
   scan.geometry.bearing_step_rad = static_cast<float>(*step_rad);
-  scan.geometry.range_max_m = static_cast<float>(std::max(0.0, range_max_m));
+  scan.geometry.range_max_m = StatedRangeMaximum(range_max_m);
   sweep.odd_readings = fields.odd_readings();
   return Complete(header, std::move(sweep));
 }
@@ -178,7 +179,7 @@ ParsedLine PlayerParser::ParseBeams(const Header& header, FieldReader fields) {
   Sweep sweep;
   LaserScan& scan = sweep.reading.scan;
   std::vector<double> bearings_rad;
-  while (!fields.AtEnd() && !fields.fault() && scan.size() < kMaxReadings) {
+  while (!fields.AtEnd() && !fields.fault() && scan.size() < kMostBeams) {
     scan.ranges_m.push_back(fields.Range());
     bearings_rad.push_back(fields.Number());
     fields.Skip(1);
@@ -209,6 +210,7 @@ ParsedLine PlayerParser::Complete(const Header& header, Sweep sweep) {
 
 ParsedLine PlayerParser::ParseMounting(const Header& header, FieldReader fields) {
   const Pose2 T_robot_laser = fields.Pose();
+  if (!IsMounting(T_robot_laser)) fields.Fail(FieldFault::kTooFar);
   if (fields.fault()) return MalformedLine{"laser", *fields.fault()};
   if (!IsOtherRobot(header)) T_robot_laser_[header.index] = T_robot_laser;
   return OtherMessage{};

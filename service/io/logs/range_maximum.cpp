@@ -6,6 +6,8 @@
 #include <bit>
 #include <numeric>
 
+#include "qwsm/sensor/scan_limits.hpp"
+
 namespace qwsm::io {
 namespace {
 
@@ -77,7 +79,7 @@ float RangeMaximumEstimator::Estimate() const {
     above += counts_[top];
     if (longest_m == 0.0F && above > garbage) longest_m = largest_m_[top];
   }
-  return std::max(kLongestCommon_m, kMarginOverReadings * longest_m);
+  return std::clamp(kMarginOverReadings * longest_m, kLongestCommon_m, kLongestRange_m);
 }
 
 /// Whether the readings in the bins up to `top` stand out from those below, with next to nothing

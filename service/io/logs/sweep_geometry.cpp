@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "qwsm/geometry/angle.hpp"
+#include "qwsm/sensor/scan_limits.hpp"
 
 namespace qwsm::io {
 namespace {
@@ -61,6 +62,7 @@ std::optional<double> BearingStep(double span_rad, double stated_step_rad, std::
   constexpr double kSlack = 1.01;  // Rounded to a few digits, or a beam too many.
   if (!std::isfinite(span_rad) || !std::isfinite(stated_step_rad)) return std::nullopt;
   if (std::abs(span_rad) > kSlack * kFullCircle_rad) return std::nullopt;
+  if (std::abs(stated_step_rad) > kSlack * kFullCircle_rad) return std::nullopt;
   if (readings < 2) return stated_step_rad;
   const double closed_rad = span_rad / static_cast<double>(readings - 1);
   const double open_rad = span_rad / static_cast<double>(readings);
@@ -74,6 +76,12 @@ std::optional<double> BearingStep(double span_rad, double stated_step_rad, std::
   const double swept_rad = std::abs(stated_step_rad) * static_cast<double>(readings - 1);
   if (stated_step_rad == 0.0 || swept_rad > kSlack * kFullCircle_rad) return std::nullopt;
   return stated_step_rad;
+}
+
+float StatedRangeMaximum(double range_max_m) {
+  const bool is_one = range_max_m > static_cast<double>(kNearestReadingM) &&
+                      range_max_m <= static_cast<double>(kLongestRange_m);
+  return is_one ? static_cast<float>(range_max_m) : 0.0F;
 }
 
 }  // namespace qwsm::io

@@ -24,4 +24,7 @@ LaserGeometry GuessGeometry(std::size_t readings, std::optional<double> field_of
 /// @return nothing where the three make no sweep.
 std::optional<double> BearingStep(double span_rad, double stated_step_rad, std::size_t readings);
 
+/// The range maximum that a line states; 0 where it states none, or what no laser has.
+float StatedRangeMaximum(double range_max_m);
+
 }  // namespace qwsm::io

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "qwsm/geometry/position.hpp"
 #include "service/io/files/atomic_file.hpp"
 #include "service/io/files/field_reader.hpp"
 #include "service/io/files/file_error.hpp"
@@ -26,6 +27,9 @@ namespace fs = std::filesystem;
 constexpr std::uint8_t kFreeGrey = 254;
 constexpr std::uint8_t kOccupiedGrey = 0;
 constexpr std::uint8_t kUnknownGrey = 205;
+
+constexpr double kSmallestPixel_m = 1e-4;
+constexpr double kLargestPixel_m = 1e4;
 
 std::uint8_t GreyOf(CellState state) {
   switch (state) {
@@ -188,8 +192,13 @@ OccupancyGrid ReadRosMap(const fs::path& path) {
   const std::string mode = header.Text("mode", "trinary");
   if (mode != "trinary") header.Fail("mode: only 'trinary' can be read, not '" + mode + "'");
   const double cell_m = header.Number("resolution");
-  if (!(cell_m > 0.0)) header.Fail("resolution: must be above 0");
+  if (!(cell_m >= kSmallestPixel_m && cell_m <= kLargestPixel_m)) {
+    header.Fail("resolution: must be between 0.0001 and 10000 m");
+  }
   const auto [x_m, y_m, yaw_rad] = header.Triple("origin");
+  if (!IsCoordinate(x_m) || !IsCoordinate(y_m)) {
+    header.Fail("origin: is more than 10000 km away");
+  }
   if (yaw_rad != 0.0) header.Fail("origin: a map that is turned cannot be read");
 
   const GreyImage image = ReadPgm(path.parent_path() / header.Text("image"));

@@ -15,8 +15,8 @@ std::vector<Relation> ReadRelations(std::istream& stream, std::string_view name)
     Relation& relation = relations.emplace_back();
     relation.first = fields.Stamp();
     relation.second = fields.Stamp();
-    relation.T_first_second.x_m = fields.Number();
-    relation.T_first_second.y_m = fields.Number();
+    relation.T_first_second.x_m = fields.Coordinate();
+    relation.T_first_second.y_m = fields.Coordinate();
     fields.Skip(3);  // Height, roll, pitch.
     relation.T_first_second.theta_rad = NormalizeAngle(fields.Number());
   });

@@ -28,8 +28,8 @@ std::optional<double> YawOf(const Eigen::Quaterniond& any_length) {
 StampedPose2 ReadPose(FieldReader& fields) {
   StampedPose2 pose;
   pose.stamp = fields.Stamp();
-  pose.T_map_robot.x_m = fields.Number();
-  pose.T_map_robot.y_m = fields.Number();
+  pose.T_map_robot.x_m = fields.Coordinate();
+  pose.T_map_robot.y_m = fields.Coordinate();
   fields.Number();  // Height.
   Eigen::Quaterniond attitude;
   for (double* const part : {&attitude.x(), &attitude.y(), &attitude.z(), &attitude.w()}) {

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/network/pace.hpp"
 
-#include <algorithm>
 #include <thread>
 
 namespace qwsm::pipeline {
@@ -14,10 +13,14 @@ bool Pace::WaitFor(Timestamp stamp, std::chrono::nanoseconds longest) {
     first_ = stamp;
   }
   last_ = stamp;
-  const std::chrono::duration<double> after = stamp - first_;
-  const auto due = *begin_ + std::chrono::round<std::chrono::nanoseconds>(after / factor_);
-  std::this_thread::sleep_until(std::min(due, now + longest));
-  return due <= now + longest;
+  const auto until = now + longest;
+  // In seconds until it is known to be near: slowed down, a record may outlast the clock.
+  const std::chrono::duration<double> recorded = stamp - first_;
+  const std::chrono::duration<double> after = recorded / factor_;
+  const bool is_due = after <= until - *begin_;
+  std::this_thread::sleep_until(
+      is_due ? *begin_ + std::chrono::round<std::chrono::nanoseconds>(after) : until);
+  return is_due;
 }
 
 }  // namespace qwsm::pipeline

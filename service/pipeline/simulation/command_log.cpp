@@ -18,7 +18,8 @@
 namespace qwsm::pipeline {
 namespace {
 
-constexpr double kFastest = 20.0;  // As TimedCommandOptions allow, in m/s and rad/s.
+constexpr double kFastest = 20.0;  // As TimedCommandOptions allow, in m/s and rad/s,
+constexpr double kLatest_s = 1e6;  // and so late.
 constexpr std::string_view kBlanks = " \t\r,";
 
 config::Problem ProblemAt(config::Location location, std::string what) {
@@ -68,6 +69,9 @@ class CommandLogReader {
     const double start_s = stamp_s - begin_s_;
     if (!commands_.empty() && start_s < commands_.back().start_s) {
       return Refuse(0, "earlier than the command before; stamps must not decrease");
+    }
+    if (!(start_s <= kLatest_s)) {
+      return Refuse(0, fmt::format("later than {} s after the first command", kLatest_s));
     }
     if (std::abs(forward_mps) > kFastest || std::abs(turn_rad_s) > kFastest) {
       return Refuse(0, fmt::format("speeds must be between -{0} and {0} m/s, rad/s", kFastest));

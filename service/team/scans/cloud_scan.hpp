@@ -44,7 +44,4 @@ inline constexpr std::size_t kMaxCloudPoints = 20'000'000;
 
 /// Why a scan must not be registered; empty if it may.
 std::string_view ObjectionTo(const CloudScan& scan);
-/// Why a pose must not be believed; empty if it may.
-std::string_view ObjectionTo(const slam6d::UncertainPose3& pose);
-
 }  // namespace qwsm::team

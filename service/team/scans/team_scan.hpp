@@ -19,16 +19,6 @@ struct TeamScan {
   std::optional<Pose2> T_odom_robot;  ///< For the robot to go on from after a restart.
 };
 
-/// Places farther from the origin, or longer readings, are an error or an attack: the map would
-/// take all memory.
-inline constexpr double kMaxDistance_m = 20'000.0;
-inline constexpr float kMaxRange_m = 1'000.0F;
-inline constexpr std::size_t kMaxBeams = 100'000;
-
-/// Why a scan must not be matched; empty if it may.
-std::string_view ObjectionTo(const LaserScan& scan);
-/// Why a pose must not be believed; empty if it may.
-std::string_view ObjectionTo(const UncertainPose2& pose);
 /// Why a scan must not be taken into the map; empty if it may.
 std::string_view ObjectionTo(const TeamScan& scan);
 

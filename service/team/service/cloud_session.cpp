@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "slam6d/geometry/position.hpp"
+
 namespace qwsm::team {
 namespace {
 

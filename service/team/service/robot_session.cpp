@@ -6,6 +6,7 @@
 #include <chrono>
 #include <utility>
 
+#include "qwsm/geometry/position.hpp"
 #include "qwsm/mapping/relocalization.hpp"
 
 namespace qwsm::team {

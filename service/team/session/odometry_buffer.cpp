@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <iterator>
 
+#include "qwsm/geometry/position.hpp"
+#include "slam6d/geometry/position.hpp"
+
 namespace qwsm::team {
 namespace {
 
@@ -30,7 +33,7 @@ double Seconds(std::chrono::nanoseconds duration) {
 
 template <class Pose>
 bool OdometryBuffer<Pose>::Add(Timestamp stamp, const Pose& T_odom_robot) {
-  if (!IsFinite(T_odom_robot)) return false;
+  if (!IsPosition(T_odom_robot)) return false;
   switch (guard_.Judge(stamp)) {
     case StampVerdict::kDuplicate:
     case StampVerdict::kWrongTime:

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "service/team/scans/team_scan.hpp"
+#include "qwsm/sensor/scan_limits.hpp"
 
 namespace qwsm::team {
 namespace {

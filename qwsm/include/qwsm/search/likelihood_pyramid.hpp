@@ -10,10 +10,14 @@
 #include <unordered_map>
 #include <vector>
 
+#include "qwsm/geometry/position.hpp"
 #include "qwsm/search/detail/likelihood_tile.hpp"
 #include "qwsm/search/detail/paged_pool.hpp"
 
 namespace qwsm {
+
+/// Of cells this small, all that is no farther than kFarthestCoordinate_m has a number.
+inline constexpr double kSmallestCell_m = 0.01;
 
 struct LikelihoodPyramidOptions {
   double cell_size_m = 0.064;
@@ -24,7 +28,7 @@ template <class Visitor>
 void Describe(Visitor& visit, LikelihoodPyramidOptions& o) {
   visit("cell_size_m",
         o.cell_size_m,
-        {.help = "side of the finest cell of a wide search", .min = 0.005, .max = 1});
+        {.help = "side of the finest cell of a wide search", .min = kSmallestCell_m, .max = 1});
   visit("sigma_m",
         o.sigma_m,
         {.help = "how far from a stored point a beam may end and still count",
@@ -58,7 +62,8 @@ class LikelihoodPyramid {
       : options_(options), cells_per_metre_(1.0 / options.cell_size_m) {}
 
   double cell_size_m() const { return options_.cell_size_m; }
-  /// Raises the cells around a point. @pre |coordinate| < 2^30 cells
+  /// Raises the cells around a point. @pre |coordinate| < 2^30 cells, which is farther than
+  /// kFarthestCoordinate_m and whatever is seen from there.
   void Insert(const Eigen::Vector2d& p_m, double drift_m2);
   /// Forgets everything.
   void Clear() { *this = LikelihoodPyramid(options_); }
@@ -66,6 +71,7 @@ class LikelihoodPyramid {
   /// Index of the level-0 cell that holds a coordinate.
   int CellIndex(double coordinate_m) const {
     constexpr int kShift = 1 << 30;  // What is positive is truncated downwards.
+    static_assert(1.05 * kFarthestCoordinate_m / kSmallestCell_m < kShift);
     return static_cast<int>(coordinate_m * cells_per_metre_ + kShift) - kShift;
   }
   GridCell CellAt(const Eigen::Vector2d& p_m) const {

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace qwsm::apps {
+
+/// Longest time that a command is given, in seconds: some thirty years.
+inline constexpr double kLongest_s = 1e9;
+
+/// For the check() of an option that takes a number: one between the two, which neither nan nor inf
+/// are.
+CLI::Validator NumberBetween(double least, double most);
+
+}  // namespace qwsm::apps
