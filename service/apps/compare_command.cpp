@@ -7,6 +7,7 @@
 
 #include "service/apps/command.hpp"
 #include "service/apps/messages.hpp"
+#include "service/apps/output.hpp"
 #include "service/apps/run_session.hpp"
 #include "service/pipeline/evaluation/comparison_report.hpp"
 #include "service/pipeline/evaluation/matcher_contest.hpp"
@@ -28,11 +29,11 @@ ExitCode RunCompare(const RunArguments& arguments) {
   const pipeline::ReplayResult end = session.Run("compare", *source, contest.runs());
   contest.Finish(options.rendering, source->truth());
   if (arguments.verbosity.json) {
-    fmt::print("{}", pipeline::ComparisonJson(contest.contestants()));
+    Print("{}", pipeline::ComparisonJson(contest.contestants()));
   } else if (!arguments.verbosity.quiet) {
-    fmt::print("{}\nresults        {}\n",
-               pipeline::ComparisonText(contest.contestants()),
-               session.folder().path().string());
+    Print("{}\nresults        {}\n",
+          pipeline::ComparisonText(contest.contestants()),
+          session.folder().path().string());
   }
   return Conclude(end);
 }

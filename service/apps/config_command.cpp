@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "service/apps/command.hpp"
+#include "service/apps/output.hpp"
 
 namespace qwsm::apps {
 namespace {
@@ -24,7 +25,7 @@ ExitCode Check(const ConfigArguments& arguments) {
   for (const std::filesystem::path& file : arguments.files) {
     try {
       config::LoadOptions<ProgramOptions>(OptionSources{.file = file, .settings = {}});
-      fmt::print("{}: ok\n", file.string());
+      Print("{}: ok\n", file.string());
     } catch (const config::ConfigError& error) {
       fmt::print(stderr, "{}\n", error.what());
       worst = ExitCode::kUsage;
@@ -34,12 +35,12 @@ ExitCode Check(const ConfigArguments& arguments) {
 }
 
 ExitCode Dump(const ConfigArguments& arguments) {
-  fmt::print("{}", config::DumpOptions(config::LoadOptions<ProgramOptions>(arguments.sources)));
+  Print("{}", config::DumpOptions(config::LoadOptions<ProgramOptions>(arguments.sources)));
   return ExitCode::kDone;
 }
 
 ExitCode Describe() {
-  fmt::print("{}", config::DescribeOptions<ProgramOptions>());
+  Print("{}", config::DescribeOptions<ProgramOptions>());
   return ExitCode::kDone;
 }
 

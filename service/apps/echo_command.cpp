@@ -15,8 +15,8 @@
 #include "service/apps/command.hpp"
 #include "service/apps/network.hpp"
 #include "service/apps/number_arguments.hpp"
+#include "service/apps/output.hpp"
 #include "service/dds/robot/match_report_reader.hpp"
-#include "service/io/files/atomic_file.hpp"
 #include "service/io/trajectories/trajectory_file.hpp"
 #include "service/pipeline/run/interruption.hpp"
 #include "service/team/sinks/team_status.hpp"
@@ -85,13 +85,6 @@ std::string LineOf(const dds::MatchReport& report, const EchoArguments& argument
   return line.str();
 }
 
-void Print(const std::string& line) {
-  const bool is_complete = std::fwrite(line.data(), 1, line.size(), stdout) == line.size();
-  if (!is_complete || std::fflush(stdout) != 0) {
-    throw io::WriteError("standard output cannot be written");
-  }
-}
-
 ExitCode RunEcho(const EchoArguments& arguments) {
   const NetworkSession session(arguments.network);
   const dds::Participant participant(session.options().network);
@@ -107,7 +100,7 @@ ExitCode RunEcho(const EchoArguments& arguments) {
       break;
     }
     for (const dds::MatchReport& report : reports.Take(100ms)) {
-      Print(LineOf(report, arguments));
+      PrintText(LineOf(report, arguments));
       if (++shown == arguments.count) return ExitCode::kDone;
     }
   }

@@ -13,6 +13,7 @@
 #include "qwsm/geometry/angle.hpp"
 #include "service/apps/command.hpp"
 #include "service/apps/number_arguments.hpp"
+#include "service/apps/output.hpp"
 #include "service/pipeline/evaluation/evaluation.hpp"
 
 namespace qwsm::apps {
@@ -96,7 +97,7 @@ ExitCode RunEval(const EvalArguments& arguments) {
   const pipeline::Evaluator evaluator(options);
   std::vector<Evaluation> evaluations;
   for (const auto& file : arguments.trajectories) evaluations.push_back(evaluator.Evaluate(file));
-  fmt::print("{}", arguments.json ? EvaluationJson(evaluations) : EvaluationTable(evaluations));
+  Print("{}", arguments.json ? EvaluationJson(evaluations) : EvaluationTable(evaluations));
   int failures = 0;
   for (const Evaluation& evaluation : evaluations) {
     failures += CountFailures(evaluation, arguments.bounds);

@@ -12,6 +12,7 @@
 
 #include "service/apps/command.hpp"
 #include "service/apps/messages.hpp"
+#include "service/apps/output.hpp"
 #include "service/apps/run_session.hpp"
 #include "service/apps/scenario_arguments.hpp"
 #include "service/io/files/atomic_file.hpp"
@@ -90,9 +91,9 @@ ExitCode RunExperiment(ExperimentArguments arguments) {
   io::WriteTextFile(folder / "table.csv", ExperimentCsv(experiment.runs));
   io::WriteTextFile(folder / "table.md", ExperimentMarkdown(experiment.runs));
   if (arguments.run.verbosity.json) {
-    fmt::print("{}", json);
+    Print("{}", json);
   } else if (!arguments.run.verbosity.quiet) {
-    fmt::print("{}\nresults        {}\n", ExperimentText(experiment.runs), folder.path().string());
+    Print("{}\nresults        {}\n", ExperimentText(experiment.runs), folder.path().string());
   }
   return Conclude({.end = experiment.end, .failure = {}});
 }

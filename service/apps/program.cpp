@@ -8,10 +8,12 @@
 #include <csignal>
 #include <cstdio>
 #include <memory>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
 #include "service/apps/help_formatter.hpp"
+#include "service/apps/output.hpp"
 #include "service/apps/version.hpp"
 #include "service/config/suggestion.hpp"
 #include "service/io/files/atomic_file.hpp"
@@ -84,6 +86,18 @@ ExitCode RunChosen(const CLI::App& program, const std::vector<Command>& commands
   }
 }
 
+/// Help, or the version.
+ExitCode TellOfItself(const CLI::App& program, const CLI::Success& asked) {
+  std::ostringstream text;
+  program.exit(asked, text);
+  try {
+    PrintText(text.str());
+    return ExitCode::kDone;
+  } catch (const io::WriteError& error) {
+    return Complain(program, ExitCode::kIo, error.what());
+  }
+}
+
 }  // namespace
 
 void PrepareProgram(CLI::App& program) {
@@ -103,8 +117,7 @@ ExitCode RunProgram(CLI::App& program,
     program.parse(arguments.count, arguments.values);
     return RunChosen(program, commands);
   } catch (const CLI::Success& success) {
-    program.exit(success);
-    return ExitCode::kDone;
+    return TellOfItself(program, success);
   } catch (const CLI::ParseError& error) {
     return ComplainAboutUsage(program, error);
   } catch (const std::exception& error) {

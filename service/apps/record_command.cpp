@@ -11,6 +11,7 @@
 
 #include "service/apps/command.hpp"
 #include "service/apps/network.hpp"
+#include "service/apps/output.hpp"
 #include "service/dds/robot/robot_feed.hpp"
 #include "service/io/files/atomic_file.hpp"
 #include "service/pipeline/network/scan_recorder.hpp"
@@ -45,7 +46,7 @@ ExitCode RunRecord(const RecordArguments& arguments) {
   recorder.Finish();
   file.Commit();
   if (!arguments.network.verbosity.quiet) {
-    fmt::print("recorded       {} scans in {}\n", recorder.scans(), arguments.log.string());
+    Print("recorded       {} scans in {}\n", recorder.scans(), arguments.log.string());
   }
   return ExitCode::kDone;
 }

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "service/apps/command.hpp"
+#include "service/apps/output.hpp"
 #include "service/dds/wire/wire_kind.hpp"
 #include "service/pipeline/network/network_replay.hpp"
 
@@ -51,7 +52,7 @@ ExitCode Replay(Source& source,
   const auto begin = std::chrono::steady_clock::now();
   const bool is_complete = replay.Run(interruption);
   const auto time = std::chrono::steady_clock::now() - begin;
-  if (!verbosity.quiet) fmt::print("{}", replay.Summary(time));
+  if (!verbosity.quiet) Print("{}", replay.Summary(time));
   return is_complete ? ExitCode::kDone : ExitCode::kInterrupted;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "service/apps/messages.hpp"
+#include "service/apps/output.hpp"
 #include "service/apps/version.hpp"
 #include "service/io/files/atomic_file.hpp"
 #include "service/pipeline/results/json_lines_sink.hpp"
@@ -52,9 +53,9 @@ std::unique_ptr<LogSource> OpenLogs(const RunArguments& arguments,
 ExitCode TellPlan(const std::string& what, const RunArguments& arguments) {
   if (arguments.output) ResultsFolder::Check(*arguments.output, arguments.force);
   for (const std::filesystem::path& log : arguments.logs) {
-    fmt::print("would {} {}\n", what, log.string());
+    Print("would {} {}\n", what, log.string());
   }
-  fmt::print("into {}\n", arguments.output.value_or("results/<time>").string());
+  Print("into {}\n", arguments.output.value_or("results/<time>").string());
   return ExitCode::kDone;
 }
 
@@ -92,9 +93,9 @@ ReplayResult RunSession::Run(const std::string& task,
 
 void RunSession::Summarize(const ResultsWriter& results, const Mapper& mapper) const {
   if (verbosity_.quiet || verbosity_.json) return;
-  fmt::print("{}results        {}\n",
-             SummaryText(results.statistics(), mapper.map(), results.truth_report()),
-             folder_.path().string());
+  Print("{}results        {}\n",
+        SummaryText(results.statistics(), mapper.map(), results.truth_report()),
+        folder_.path().string());
 }
 
 ExitCode Conclude(const ReplayResult& result) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "service/apps/output.hpp"
 #include "service/io/files/atomic_file.hpp"
 
 namespace qwsm::apps {
@@ -38,7 +39,7 @@ void Summarize(const team::TeamStatus& status) {
     return std::chrono::duration<double, std::milli>(duration).count();
   };
   for (const team::RobotStatus& robot : status.robots) {
-    fmt::print(
+    Print(
         "{:<14} {} of {} scans answered, {} dead-reckoned, {} without odometry, {} dropped, "
         "{} unplaced, {} relevant; "
         "latency {:.2f} ms, p99 {:.2f} ms\n",
@@ -53,8 +54,7 @@ void Summarize(const team::TeamStatus& status) {
         milliseconds(robot.latency.median),
         milliseconds(robot.latency.p99));
   }
-  fmt::print(
-      "map            {} points of {} relevant scans\n", status.map.points, status.map.scans);
+  Print("map            {} points of {} relevant scans\n", status.map.points, status.map.scans);
 }
 
 }  // namespace qwsm::apps

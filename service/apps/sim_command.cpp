@@ -12,6 +12,7 @@
 #include "service/apps/command.hpp"
 #include "service/apps/messages.hpp"
 #include "service/apps/number_arguments.hpp"
+#include "service/apps/output.hpp"
 #include "service/apps/scenario_arguments.hpp"
 #include "service/apps/version.hpp"
 #include "service/config/options_io.hpp"
@@ -120,10 +121,9 @@ ExitCode RunSim(const SimArguments& arguments) {
   const std::string json = SimulationJson(simulation, logs);
   io::WriteTextFile(folder / "metrics.json", json);
   if (arguments.verbosity.json) {
-    fmt::print("{}", json);
+    Print("{}", json);
   } else if (!arguments.verbosity.quiet) {
-    fmt::print(
-        "{}results        {}\n", SimulationSummary(simulation, logs), folder.path().string());
+    Print("{}results        {}\n", SimulationSummary(simulation, logs), folder.path().string());
   }
   return is_complete ? ExitCode::kDone : ExitCode::kInterrupted;
 }

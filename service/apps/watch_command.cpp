@@ -14,8 +14,8 @@
 #include "service/apps/command.hpp"
 #include "service/apps/network.hpp"
 #include "service/apps/number_arguments.hpp"
+#include "service/apps/output.hpp"
 #include "service/dds/robot/match_report_reader.hpp"
-#include "service/io/files/atomic_file.hpp"
 #include "service/pipeline/run/interruption.hpp"
 #include "service/pipeline/run/progress_display.hpp"
 #include "service/pipeline/team/team_table.hpp"
@@ -46,10 +46,7 @@ class Screen {
     if (!is_terminal_ && lines_ > 0) output = "\n";
     output += text;
     lines_ = std::ranges::count(text, '\n');
-    const bool is_complete = std::fwrite(output.data(), 1, output.size(), stdout) == output.size();
-    if (!is_complete || std::fflush(stdout) != 0) {
-      throw io::WriteError("standard output cannot be written");
-    }
+    PrintText(output);
   }
 
  private:

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "service/apps/number_arguments.hpp"
+#include "service/apps/output.hpp"
 #include "service/apps/slam6d/commands.hpp"
 #include "service/pipeline/results/results_folder.hpp"
 #include "service/pipeline/slam6d/scan_series.hpp"
@@ -44,10 +45,10 @@ ExitCode RunBench(const BenchArguments& arguments) {
   if (arguments.output) folder.emplace(*arguments.output, arguments.force);
   const std::vector<pipeline::SearchTimes> times =
       BenchSearch(task, kBucketSizes, arguments.max_distance_m);
-  fmt::print("searches of one registration, {} on {} points, one thread\n{}",
-             task.cur.size(),
-             task.ref.size(),
-             SearchTable(times));
+  qwsm::apps::Print("searches of one registration, {} on {} points, one thread\n{}",
+                    task.cur.size(),
+                    task.ref.size(),
+                    SearchTable(times));
   std::size_t wrong = 0;
   for (const pipeline::SearchTimes& t : times) wrong += t.wrong;
   if (folder) {

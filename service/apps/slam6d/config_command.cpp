@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "service/apps/output.hpp"
 #include "service/apps/slam6d/commands.hpp"
 #include "service/options/slam6d/program_options.hpp"
 
@@ -24,9 +25,9 @@ Command AddConfigCommand(CLI::App& program) {
   return {.parser = parser, .run = [settings] {
             using options::ProgramOptions;
             const auto options = qwsm::config::LoadOptions<ProgramOptions>(settings->sources);
-            fmt::print("{}",
-                       settings->describe ? qwsm::config::DescribeOptions<ProgramOptions>()
-                                          : qwsm::config::DumpOptions(options));
+            qwsm::apps::Print("{}",
+                              settings->describe ? qwsm::config::DescribeOptions<ProgramOptions>()
+                                                 : qwsm::config::DumpOptions(options));
             return ExitCode::kDone;
           }};
 }

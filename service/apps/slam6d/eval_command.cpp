@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "service/apps/number_arguments.hpp"
+#include "service/apps/output.hpp"
 #include "service/apps/slam6d/commands.hpp"
 #include "service/pipeline/slam6d/pose_evaluation.hpp"
 
@@ -50,7 +51,7 @@ ExitCode RunEval(const EvalArguments& arguments) {
     all.push_back({.name = estimate.string(),
                    .errors = Compare(io::ReadPoses(estimate), truth, arguments.alignment)});
   }
-  fmt::print("{}", arguments.json ? ErrorJson(all) : ErrorTable(all));
+  qwsm::apps::Print("{}", arguments.json ? ErrorJson(all) : ErrorTable(all));
   int failures = 0;
   for (const pipeline::NamedErrors& named : all) failures += CountFailures(named, arguments);
   return failures == 0 ? ExitCode::kDone : ExitCode::kFailed;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "service/apps/messages.hpp"
+#include "service/apps/output.hpp"
 #include "service/apps/slam6d/commands.hpp"
 #include "service/apps/version.hpp"
 #include "service/io/files/atomic_file.hpp"
@@ -39,8 +40,8 @@ struct RegisterArguments {
 
 ExitCode TellPlan(const std::vector<fs::path>& files, const RegisterArguments& arguments) {
   if (arguments.output) ResultsFolder::Check(*arguments.output, arguments.force);
-  for (const fs::path& file : files) fmt::print("would register {}\n", file.string());
-  fmt::print("into {}\n", arguments.output.value_or("results/<time>").string());
+  for (const fs::path& file : files) qwsm::apps::Print("would register {}\n", file.string());
+  qwsm::apps::Print("into {}\n", arguments.output.value_or("results/<time>").string());
   return ExitCode::kDone;
 }
 
@@ -121,9 +122,9 @@ ExitCode RunRegister(const RegisterArguments& arguments) {
   const std::string summary = pipeline::SummaryText(registration);
   spdlog::info("\n{}", summary);
   if (arguments.verbosity.json) {
-    fmt::print("{}", pipeline::MetricsJson(registration));
+    qwsm::apps::Print("{}", pipeline::MetricsJson(registration));
   } else if (!arguments.verbosity.quiet) {
-    fmt::print("{}results        {}\n", summary, folder.path().string());
+    qwsm::apps::Print("{}results        {}\n", summary, folder.path().string());
   }
   return registration.interrupted ? ExitCode::kInterrupted : ExitCode::kDone;
 }

@@ -10,6 +10,7 @@
 
 #include "service/apps/messages.hpp"
 #include "service/apps/number_arguments.hpp"
+#include "service/apps/output.hpp"
 #include "service/apps/scenario_arguments.hpp"
 #include "service/apps/slam6d/commands.hpp"
 #include "service/io/clouds/uos_scan.hpp"
@@ -66,10 +67,10 @@ ExitCode RunSim(SimArguments arguments) {
   }
   line.Clear();
   if (!arguments.verbosity.quiet) {
-    fmt::print("simulated      {} scans, {} points\nscans          {}\n",
-               count,
-               qwsm::pipeline::WithThousands(points),
-               folder.path().string());
+    qwsm::apps::Print("simulated      {} scans, {} points\nscans          {}\n",
+                      count,
+                      qwsm::pipeline::WithThousands(points),
+                      folder.path().string());
   }
   return interruption.requested() ? ExitCode::kInterrupted : ExitCode::kDone;
 }

@@ -79,7 +79,7 @@ std::optional<double> BearingStep(double span_rad, double stated_step_rad, std::
 }
 
 float StatedRangeMaximum(double range_max_m) {
-  const bool is_one = range_max_m > static_cast<double>(kNearestReadingM) &&
+  const bool is_one = range_max_m > static_cast<double>(kNearestReading_m) &&
                       range_max_m <= static_cast<double>(kLongestRange_m);
   return is_one ? static_cast<float>(range_max_m) : 0.0F;
 }

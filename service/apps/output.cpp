@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/apps/output.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <system_error>
+
+#include "service/io/files/atomic_file.hpp"
+
+namespace qwsm::apps {
+
+void PrintText(std::string_view text) {
+  const bool is_complete = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (is_complete && std::fflush(stdout) == 0) return;
+  throw io::WriteError("standard output cannot be written: " +
+                       std::generic_category().message(errno));
+}
+
+}  // namespace qwsm::apps
