@@ -70,8 +70,9 @@ UncertainPose2 FindStart(const LocalizeArguments& arguments,
   return start;
 }
 
-ExitCode RunLocalize(const LocalizeArguments& arguments) {
+ExitCode RunLocalize(LocalizeArguments arguments) {
   StartMessages(arguments.run.verbosity);
+  arguments.run.other_inputs = {arguments.map};
   ScanMap map = io::LoadMap(arguments.map);
   if (map.empty()) throw UsageError(arguments.map.string() + ": is a map without scans");
   const options::ProgramOptions options = LoadOptions(arguments, map);
@@ -102,7 +103,7 @@ Command AddLocalizeCommand(CLI::App& program) {
       ->type_name("MAP");
   parser->add_option("--at", arguments->at, "where the robot starts: metres and degrees")
       ->expected(3)
-      ->check(NumberBetween(-kFarthest_m, kFarthest_m))
+      ->check(NumberBetween(-kFarthestCoordinate_m, kFarthestCoordinate_m))
       ->type_name("X Y DEG");
   AddRunArguments(*parser, arguments->run);
   return {.parser = parser, .run = [arguments] { return RunLocalize(*arguments); }};

@@ -21,6 +21,16 @@ namespace qwsm::apps {
 
 using namespace pipeline;
 
+namespace {
+
+std::vector<std::filesystem::path> InputsOf(const RunArguments& arguments) {
+  std::vector<std::filesystem::path> inputs = arguments.logs;
+  inputs.insert(inputs.end(), arguments.other_inputs.begin(), arguments.other_inputs.end());
+  return inputs;
+}
+
+}  // namespace
+
 CLI::Option* AddRunArguments(CLI::App& parser,
                              RunArguments& arguments,
                              const std::string& json_help) {
@@ -51,7 +61,9 @@ std::unique_ptr<LogSource> OpenLogs(const RunArguments& arguments,
 }
 
 ExitCode TellPlan(const std::string& what, const RunArguments& arguments) {
-  if (arguments.output) ResultsFolder::Check(*arguments.output, arguments.force);
+  if (arguments.output) {
+    ResultsFolder::Check(*arguments.output, arguments.force, InputsOf(arguments));
+  }
   for (const std::filesystem::path& log : arguments.logs) {
     Print("would {} {}\n", what, log.string());
   }
@@ -61,8 +73,9 @@ ExitCode TellPlan(const std::string& what, const RunArguments& arguments) {
 
 RunSession::RunSession(const RunArguments& arguments, const options::ProgramOptions& options)
     : verbosity_(arguments.verbosity),
-      folder_(arguments.output ? ResultsFolder(*arguments.output, arguments.force)
-                               : ResultsFolder::ForNow("results")) {
+      folder_(arguments.output
+                  ? ResultsFolder(*arguments.output, arguments.force, InputsOf(arguments))
+                  : ResultsFolder::ForNow("results")) {
   CopyMessagesTo(folder_ / "run.log");
   spdlog::info("version {}", Version());
   io::WriteTextFile(folder_ / "config.yaml", config::DumpOptions(options));

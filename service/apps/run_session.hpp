@@ -19,6 +19,7 @@ namespace qwsm::apps {
 /// Arguments of all commands that run a mapper over logs.
 struct RunArguments {
   std::vector<std::filesystem::path> logs;
+  std::vector<std::filesystem::path> other_inputs;  ///< Which results must not be among, either.
   std::optional<std::filesystem::path> output;
   config::OptionSources sources;
   Verbosity verbosity;

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 #include "service/apps/output.hpp"
 #include "service/io/files/atomic_file.hpp"
 
@@ -28,7 +30,8 @@ std::optional<pipeline::ResultsFolder> BeginResults(const ServeArguments& argume
                                                     const std::string& configuration) {
   if (arguments.network.verbosity.json) WriteMessagesAsJson();
   if (!arguments.output) return std::nullopt;
-  pipeline::ResultsFolder folder(*arguments.output, arguments.force);
+  const std::array inputs{arguments.journal};
+  pipeline::ResultsFolder folder(*arguments.output, arguments.force, inputs);
   CopyMessagesTo(folder / "run.log");
   io::WriteTextFile(folder / "config.yaml", configuration);
   return folder;

@@ -104,6 +104,22 @@ TEST_F(MapCommand, ReplacesItsOwnResultsOnly) {
   EXPECT_EQ(CountLines(foreign / "trajectory.tum"), kScans);
 }
 
+TEST_F(MapCommand, DoesNotPutResultsBesideItsInput) {
+  // An earlier result, whose files are removed before the next one: the log would be lost.
+  ASSERT_EQ(RunProgram({"map", log_, "--output", results_}).exit_code, 0);
+  const fs::path log = results_ / "room.log";
+  fs::copy_file(log_, log);
+  for (const char* option : {"--quiet", "--force", "--dry-run"}) {
+    const Outcome outcome = RunProgram({"map", log, "--output", results_, option});
+    EXPECT_EQ(outcome.exit_code, 3) << option;
+    EXPECT_EQ(outcome.errors,
+              "qwsm: " + results_.string() + ": holds " + log.string() +
+                  ", which is an input; name another folder for the results\n");
+  }
+  EXPECT_EQ(ReadFile(log), ReadFile(log_));
+  EXPECT_EQ(RunProgram({"map", log, "--output", results_ / "again"}).exit_code, 0);
+}
+
 TEST_F(MapCommand, DoesNothingWhenDry) {
   const Outcome outcome = RunProgram({"map", log_, "--output", results_, "--dry-run"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;

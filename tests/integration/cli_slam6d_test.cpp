@@ -219,6 +219,17 @@ TEST_F(Slam6dProgram, RegistersSimulatedDrives) {
   }
 }
 
+TEST_F(Slam6dProgram, DoesNotPutResultsBesideItsScans) {
+  const std::string before = ReadFile(Scan(0));
+  for (const std::string input : {scans_.string(), Scan(0).string()}) {
+    const Outcome outcome = RunSlam6d({"register", input, "--output", scans_, "--force"});
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_NE(outcome.errors.find("which is an input"), std::string::npos) << outcome.errors;
+  }
+  EXPECT_EQ(ReadFile(Scan(0)), before);
+  EXPECT_FALSE(fs::exists(scans_ / "run.log"));
+}
+
 TEST_F(Slam6dProgram, TakesItsOwnConfiguration) {
   const Outcome dumped = RunSlam6d({"config", "--set", "slam.icp.metric=point-to-plane"});
   ASSERT_EQ(dumped.exit_code, 0) << dumped.errors;

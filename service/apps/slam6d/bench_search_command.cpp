@@ -42,7 +42,7 @@ pipeline::SearchTask ReadTask(const BenchArguments& arguments) {
 ExitCode RunBench(const BenchArguments& arguments) {
   const pipeline::SearchTask task = ReadTask(arguments);
   std::optional<qwsm::pipeline::ResultsFolder> folder;
-  if (arguments.output) folder.emplace(*arguments.output, arguments.force);
+  if (arguments.output) folder.emplace(*arguments.output, arguments.force, arguments.scans);
   const std::vector<pipeline::SearchTimes> times =
       BenchSearch(task, kBucketSizes, arguments.max_distance_m);
   qwsm::apps::Print("searches of one registration, {} on {} points, one thread\n{}",

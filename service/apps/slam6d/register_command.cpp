@@ -38,8 +38,17 @@ struct RegisterArguments {
   bool dry_run = false;
 };
 
+/// What is read; results are not to be put beside it.
+std::vector<fs::path> InputsOf(const RegisterArguments& arguments) {
+  std::vector<fs::path> inputs = arguments.scans;
+  if (arguments.poses) inputs.push_back(*arguments.poses);
+  return inputs;
+}
+
 ExitCode TellPlan(const std::vector<fs::path>& files, const RegisterArguments& arguments) {
-  if (arguments.output) ResultsFolder::Check(*arguments.output, arguments.force);
+  if (arguments.output) {
+    ResultsFolder::Check(*arguments.output, arguments.force, InputsOf(arguments));
+  }
   for (const fs::path& file : files) qwsm::apps::Print("would register {}\n", file.string());
   qwsm::apps::Print("into {}\n", arguments.output.value_or("results/<time>").string());
   return ExitCode::kDone;
@@ -48,8 +57,9 @@ ExitCode TellPlan(const std::vector<fs::path>& files, const RegisterArguments& a
 /// The folder of this run, with its messages and configuration recorded there.
 ResultsFolder OpenResults(const RegisterArguments& arguments,
                           const options::ProgramOptions& options) {
-  ResultsFolder folder = arguments.output ? ResultsFolder(*arguments.output, arguments.force)
-                                          : ResultsFolder::ForNow("results");
+  ResultsFolder folder =
+      arguments.output ? ResultsFolder(*arguments.output, arguments.force, InputsOf(arguments))
+                       : ResultsFolder::ForNow("results");
   qwsm::apps::CopyMessagesTo(folder / "run.log");
   spdlog::info("version {}", qwsm::apps::Version());
   qwsm::io::WriteTextFile(folder / "config.yaml", qwsm::config::DumpOptions(options));

@@ -39,6 +39,21 @@ void RemoveFiles(const fs::path& folder) {
   ThrowIf(error, folder, "be read");
 }
 
+/// Results among the inputs would be taken for inputs, and inputs among the results be removed with
+/// them.
+void RefuseInputsIn(const fs::path& folder, std::span<const fs::path> inputs) {
+  for (const fs::path& input : inputs) {
+    std::error_code error;
+    if (input.empty() || input == "-") continue;
+    const fs::path file = fs::absolute(input, error).lexically_normal();
+    const fs::path parent = file.has_filename() ? file.parent_path() : file;
+    if (!fs::equivalent(file, folder, error) && !fs::equivalent(parent, folder, error)) continue;
+    throw Refused(folder,
+                  fmt::format("holds {}, which is an input; name another folder for the results",
+                              input.string()));
+  }
+}
+
 std::string UtcTime() {
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   return fmt::format("{:%Y-%m-%dT%H-%M-%SZ}", fmt::gmtime(now));
@@ -56,8 +71,9 @@ void PointTo(const fs::path& link, const fs::path& target) {
 
 }  // namespace
 
-ResultsFolder::ResultsFolder(fs::path folder, bool force) : folder_(std::move(folder)) {
-  Check(folder_, force);
+ResultsFolder::ResultsFolder(fs::path folder, bool force, std::span<const fs::path> inputs)
+    : folder_(std::move(folder)) {
+  Check(folder_, force, inputs);
   std::error_code error;
   fs::create_directories(folder_, error);
   ThrowIf(error, folder_, "be created");
@@ -74,11 +90,12 @@ ResultsFolder ResultsFolder::ForNow(const fs::path& parent) {
   return results;
 }
 
-void ResultsFolder::Check(const fs::path& folder, bool force) {
+void ResultsFolder::Check(const fs::path& folder, bool force, std::span<const fs::path> inputs) {
   std::error_code error;
   const fs::file_status status = fs::status(folder, error);
   if (!fs::exists(status)) return;
   if (!fs::is_directory(status)) throw Refused(folder, "is a file; name a folder for the results");
+  RefuseInputsIn(folder, inputs);
   const bool is_empty = fs::is_empty(folder, error);
   ThrowIf(error, folder, "be read");
   if (is_empty || force || fs::exists(folder / kMarker)) return;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string_view>
 
 namespace qwsm::pipeline {
@@ -13,14 +14,20 @@ class ResultsFolder {
   /// Creates the folder. One that exists must be empty or hold results of an earlier run, whose
   /// files are removed first so that nothing of it is mistaken for this one's; with `force`, any
   /// folder will do and what is not overwritten stays.
-  /// @throws io::WriteError where that is not so, or the folder cannot be written to.
-  ResultsFolder(std::filesystem::path folder, bool force);
+  /// @param inputs files, or folders of files, that the run reads or goes on with; "-" is none.
+  /// @throws io::WriteError where that is not so, where the folder holds an input, or where it
+  ///         cannot be written to.
+  ResultsFolder(std::filesystem::path folder,
+                bool force,
+                std::span<const std::filesystem::path> inputs = {});
 
   /// The same in `results/<UTC time>/`, with a link `results/latest` to it.
   static ResultsFolder ForNow(const std::filesystem::path& parent);
 
   /// What the constructor would object to. @throws io::WriteError.
-  static void Check(const std::filesystem::path& folder, bool force);
+  static void Check(const std::filesystem::path& folder,
+                    bool force,
+                    std::span<const std::filesystem::path> inputs = {});
 
   const std::filesystem::path& path() const { return folder_; }
   std::filesystem::path operator/(std::string_view name) const { return folder_ / name; }
