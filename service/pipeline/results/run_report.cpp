@@ -51,6 +51,7 @@ std::string MetricsJson(const RunStatistics& run,
   json["mean_residual_mm"] = run.MeanResidual_mm();
   json["mean_trace_m2"] = run.MeanTrace_m2();
   json["scans_per_s"] = ScansPerSecond(run);
+  json["drive_s"] = run.drive_time_s();
   if (run.scans() > 0) {
     json["ms_median"] = run.TimeQuantile_ms(0.5);
     json["ms_p99"] = run.TimeQuantile_ms(0.99);
@@ -76,6 +77,11 @@ std::string SummaryText(const RunStatistics& run,
                       run.TimeQuantile_ms(0.5),
                       run.TimeQuantile_ms(0.99),
                       run.longest_time_ms());
+  if (run.is_outrun()) {
+    text += fmt::format("too slow       {:.1f} s of work for {:.1f} s of driving\n",
+                        run.total_time_s(),
+                        run.drive_time_s());
+  }
   text += fmt::format("path           {:.1f} m\n", run.path_length_m());
   text +=
       fmt::format("matched        {}, of which {} showed much that is new\n",

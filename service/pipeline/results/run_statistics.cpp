@@ -14,6 +14,8 @@ namespace qwsm::pipeline {
 void RunStatistics::Take(const TimedStep& timed) {
   const MappingStep& step = timed.step;
   const double time_ms = std::chrono::duration<double, std::milli>(timed.duration).count();
+  if (scans() == 0) first_ = step.stamp;
+  last_ = step.stamp;
   durations_ms_.Add(time_ms);
   time_sum_ms_ += time_ms;
   longest_time_ms_ = std::max(longest_time_ms_, time_ms);

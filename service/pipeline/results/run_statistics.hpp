@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -26,6 +27,10 @@ class RunStatistics final : public StepSink {
   double MeanResidual_mm() const;
   double MeanTrace_m2() const;
   double total_time_s() const { return 1e-3 * time_sum_ms_; }
+  /// From the first scan to the last, by their stamps.
+  double drive_time_s() const { return std::chrono::duration<double>(last_ - first_).count(); }
+  /// Whether a robot would have outrun the mapping.
+  bool is_outrun() const { return drive_time_s() > 0.0 && total_time_s() > drive_time_s(); }
   /// Of the time per scan: 0.5 is the median. @pre scans() > 0.
   double TimeQuantile_ms(double quantile) const;
   double longest_time_ms() const { return longest_time_ms_; }
@@ -42,6 +47,8 @@ class RunStatistics final : public StepSink {
   double residual_sum_mm_ = 0.0;
   double trace_sum_m2_ = 0.0;
   std::optional<Pose2> T_map_last_;
+  Timestamp first_{};
+  Timestamp last_{};
 };
 
 }  // namespace qwsm::pipeline

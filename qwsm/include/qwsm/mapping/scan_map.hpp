@@ -47,7 +47,7 @@ void Describe(Visitor& visit, ScanMapOptions& o) {
         {.help = "new-surface: radius in which older points are counted before a point is stored",
          .formerly = "crowd_radius_m",
          .min = 0,
-         .max = 5});
+         .max = 0.5});
   visit("max_density_points",
         o.max_density_points,
         {.help = "new-surface: where so many older points lie in it, the point is not stored",

@@ -30,7 +30,7 @@ void Describe(Visitor& visit, SurfaceMapOptions& o) {
   visit("likelihood", o.likelihood, {.help = "the coarse levels that wide searches use"});
   visit("neighborhood_radius_m",
         o.neighborhood_radius_m,
-        {.help = "stored points this near describe the surface at a point", .min = 0.01, .max = 5});
+        {.help = "stored points this near describe the surface at a point", .min = 0.01, .max = 1});
   visit("min_neighbors",
         o.min_neighbors,
         {.help = "with fewer points around, the scan's own normal is used", .min = 2, .max = 1000});

@@ -52,7 +52,7 @@ void Describe(Visitor& visit, WeightedScanMatcherOptions& o) {
         {.help = "converged when a step turns less", .min = 1e-9, .max = 0.1});
   visit("pair_distance_m",
         o.pair_distance_m,
-        {.help = "in the end, points further apart are no pair", .min = 0.005, .max = 10});
+        {.help = "in the end, points further apart are no pair", .min = 0.02, .max = 10});
   visit(
       "annealing_factor",
       o.annealing_factor,
@@ -75,13 +75,14 @@ void Describe(Visitor& visit, WeightedScanMatcherOptions& o) {
          .formerly = "min_information_share",
          .min = 0,
          .max = 1});
-  visit("min_pairs", o.min_pairs, {.help = "fewer pairs are no match", .min = 1, .max = 10000});
+  visit("min_pairs", o.min_pairs, {.help = "fewer pairs are no match", .min = 1, .max = 100});
   visit("max_sigma_m",
         o.max_sigma_m,
         {.help = "a position less certain than this is no match", .min = 0.01, .max = 100});
-  visit("min_overlap",
-        o.min_overlap,
-        {.help = "a match is inconsistent if less of the scan agrees with it", .min = 0, .max = 1});
+  visit(
+      "min_overlap",
+      o.min_overlap,
+      {.help = "a match is inconsistent if less of the scan agrees with it", .min = 0, .max = 0.9});
   visit("max_prior_sigmas",
         o.max_prior_sigmas,
         {.help = "a match is inconsistent if it is more sigmas away from the prediction",

@@ -22,10 +22,11 @@ struct PointQuadtreeOptions {
 
 template <class Visitor>
 void Describe(Visitor& visit, PointQuadtreeOptions& o) {
-  visit(
-      "cell_size_m",
-      o.cell_size_m,
-      {.help = "side of the smallest cell; points in one cell are merged", .min = 1e-5, .max = 1});
+  visit("cell_size_m",
+        o.cell_size_m,
+        {.help = "side of the smallest cell; points in one cell are merged",
+         .min = 1e-5,
+         .max = 0.1});
 }
 
 using ScanId = std::uint32_t;
