@@ -47,7 +47,7 @@ int main() {
   const slam6d::IcpResult result = slam6d::Align(ref, cur, guess, slam6d::IcpOptions());
 
   const slam6d::Pose3 error = T_ref_cur_true.Inverse() * result.T_ref_cur;
-  std::cout << Reason(result.status) << " after " << result.iterations << " iterations, "
+  std::cout << Name(result.status) << " after " << result.iterations << " iterations, "
             << result.pairs << " pairs\n"
             << "at " << result.T_ref_cur.translation_m.transpose() << " m, turned by "
             << slam6d::RotationAngle(result.T_ref_cur.rotation) / kDegree << " deg\n"
