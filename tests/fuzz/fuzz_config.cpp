@@ -11,6 +11,7 @@
 namespace {
 
 using namespace qwsm::config;
+using qwsm::options::ProgramOptions;
 
 ProgramOptions Read(const std::string& text) {
   ProgramOptions options;

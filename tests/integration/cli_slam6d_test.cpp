@@ -221,7 +221,7 @@ TEST_F(Slam6dProgram, RegistersSimulatedDrives) {
 
 TEST_F(Slam6dProgram, DoesNotPutResultsBesideItsScans) {
   const std::string before = ReadFile(Scan(0));
-  for (const std::string input : {scans_.string(), Scan(0).string()}) {
+  for (const std::string& input : {scans_.string(), Scan(0).string()}) {
     const Outcome outcome = RunSlam6d({"register", input, "--output", scans_, "--force"});
     EXPECT_EQ(outcome.exit_code, 3);
     EXPECT_NE(outcome.errors.find("which is an input"), std::string::npos) << outcome.errors;

@@ -183,7 +183,7 @@ TEST(WeightedScanMatcher, PairsTellHowFarOffAMatchIs) {
       const Eigen::Vector2d place_m = scene.route_m[i % scene.route_m.size()];
       const Pose2 T_world_map{place_m.x(), place_m.y(), 0.04 * i};
       ScanMap map;
-      for (int i = 0; i < observations; ++i) {
+      for (int scans = 0; scans < observations; ++scans) {
         const Pose2 T_map_robot = AnyPose(random, 0.2, 0.1);
         const LaserScan scan = Measure({}, scene.world, T_world_map * T_map_robot, random);
         map.Insert(scan, ToPoints(scan), {.T_a_b = T_map_robot});

@@ -31,7 +31,7 @@ TEST(SensorConfiguration, AllAreValidAndSayWhenToUseThem) {
   EXPECT_EQ(Shipped().size(), 4U);
   for (const fs::path& file : Shipped()) {
     SCOPED_TRACE(file);
-    EXPECT_NO_THROW(static_cast<void>(LoadOptions<ProgramOptions>({.file = file, .settings = {}})));
+    EXPECT_NO_THROW(static_cast<void>(LoadOptions<options::ProgramOptions>({.file = file, .settings = {}})));
     std::ifstream stream(file);
     std::string line;
     for (int i = 0; i < 4; ++i) std::getline(stream, line);  // Below the notice.
@@ -41,8 +41,8 @@ TEST(SensorConfiguration, AllAreValidAndSayWhenToUseThem) {
 
 TEST(SensorConfiguration, TheDefaultOneChangesNothing) {
   const auto options =
-      LoadOptions<ProgramOptions>({.file = kFolder / "default.yaml", .settings = {}});
-  EXPECT_EQ(DumpOptions(options), DumpOptions(ProgramOptions{}));
+      LoadOptions<options::ProgramOptions>({.file = kFolder / "default.yaml", .settings = {}});
+  EXPECT_EQ(DumpOptions(options), DumpOptions(options::ProgramOptions{}));
 }
 
 }  // namespace
