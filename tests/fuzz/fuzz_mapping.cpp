@@ -7,9 +7,9 @@
 #include <string>
 
 #include "qwsm/geometry/position.hpp"
+#include "qwsm/logs/log_reader.hpp"
 #include "qwsm/mapping/mapper.hpp"
 #include "qwsm/sensor/scan_limits.hpp"
-#include "qwsm/logs/log_reader.hpp"
 #include "tests/fuzz/expect.hpp"
 
 namespace {
