@@ -13,6 +13,7 @@
 #include "service/apps/command.hpp"
 #include "service/apps/messages.hpp"
 #include "service/io/files/atomic_file.hpp"
+#include "service/io/files/standard_output.hpp"
 #include "service/io/logs/carmen_writer.hpp"
 #include "service/io/trajectories/trajectory_file.hpp"
 
@@ -67,7 +68,9 @@ void Convert(const ConvertArguments& arguments, std::ostream& stream) {
     const std::unique_ptr<io::LogReader> reader = io::OpenLog(log, LogOptionsOf(options.log));
     while (const std::optional<io::LogRecord> record = reader->Next()) {
       write(*record);
-      if (!stream) throw io::WriteError(arguments.output.string() + ": cannot be written");
+      if (stream) continue;
+      if (arguments.output == "-") throw io::StandardOutputError();
+      throw io::WriteError(arguments.output.string() + ": cannot be written");
     }
   }
 }
@@ -76,7 +79,7 @@ ExitCode RunConvert(const ConvertArguments& arguments) {
   StartMessages(arguments.verbosity);
   if (arguments.output == "-") {
     Convert(arguments, std::cout);
-    if (!std::cout.flush()) throw io::WriteError("standard output cannot be written");
+    if (!std::cout.flush()) throw io::StandardOutputError();
     return ExitCode::kDone;
   }
   io::AtomicFile file(arguments.output);

@@ -2,19 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/apps/output.hpp"
 
-#include <cerrno>
 #include <cstdio>
-#include <system_error>
 
-#include "service/io/files/atomic_file.hpp"
+#include "service/io/files/standard_output.hpp"
 
 namespace qwsm::apps {
 
 void PrintText(std::string_view text) {
   const bool is_complete = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (is_complete && std::fflush(stdout) == 0) return;
-  throw io::WriteError("standard output cannot be written: " +
-                       std::generic_category().message(errno));
+  throw io::StandardOutputError();
 }
 
 }  // namespace qwsm::apps

@@ -122,7 +122,7 @@ TEST_F(RosMap, FailuresNameTheFileAndTheReason) {
   EXPECT_EQ(FailureOf(std::string("resolution: 0.1\nimage: map.pgm\norigin: [0, 0, 1]\n") + kRest),
             name + "origin: a map that is turned cannot be read");
   EXPECT_EQ(FailureOf(std::string("resolution: 0\nimage: map.pgm\norigin: [0, 0, 0]\n") + kRest),
-            name + "resolution: must be above 0");
+            name + "resolution: must be between 0.0001 and 10000 m");
   EXPECT_EQ(FailureOf("mode: scale\n" + good + kRest),
             name + "mode: only 'trinary' can be read, not 'scale'");
   EXPECT_NE(FailureOf("image: none.pgm\nresolution: 1\norigin: [0, 0, 0]\n").find("none.pgm"),

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "service/io/files/atomic_file.hpp"
+#include "service/io/files/standard_output.hpp"
 #include "service/pipeline/results/scan_table_sink.hpp"
 
 namespace qwsm::pipeline {
@@ -33,7 +33,7 @@ void JsonLinesSink::Take(const TimedStep& timed) {
   const std::string line = json.dump() + "\n";
   const bool complete = std::fwrite(line.data(), 1, line.size(), stream_) == line.size();
   if (!complete || std::fflush(stream_) != 0) {
-    throw io::WriteError("standard output cannot be written");
+    throw io::StandardOutputError();
   }
 }
 
