@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kTurnFirst_rad = qwsm::DegreesToRadians(60.0);  // A larger error is turned away.
 constexpr double kSteeringGain_per_s = 2.0;
-constexpr double kKeptAhead_m = 0.2;    // A skilled driver stops so far from an obstacle,
-constexpr double kBraking_per_s = 1.0;  // with a speed in proportion to the rest of the way.
+constexpr double kKeptAhead_m = 0.2;    // A skilled driver stops so far from an obstacle.
+constexpr double kBraking_per_s = 1.0;  // Speed over the way left to where the driver stops.
 constexpr double kPoorTolerance_rad = qwsm::DegreesToRadians(25.0);  // Not worth a turn.
 constexpr double kPoorAim_rad = qwsm::DegreesToRadians(6.0);         // Good enough to drive on.
 constexpr std::size_t kPoorReactionSteps = 40;                       // 0.4 s of Decide() calls.

@@ -26,9 +26,9 @@ Eigen::Matrix2d PairInformation(const Surface& surface,
 struct Pairing::CountedPair {
   const Pair& pair;
   const ScanPoint& point;
-  Eigen::Vector2d arm;    // R u,
-  Eigen::Matrix2d N_map;  // the point's noise,
-  Eigen::Matrix2d W;      // and what the pair tells of it.
+  Eigen::Vector2d arm;    // The point in map axes, from the robot: R u.
+  Eigen::Matrix2d N_map;  // Noise of the point in map axes.
+  Eigen::Matrix2d W;      // Information of the pair about the point, S^-1, weighted.
 };
 
 template <class Visit>

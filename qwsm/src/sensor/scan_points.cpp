@@ -20,14 +20,14 @@ constexpr double kGapOfMeanSpacings = 3.0;
 constexpr double kMaxRoughness_m = 0.05;  // A wall is flatter than this.
 constexpr std::size_t kMaxBeamsAway = 2;  // Between neighbours, for a failed reading.
 constexpr double kInFront_m = 0.3;        // Nearer than its neighbours by this: another object.
-constexpr double kTanOfMaxTurn =
-    std::numbers::sqrt2 - 1.0;       // pi/8: of a straight surface, sparsely sampled.
+// Tangent of pi/8, by which a straight surface that is sparsely sampled may seem to turn.
+constexpr double kTanOfMaxTurn = std::numbers::sqrt2 - 1.0;
 constexpr double kMaxAspect = 0.25;  // Across over along, as standard deviations.
 
-// How far a surface is followed from one of its points.
+// How far a surface is followed from one of its points, as squared distances.
 struct SurfaceLimits {
-  double reach_m2;  // From the point;
-  double gap_m2;    // and between two neighbours; both squared.
+  double reach_m2;  // From the point.
+  double gap_m2;    // Between two neighbours.
 
   bool Hold(double distance_m2, double to_last_m2) const {
     return distance_m2 <= reach_m2 && to_last_m2 <= gap_m2;

@@ -77,8 +77,8 @@ class LikelihoodWindow {
   void ForEachTile(std::span<const LikelihoodTile* const> tiles, Visit visit) const;
   void ForgetDrifted(std::span<const LikelihoodTile* const> tiles, std::uint8_t max_drift_code);
 
-  GridCell first_tile_;        // Column and row,
-  GridCell size_;              // and how many columns and rows.
+  GridCell first_tile_;        // Its column and row.
+  GridCell size_;              // How many columns and rows of tiles there are.
   std::vector<Plane> planes_;  // By level.
 };
 
