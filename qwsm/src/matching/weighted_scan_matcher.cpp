@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "qwsm/matching/weighted_scan_matcher.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "pairing.hpp"
+#include "pseudo_inverse.hpp"
 
 namespace qwsm {
 namespace {
@@ -85,8 +84,7 @@ Eigen::Matrix3d InformationByModel(const NormalEquations& pairs,
 Eigen::Matrix3d InformationByScatter(const NormalEquations& pairs, const Eigen::Matrix3d& scatter) {
   const double count = pairs.sum_of_weights;
   const Eigen::Matrix3d B = (count * scatter + kPairsOfModel * pairs.A) / (count + kPairsOfModel);
-  const Eigen::Matrix3d information =
-      pairs.A * B.completeOrthogonalDecomposition().pseudoInverse() * pairs.A;
+  const Eigen::Matrix3d information = pairs.A * PseudoInverse(B) * pairs.A;
   return 0.5 * (information + information.transpose());
 }
 

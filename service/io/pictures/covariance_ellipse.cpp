@@ -15,7 +15,8 @@ Eigen::Matrix2d HalfAxes95(const Eigen::Matrix3d& covariance) {
   constexpr double kSigmas = 2.4477468306808166;  // Root of chi-square's 95 % quantile, 2 degrees.
   const Eigen::Matrix2d position_m2 = covariance.topLeftCorner<2, 2>();
   if (!position_m2.allFinite()) return Eigen::Matrix2d::Zero();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(position_m2);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
+  solver.computeDirect(position_m2);
   const Eigen::Vector2d deviations_m = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
   return kSigmas * solver.eigenvectors() * deviations_m.asDiagonal();
 }

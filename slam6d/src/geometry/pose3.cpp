@@ -3,9 +3,11 @@
 #include "slam6d/geometry/pose3.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+
+#include "slam6d/src/algebra/decompositions.hpp"
 
 namespace slam6d {
 
@@ -69,10 +71,9 @@ Eigen::Vector3d RollPitchYaw(const Eigen::Matrix3d& rotation) {
 }
 
 Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& nearly) {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(nearly, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d U = svd.matrixU();
-  if ((U * svd.matrixV().transpose()).determinant() < 0.0) U.col(2) = -U.col(2);
-  return U * svd.matrixV().transpose();
+  Svd3 svd = SvdOf(nearly);
+  if ((svd.U * svd.V.transpose()).determinant() < 0.0) svd.U.col(2) = -svd.U.col(2);
+  return svd.U * svd.V.transpose();
 }
 
 // Three components on a grid that is coarse beside the rounding of what makes a quaternion of a

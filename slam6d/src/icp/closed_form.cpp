@@ -4,8 +4,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
+#include <Eigen/LU>
 #include <cmath>
+
+#include "slam6d/src/algebra/decompositions.hpp"
 
 namespace slam6d {
 namespace {
@@ -17,11 +19,9 @@ constexpr double kLineShare = 1e-12;
 /// factor in the middle keeps a reflection out, which noise can make the better fit for points near
 /// a plane.
 Eigen::Matrix3d RotationBySvd(const Eigen::Matrix3d& H) {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(H, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Matrix3d& U = svd.matrixU();
-  const Eigen::Matrix3d& V = svd.matrixV();
-  const double handedness = (V * U.transpose()).determinant() < 0.0 ? -1.0 : 1.0;
-  return V * Eigen::Vector3d(1.0, 1.0, handedness).asDiagonal() * U.transpose();
+  const Svd3 svd = SvdOf(H);
+  const double handedness = (svd.V * svd.U.transpose()).determinant() < 0.0 ? -1.0 : 1.0;
+  return svd.V * Eigen::Vector3d(1.0, 1.0, handedness).asDiagonal() * svd.U.transpose();
 }
 
 /// Horn (1987), section 4.A: the matrix N whose eigenvector of the largest eigenvalue is the unit
@@ -34,10 +34,6 @@ Eigen::Matrix4d HornMatrix(const Eigen::Matrix3d& S) {
   N.block<3, 1>(1, 0) = axial;
   N.block<3, 3>(1, 1) = S + S.transpose() - S.trace() * Eigen::Matrix3d::Identity();
   return N;
-}
-
-Eigen::Vector4d DominantEigenvector(const Eigen::Matrix4d& symmetric) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(symmetric).eigenvectors().col(3);
 }
 
 Eigen::Matrix3d RotationByUnitQuaternion(const Eigen::Matrix3d& H) {
@@ -113,7 +109,7 @@ Pose3 AlignByDualQuaternion(const PairMoments& moments) {
 
 bool LeavesRotationOpen(const PairMoments& moments) {
   if (moments.count < 3.0 || !moments.H_m2.allFinite()) return true;
-  const Eigen::Vector3d singular = Eigen::JacobiSVD<Eigen::Matrix3d>(moments.H_m2).singularValues();
+  const Eigen::Vector3d singular = SvdOf(moments.H_m2).values;
   return !(singular(1) > kLineShare * singular(0));
 }
 

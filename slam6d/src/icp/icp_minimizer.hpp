@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <memory>
 #include <optional>
 #include <span>

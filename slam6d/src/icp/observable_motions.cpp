@@ -24,22 +24,22 @@ bool LeavesMotionOpen(const Matrix6d& A) {
   Vector6d scale = Vector6d::Ones();
   scale.tail<3>().setConstant(1.0 / std::max(arm_m, 1e-300));
   const Matrix6d scaled = scale.asDiagonal() * A * scale.asDiagonal();
-  const Vector6d eigenvalues = Eigen::SelfAdjointEigenSolver<Matrix6d>(scaled).eigenvalues();
+  const Vector6d eigenvalues = EigenvaluesOf(scaled);
   return !(eigenvalues(0) > kOpenShare * eigenvalues(5));
 }
 
 ObservableMotions::ObservableMotions(const Matrix6d& A, const Matrix6d& A_noise)
-    : eigen_(A, A_noise),
-      to_gradient_(A_noise * eigen_.eigenvectors()),
-      is_observable_(eigen_.eigenvalues().array() > kObservableShare) {}
+    : eigen_(GeneralizedEigenOf(A, A_noise)),
+      to_gradient_(A_noise * eigen_.vectors),
+      is_observable_(eigen_.values.array() > kObservableShare) {}
 
 Matrix6d ObservableMotions::Information() const {
-  const Vector6d told = is_observable_.select(eigen_.eigenvalues().array() - 1.0, 0.0);
+  const Vector6d told = is_observable_.select(eigen_.values.array() - 1.0, 0.0);
   return to_gradient_ * told.asDiagonal() * to_gradient_.transpose();
 }
 
 Vector6d ObservableMotions::Project(const Vector6d& b) const {
-  const Vector6d along = eigen_.eigenvectors().transpose() * b;
+  const Vector6d along = eigen_.vectors.transpose() * b;
   return to_gradient_ * is_observable_.select(along.array(), 0.0).matrix();
 }
 

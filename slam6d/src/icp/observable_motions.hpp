@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
 #include "slam6d/geometry/pose3.hpp"
+#include "slam6d/src/algebra/decompositions.hpp"
 
 namespace slam6d {
 
@@ -29,8 +30,8 @@ class ObservableMotions {
   Vector6d Project(const Vector6d& b) const;
 
  private:
-  Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d> eigen_;  ///< A v = share A_noise v.
-  Matrix6d to_gradient_;                                      ///< From coordinates along those v.
+  GeneralizedEigen6 eigen_;  ///< A v = share A_noise v.
+  Matrix6d to_gradient_;     ///< From coordinates along those v.
   Eigen::Array<bool, 6, 1> is_observable_;
 };
 

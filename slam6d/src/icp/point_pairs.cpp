@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam6d/src/algebra/decompositions.hpp"
 #include "slam6d/src/parallel.hpp"
 #include "slam6d/src/search/kd_tree_kernel.hpp"
 
@@ -12,7 +13,7 @@ namespace slam6d {
 namespace {
 
 /// Small enough that a chunk's points stay in the cache from one of its three loops to the next.
-constexpr std::size_t kChunkSize = 2048;
+constexpr std::size_t kPointsPerChunk = 2048;
 
 /// More pairs than so many do not make a pose better known.
 constexpr double kIndependentPairs = 30.0;
@@ -92,7 +93,7 @@ PointSums PointPairs::Collect(const Pose3& T_ref_cur, int iteration) {
     counted_distance2_m2_ = std::min(search_.max_distance2_m2(), limit_m * limit_m);
   }
   center_ref_m_ = T_ref_cur.translation_m;
-  const std::size_t chunks = (cur_.size() + kChunkSize - 1) / kChunkSize;
+  const std::size_t chunks = (cur_.size() + kPointsPerChunk - 1) / kPointsPerChunk;
   std::vector<PairSums> sums(chunks);
   std::vector<SearchStatistics> statistics(chunks);
   const auto work = [&](std::size_t chunk, std::size_t first, std::size_t last) {
@@ -108,7 +109,7 @@ PointSums PointPairs::Collect(const Pose3& T_ref_cur, int iteration) {
                           .last = last};
     KernelFor(simd_).sum_pairs(pairs, sums[chunk]);
   };
-  ForChunks(cur_.size(), kChunkSize, options_.threads, work);
+  ForChunks(cur_.size(), kPointsPerChunk, options_.threads, work);
   for (const SearchStatistics& part : statistics) statistics_ += part;
 
   const PairSums total = SumInOrder(sums);
@@ -143,7 +144,7 @@ Matrix6d PointPairs::Covariance(const Sums& sums, const Matrix6d& information, c
   // Nearest points are other samples of the surface: their distances are no independent errors,
   // but lead astray together.
   const double independent = std::min(count, kIndependentPairs);
-  return count / independent * variance_m2 * information.inverse();
+  return count / independent * variance_m2 * InverseOf(information);
 }
 
 }  // namespace slam6d

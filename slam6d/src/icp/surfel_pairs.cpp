@@ -2,19 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slam6d/src/icp/surfel_pairs.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "slam6d/src/algebra/decompositions.hpp"
 #include "slam6d/src/icp/observable_motions.hpp"
 #include "slam6d/src/parallel.hpp"
 
 namespace slam6d {
 namespace {
 
-constexpr std::size_t kChunkSize = 512;
+constexpr std::size_t kSurfelsPerChunk = 512;
 
 /// Surfels whose normals differ more than this (37 degrees) are different surfaces.
 constexpr double kMinNormalCosine = 0.8;
@@ -181,7 +180,7 @@ bool SurfelPairs::ShrinkScale() {
 NormalEquations SurfelPairs::Collect(const Pose3& T_ref_cur, int iteration) {
   const bool settled = iteration > 1 && !ShrinkScale();
   const Rules rules{.T_ref_cur = T_ref_cur, .scale2_m2 = scale_m_ * scale_m_};
-  const std::size_t chunks = (cur_.size() + kChunkSize - 1) / kChunkSize;
+  const std::size_t chunks = (cur_.size() + kSurfelsPerChunk - 1) / kSurfelsPerChunk;
   std::vector<NormalEquations> sums(chunks);
   std::vector<SearchStatistics> statistics(chunks);
   const auto work = [&](std::size_t chunk, std::size_t first, std::size_t last) {
@@ -189,7 +188,7 @@ NormalEquations SurfelPairs::Collect(const Pose3& T_ref_cur, int iteration) {
     statistics[chunk] = search_.Find(cur_ref_, first, last);
     sums[chunk] = Sum(rules, first, last);
   };
-  ForChunks(cur_.size(), kChunkSize, options_.threads, work);
+  ForChunks(cur_.size(), kSurfelsPerChunk, options_.threads, work);
   for (const SearchStatistics& part : statistics) statistics_ += part;
   NormalEquations total;
   for (const NormalEquations& part : sums) total += part;
@@ -209,9 +208,8 @@ IcpStep SurfelPairs::Step(const Sums& sums, const PoseAndGuess& T_map, const Icp
   to_guess << T_map.guess.translation_m - T_map.now.translation_m,
       RotationVector(T_map.guess.rotation * T_map.now.rotation.transpose());
   const Matrix6d prior = GuessInformation(options);
-  const Vector6d x = (observable.Information() + prior)
-                         .ldlt()
-                         .solve(observable.Project(sums.b - sums.b_noise) + prior * to_guess);
+  const Vector6d x = SolvePositive(observable.Information() + prior,
+                                   observable.Project(sums.b - sums.b_noise) + prior * to_guess);
   // The rotation is about the origin of cur: T <- (x, R(x) about t).
   const Eigen::Matrix3d rotation = RotationFromVector(x.tail<3>());
   const Eigen::Vector3d& center_m = T_map.now.translation_m;
@@ -226,7 +224,7 @@ Matrix6d SurfelPairs::Covariance(const Sums& sums,
   const double freedom = std::max(static_cast<double>(sums.pairs) - 6.0, 1.0);
   const double reduced_chi2 = std::max(sums.weighted_residual2 / freedom, 1.0);
   const ObservableMotions observable(information, sums.A_noise);
-  return (observable.Information() / reduced_chi2 + GuessInformation(options)).inverse();
+  return InverseOf(observable.Information() / reduced_chi2 + GuessInformation(options));
 }
 
 }  // namespace slam6d

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slam6d/src/algebra/decompositions.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+
+namespace slam6d {
+namespace {
+
+/// One type for all sizes, so that Eigen's templates are compiled once for all of them.
+using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
+
+}  // namespace
+
+Svd3 SvdOf(const Eigen::Matrix3d& A) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(A, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return {.U = svd.matrixU(), .values = svd.singularValues(), .V = svd.matrixV()};
+}
+
+Eigen::Vector4d DominantEigenvector(const Eigen::Matrix4d& symmetric) {
+  return Eigen::SelfAdjointEigenSolver<Small>(symmetric).eigenvectors().col(3);
+}
+
+Vector6d EigenvaluesOf(const Matrix6d& symmetric) {
+  return Eigen::SelfAdjointEigenSolver<Small>(symmetric).eigenvalues();
+}
+
+GeneralizedEigen6 GeneralizedEigenOf(const Matrix6d& A, const Matrix6d& B) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Small> eigen(A, B);
+  return {.values = eigen.eigenvalues(), .vectors = eigen.eigenvectors()};
+}
+
+Vector6d SolvePositive(const Matrix6d& A, const Vector6d& b) { return A.ldlt().solve(b); }
+
+Matrix6d InverseOf(const Matrix6d& A) { return A.inverse(); }
+
+}  // namespace slam6d
