@@ -2,8 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # qwsm_target_defaults(TARGET): language level, warnings and floating-point rules of every target.
+# qwsm_add_precompiled(NAME LIBS ... HEADERS ...): headers that are parsed once, for all who take them.
+# qwsm_take_precompiled(TARGET NAME): begins every source of TARGET with these headers.
+# qwsm_build_together(TARGET [AT_MOST N] [EXCEPT ...]): compiles the sources of TARGET together, N at a
+# time or all, but for those named.
 
 option(QWSM_WARNINGS_AS_ERRORS "Turn compiler warnings into errors (the presets do)" OFF)
+option(QWSM_SEPARATE_SOURCES
+  "Compile every source by itself, with no header but its own: slower, and finds forgotten includes" OFF)
 
 function(qwsm_target_defaults target)
   target_compile_features(${target} PUBLIC cxx_std_20)
@@ -19,4 +25,30 @@ function(qwsm_target_defaults target)
     # Fused multiply-adds would make results depend on the machine: a replay has to be bit-exact.
     -ffp-contract=off
     $<$<BOOL:${QWSM_WARNINGS_AS_ERRORS}>:-Werror>)
+endfunction()
+
+function(qwsm_add_precompiled name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LIBS;HEADERS")
+  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp CONTENT "")
+  add_library(${name} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
+  qwsm_target_defaults(${name})
+  target_link_libraries(${name} PRIVATE ${arg_LIBS})
+  target_precompile_headers(${name} PRIVATE ${arg_HEADERS})
+endfunction()
+
+function(qwsm_take_precompiled target name)
+  if(NOT QWSM_SEPARATE_SOURCES)
+    target_precompile_headers(${target} REUSE_FROM ${name})
+  endif()
+endfunction()
+
+function(qwsm_build_together target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "AT_MOST" "EXCEPT")
+  if(NOT arg_AT_MOST)
+    set(arg_AT_MOST 0)  # All.
+  endif()
+  if(NOT QWSM_SEPARATE_SOURCES)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${arg_AT_MOST})
+    set_source_files_properties(${arg_EXCEPT} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endif()
 endfunction()

@@ -11,6 +11,10 @@
 
 namespace qwsm::apps {
 
+CLI::App* AddParser(CLI::App& program, const std::string& name, const std::string& help) {
+  return program.add_subcommand(name, help);
+}
+
 void AddConfiguration(CLI::App& parser, config::OptionSources& sources) {
   const auto take_file = [&sources](const std::string& file) { sources.file = file; };
   parser

@@ -42,6 +42,10 @@ struct Verbosity {
   bool json = false;
 };
 
+/// Adds a command to a program or to a group of commands. Creating parsers in one source only
+/// spares the others much of CLI11.
+CLI::App* AddParser(CLI::App& program, const std::string& name, const std::string& help);
+
 /// Adds --config and --set.
 void AddConfiguration(CLI::App& parser, config::OptionSources& sources);
 

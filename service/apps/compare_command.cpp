@@ -16,7 +16,7 @@ namespace qwsm::apps {
 namespace {
 
 /// The first one is compared with each of the others.
-constexpr std::array kMatchers = {MatcherKind::kQWsm, MatcherKind::kWsm, MatcherKind::kIcp};
+constexpr std::array kComparedMatchers = {MatcherKind::kQWsm, MatcherKind::kWsm, MatcherKind::kIcp};
 
 ExitCode RunCompare(const RunArguments& arguments) {
   StartMessages(arguments.verbosity);
@@ -25,7 +25,7 @@ ExitCode RunCompare(const RunArguments& arguments) {
   if (arguments.dry_run) return TellPlan("compare matchers on", arguments);
 
   const RunSession session(arguments, options);
-  pipeline::MatcherContest contest(options.mapper, kMatchers, session.folder());
+  pipeline::MatcherContest contest(options.mapper, kComparedMatchers, session.folder());
   const pipeline::ReplayResult end = session.Run("compare", *source, contest.runs());
   contest.Finish(options.rendering, source->truth());
   if (arguments.verbosity.json) {
@@ -41,7 +41,7 @@ ExitCode RunCompare(const RunArguments& arguments) {
 }  // namespace
 
 Command AddCompareCommand(CLI::App& program) {
-  CLI::App* parser = program.add_subcommand("compare", "q-wsm beside wsm and icp on the same logs");
+  CLI::App* parser = AddParser(program, "compare", "q-wsm beside wsm and icp on the same logs");
   auto arguments = std::make_shared<RunArguments>();
   parser->footer(
       "  qwsm compare intel.log.gz                        tables, and results in results/latest\n"

@@ -47,8 +47,7 @@ ExitCode Describe() {
 }  // namespace
 
 std::vector<Command> AddConfigCommands(CLI::App& program) {
-  CLI::App* group =
-      program.add_subcommand("config", "what can be configured, and whether files do");
+  CLI::App* group = AddParser(program, "config", "what can be configured, and whether files do");
   group->footer(
       "  qwsm config describe                       all options, their units and bounds\n"
       "  qwsm config dump > robot.yaml              a file to start from\n"
@@ -56,11 +55,11 @@ std::vector<Command> AddConfigCommands(CLI::App& program) {
   group->require_subcommand(1);
   auto arguments = std::make_shared<ConfigArguments>();
 
-  CLI::App* check = group->add_subcommand("check", "whether files can be used");
+  CLI::App* check = AddParser(*group, "check", "whether files can be used");
   check->add_option("FILE", arguments->files, "options in YAML")->required()->type_name("");
-  CLI::App* dump = group->add_subcommand("dump", "all options with their values, as YAML");
+  CLI::App* dump = AddParser(*group, "dump", "all options with their values, as YAML");
   AddConfiguration(*dump, arguments->sources);
-  CLI::App* describe = group->add_subcommand("describe", "all options as a table");
+  CLI::App* describe = AddParser(*group, "describe", "all options as a table");
   return {{.parser = check, .run = [arguments] { return Check(*arguments); }},
           {.parser = dump, .run = [arguments] { return Dump(*arguments); }},
           {.parser = describe, .run = Describe}};

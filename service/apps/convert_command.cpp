@@ -91,7 +91,7 @@ ExitCode RunConvert(const ConvertArguments& arguments) {
 }  // namespace
 
 Command AddConvertCommand(CLI::App& program) {
-  CLI::App* parser = program.add_subcommand("convert", "logs into other forms");
+  CLI::App* parser = AddParser(program, "convert", "logs into other forms");
   auto arguments = std::make_shared<ConvertArguments>();
   parser->footer(
       "  qwsm convert player.log.gz -o carmen.log           any log as CARMEN\n"

@@ -111,7 +111,7 @@ ExitCode RunEcho(const EchoArguments& arguments) {
 }  // namespace
 
 Command AddEchoCommand(CLI::App& program) {
-  CLI::App* parser = program.add_subcommand("echo", "poses as the service finds them");
+  CLI::App* parser = AddParser(program, "echo", "poses as the service finds them");
   auto arguments = std::make_shared<EchoArguments>();
   parser->footer(
       "  qwsm echo                             of all robots, until Ctrl-C\n"

@@ -121,7 +121,7 @@ void AddBounds(CLI::App& parser, Bounds& bounds) {
 }  // namespace
 
 Command AddEvalCommand(CLI::App& program) {
-  CLI::App* parser = program.add_subcommand("eval", "how good trajectories are");
+  CLI::App* parser = AddParser(program, "eval", "how good trajectories are");
   auto arguments = std::make_shared<EvalArguments>();
   parser->footer(
       "  qwsm eval results/latest --relations intel.relations --log intel.log.gz\n"

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 using namespace pipeline;
 
 /// The last one is the paper's baseline.
-constexpr std::array kMatchers = {MatcherKind::kQWsm, MatcherKind::kWsm};
+constexpr std::array kExperimentMatchers = {MatcherKind::kQWsm, MatcherKind::kWsm};
 
 struct ExperimentArguments {
   RunArguments run;
@@ -62,7 +62,7 @@ Experiment RunSeeds(const ExperimentArguments& arguments,
     const ResultsFolder folder(session.folder() / fmt::format("seed-{}", scenario.seed), false);
     io::WriteTextFile(folder / "scenario.yaml", ScenarioText(scenario));
     SimulatorSource source(scenario, 0);
-    MatcherContest contest(options.mapper, kMatchers, folder);
+    MatcherContest contest(options.mapper, kExperimentMatchers, folder);
     const std::string task = fmt::format("seed {} of {}", i + 1, arguments.seeds);
     experiment.end = session.Run(task, source, contest.runs()).end;
     contest.Finish(options.rendering, source.truth());
@@ -101,8 +101,8 @@ ExitCode RunExperiment(ExperimentArguments arguments) {
 }  // namespace
 
 Command AddExperimentCommand(CLI::App& program) {
-  CLI::App* parser = program.add_subcommand(
-      "experiment", "the paper's experiment: q-wsm beside wsm on simulated drives");
+  CLI::App* parser = AddParser(
+      program, "experiment", "the paper's experiment: q-wsm beside wsm on simulated drives");
   auto arguments = std::make_shared<ExperimentArguments>();
   parser->footer(
       "  qwsm experiment park                             ten seeds, results in results/latest\n"

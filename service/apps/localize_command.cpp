@@ -29,7 +29,7 @@ struct LocalizeArguments {
 };
 
 /// The options of the run; of the map, those it was made with.
-options::ProgramOptions LoadOptions(const LocalizeArguments& arguments, const ScanMap& map) {
+options::ProgramOptions LoadOptionsFor(const LocalizeArguments& arguments, const ScanMap& map) {
   auto options = config::LoadOptions<options::ProgramOptions>(arguments.run.sources);
   if (options.mapper.matcher != MatcherKind::kQWsm) {
     throw UsageError("localize needs the matcher q-wsm: the others forget the map");
@@ -75,7 +75,7 @@ ExitCode RunLocalize(LocalizeArguments arguments) {
   arguments.run.other_inputs = {arguments.map};
   ScanMap map = io::LoadMap(arguments.map);
   if (map.empty()) throw UsageError(arguments.map.string() + ": is a map without scans");
-  const options::ProgramOptions options = LoadOptions(arguments, map);
+  const options::ProgramOptions options = LoadOptionsFor(arguments, map);
   const auto source = OpenLogs(arguments.run, options.log);
   const UncertainPose2 start = FindStart(arguments, map, source->Peek()->scan);
   if (arguments.run.dry_run) return TellPlan("localize", arguments.run);
@@ -92,7 +92,7 @@ ExitCode RunLocalize(LocalizeArguments arguments) {
 }  // namespace
 
 Command AddLocalizeCommand(CLI::App& program) {
-  CLI::App* parser = program.add_subcommand("localize", "the robot's path in a map that was saved");
+  CLI::App* parser = AddParser(program, "localize", "the robot's path in a map that was saved");
   auto arguments = std::make_shared<LocalizeArguments>();
   parser->footer(
       "  qwsm map monday.log --save-map site.qwsm\n"

@@ -110,7 +110,7 @@ ExitCode RunMap(MapArguments arguments) {
 }  // namespace
 
 Command AddMapCommand(CLI::App& program) {
-  CLI::App* parser = program.add_subcommand("map", "the robot's path and a map from recorded logs");
+  CLI::App* parser = AddParser(program, "map", "the robot's path and a map from recorded logs");
   auto arguments = std::make_shared<MapArguments>();
   parser->footer(
       "  qwsm map intel.log.gz                            results in results/latest\n"

@@ -100,12 +100,13 @@ ExitCode TellOfItself(const CLI::App& program, const CLI::Success& asked) {
 
 }  // namespace
 
-void PrepareProgram(CLI::App& program) {
-  program.formatter(std::make_shared<HelpFormatter>());
-  program.set_version_flag(
-      "--version", program.get_name() + " " + std::string(Version()), "print the version");
-  program.require_subcommand(1);
-  program.get_formatter()->label("SUBCOMMAND", "COMMAND");
+std::unique_ptr<CLI::App> MakeProgram(const std::string& help, const std::string& name) {
+  auto program = std::make_unique<CLI::App>(help, name);
+  program->formatter(std::make_shared<HelpFormatter>());
+  program->set_version_flag("--version", name + " " + std::string(Version()), "print the version");
+  program->require_subcommand(1);
+  program->get_formatter()->label("SUBCOMMAND", "COMMAND");
+  return program;
 }
 
 ExitCode RunProgram(CLI::App& program,

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "service/apps/command.hpp"
@@ -14,8 +16,8 @@ struct Arguments {
   const char* const* values;
 };
 
-/// Gives a program the help, version and errors that all of ours have.
-void PrepareProgram(CLI::App& program);
+/// A program without commands yet, with the help, version and errors that all of ours have.
+std::unique_ptr<CLI::App> MakeProgram(const std::string& help, const std::string& name);
 
 /// Parses the arguments and runs the command they name. Whatever goes wrong becomes a message on
 /// stderr and an exit code.

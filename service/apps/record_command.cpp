@@ -54,7 +54,7 @@ ExitCode RunRecord(const RecordArguments& arguments) {
 }  // namespace
 
 Command AddRecordCommand(CLI::App& program) {
-  CLI::App* parser = program.add_subcommand("record", "what a robot on the network says, as a log");
+  CLI::App* parser = AddParser(program, "record", "what a robot on the network says, as a log");
   auto arguments = std::make_shared<RecordArguments>();
   parser->footer(
       "  qwsm record drive.log                     /scan and /odom, until Ctrl-C\n"

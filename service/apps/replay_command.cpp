@@ -33,7 +33,7 @@ ExitCode RunReplay(const LogReplayArguments& arguments) {
 }  // namespace
 
 Command AddReplayCommand(CLI::App& program) {
-  CLI::App* parser = program.add_subcommand("replay", "a recorded log as a robot on the network");
+  CLI::App* parser = AddParser(program, "replay", "a recorded log as a robot on the network");
   auto arguments = std::make_shared<LogReplayArguments>();
   parser->footer(
       "  qwsm replay intel.log.gz                   as /scan and /odom, at its own pace\n"

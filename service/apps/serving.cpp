@@ -12,7 +12,7 @@
 namespace qwsm::apps {
 
 Command AddServeCommand(CLI::App& program, const ServeCommand& serve) {
-  CLI::App* parser = program.add_subcommand("serve", serve.help);
+  CLI::App* parser = AddParser(program, "serve", serve.help);
   auto arguments = std::make_shared<ServeArguments>();
   parser->footer(serve.examples);
   parser->add_option("ROBOT", arguments->robots, "namespaces of robots; else all that appear")

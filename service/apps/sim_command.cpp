@@ -148,7 +148,7 @@ void AddNetworkSettings(CLI::App& parser, SimArguments& arguments) {
 }  // namespace
 
 Command AddSimCommand(CLI::App& program) {
-  CLI::App* parser = program.add_subcommand("sim", "logs of simulated robots, with the truth");
+  CLI::App* parser = AddParser(program, "sim", "logs of simulated robots, with the truth");
   auto arguments = std::make_shared<SimArguments>();
   parser->footer(
       "  qwsm sim park                                a shipped scenario, into results/latest\n"

@@ -80,7 +80,7 @@ ExitCode RunWatch(const WatchArguments& arguments) {
 }  // namespace
 
 Command AddWatchCommand(CLI::App& program) {
-  CLI::App* parser = program.add_subcommand("watch", "the team's robots at a glance, live");
+  CLI::App* parser = AddParser(program, "watch", "the team's robots at a glance, live");
   auto arguments = std::make_shared<WatchArguments>();
   parser->footer(
       "  qwsm watch                          all robots, until Ctrl-C\n"

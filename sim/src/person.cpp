@@ -17,7 +17,7 @@ constexpr double kResponse_s = 0.3;     // Time in which a walker takes up speed
 constexpr double kStrongest_n = 120.0;  // Not enough to shove a robot along.
 constexpr double kLookAhead_m = 0.9;
 constexpr auto kBetweenDecisions = 100ms;
-constexpr double kProgress_m = 0.1;
+constexpr double kNearer_m = 0.1;
 constexpr auto kPatience = 4s;   // Without coming nearer for so long, somebody is lost
 constexpr auto kStrayTime = 2s;  // and tries any direction.
 
@@ -65,7 +65,7 @@ Eigen::Vector2d Person::Decide(const PhysicsWorld& world, qwsm::Timestamp now) {
   }
   // Somebody with one way point stands still there.
   if (way_m().norm() < kArrival_m) return Eigen::Vector2d::Zero();
-  if (way_m().norm() < nearest_m_ - kProgress_m) {
+  if (way_m().norm() < nearest_m_ - kNearer_m) {
     nearest_m_ = way_m().norm();
     lost_from_ = now + kPatience;
   }

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
+#include "gravity.hpp"
+
 namespace sim {
 namespace {
-
-constexpr double kGravity_mps2 = 9.81;
 
 template <class Thing>
 void Append(std::vector<Thing>& to, const std::vector<Thing>& from) {

@@ -8,10 +8,11 @@
 #include <cassert>
 #include <cmath>
 
+#include "gravity.hpp"
+
 namespace sim {
 namespace {
 
-constexpr double kGravity_mps2 = 9.81;
 constexpr double kShareOnDrivenWheels = 0.8;    // Of a differential drive; the caster has the rest.
 constexpr double kCrawl_mps = 0.05;             // Slip ratios are over at least this rim speed.
 constexpr double kRollingFriction_mps = 0.005;  // Rolling resistance is full from this speed on.

@@ -18,6 +18,7 @@ CHECKS = {
     "notices": sources.check_notices,
     "headers": sources.check_headers,
     "lengths": sources.check_lengths,
+    "unnamed_namespaces": sources.check_unnamed_namespaces,
     "paths": sources.check_paths,
     "scripts": sources.check_scripts,
     "build": sources.check_build,

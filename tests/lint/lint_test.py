@@ -88,6 +88,12 @@ class Files(unittest.TestCase):
     def test_a_header_without_guard_is_found(self):
         self.assertEqual(len(findings(sources.check_headers, {"a.hpp": "int a;\n"})), 1)
 
+    def test_a_name_that_two_sources_have_for_themselves_is_found(self):
+        own = "namespace a {\nnamespace {\n\nvoid Append(int value) {\n}\n\n}  // namespace\n}\n"
+        template = own.replace("void", "template <class T>\nvoid").replace("int", "T")
+        files = {"service/io/a.cpp": own, "service/io/b.cpp": template, "service/dds/b.cpp": own}
+        self.assertEqual(len(findings(sources.check_unnamed_namespaces, files)), 1)
+
     def test_a_private_path_is_found(self):
         self.assertEqual(len(findings(sources.check_paths, {"a.md": "see /" + "home/me/b\n"})), 1)
         self.assertEqual(findings(sources.check_paths, {"a.md": "see docs/home/b\n"}), [])

@@ -77,6 +77,29 @@ def functions(source):
         head = "" if character in "{};" else head + character
 
 
+COMPILED_TOGETHER = re.compile(r"qwsm/src/|slam6d/src/|sim/src/|service/(?:.*/)?")
+NAMESPACE = re.compile(r"^namespace ([\w:]+) \{$", re.MULTILINE)
+UNNAMED = re.compile(r"^namespace \{$(.*?)^\}  // namespace$", re.MULTILINE | re.DOTALL)
+DEFINES = re.compile(r"^(?!using |namespace )\w[\w:<>,&* .]*[ *&](\w+) ?(?:\(|=|\{|;|\[)", re.MULTILINE)
+
+
+def check_unnamed_namespaces(tree):
+    """Sources that are compiled together have no function or constant of the same name for themselves.
+
+    Where their types differ no compiler complains, and one calls what is the other's.
+    """
+    seen = {}
+    for path in tree.with_suffix(".cpp"):
+        together = COMPILED_TOGETHER.match(path)
+        source = (tree.root / path).read_text(encoding="utf-8") if together else ""
+        around = NAMESPACE.search(source)
+        names = {name[1] for part in UNNAMED.finditer(source) for name in DEFINES.finditer(part[1])}
+        for name in sorted(names):
+            other = seen.setdefault((together[0], around and around[1], name), path)
+            if other != path:
+                yield Finding(path, 1, f"{name} is a name of {other}, too: give one a better name")
+
+
 def check_paths(tree):
     """No tracked file names a home folder or the place of this checkout."""
     here = re.escape(f"{tree.root}/")

@@ -13,7 +13,7 @@ namespace {
 using Sparse = NormalMatrix::Sparse;
 
 // An entry of a symmetric matrix that is kept as a lower triangle. @pre it is in the pattern
-double EntryOf(const Sparse& lower, Eigen::Index row, Eigen::Index column) {
+double StoredEntry(const Sparse& lower, Eigen::Index row, Eigen::Index column) {
   if (row < column) std::swap(row, column);
   const auto* const begin = lower.innerIndexPtr();
   const auto* const entry = std::lower_bound(
@@ -36,7 +36,7 @@ Sparse InverseOnPattern(const Sparse& L, const Eigen::VectorXd& D) {
       const Eigen::Index i = Z.innerIndexPtr()[entry];
       double sum = i == j ? 1.0 / D(j) : 0.0;
       for (Eigen::Index k = first + 1; k < end; ++k) {
-        sum -= factor.valuePtr()[k] * EntryOf(Z, i, Z.innerIndexPtr()[k]);
+        sum -= factor.valuePtr()[k] * StoredEntry(Z, i, Z.innerIndexPtr()[k]);
       }
       Z.valuePtr()[entry] = sum;
     }
@@ -79,7 +79,7 @@ std::vector<Eigen::Matrix3d> GraphCovariance::Marginals() const {
     const Eigen::Index row = NormalMatrix::RowOf(node);
     for (Eigen::Index r = 0; r < 3; ++r) {
       for (Eigen::Index c = 0; c < 3; ++c) {
-        marginals[node](r, c) = EntryOf(Z, order(row + r), order(row + c));
+        marginals[node](r, c) = StoredEntry(Z, order(row + r), order(row + c));
       }
     }
   }

@@ -23,7 +23,7 @@ void Move(const Eigen::VectorXd& step, std::vector<Pose2>& T_map_node) {
   }
 }
 
-bool IsSmall(const Eigen::VectorXd& step, const SparseGraphSolverOptions& options) {
+bool IsWithinTolerance(const Eigen::VectorXd& step, const SparseGraphSolverOptions& options) {
   const auto of_nodes = step.reshaped(3, step.size() / 3);
   return of_nodes.topRows<2>().lpNorm<Eigen::Infinity>() < options.translation_tolerance_m &&
          of_nodes.bottomRows<1>().lpNorm<Eigen::Infinity>() < options.rotation_tolerance_rad;
@@ -65,7 +65,7 @@ GraphSolution SparseGraphSolver::Solve(const PoseGraph& graph) const {
     if (!equations.Factorize()) return solution;
     const Eigen::VectorXd step = equations.Step();
     Move(step, solution.T_map_node);
-    solution.is_converged = convexity == 1.0 && IsSmall(step, options_);
+    solution.is_converged = convexity == 1.0 && IsWithinTolerance(step, options_);
     convexity = std::max(1.0, convexity / kLessConvex);
   }
   return solution;

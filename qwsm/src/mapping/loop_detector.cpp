@@ -16,7 +16,7 @@ constexpr double kSamePose_m = 0.1;     // Matches that end this near to each ot
 constexpr double kRivalOverlap = 0.8;   // A rival with less than this share of the overlap is none.
 // Ratio of the least to the most information about the position, below which a submap does not tell
 // it. Along walls alone it is a hundredth.
-constexpr double kMinInformationRatio = 0.1;
+constexpr double kMinSubmapRatio = 0.1;
 // A match must leave at most this share of the estimate's sigma: else it says too little.
 constexpr double kMaxSigmaShare = 0.5;
 
@@ -172,7 +172,7 @@ struct Attempt {
     const MatchResult best = MatchSubmap(candidates.front());
     UncertainPose2 agreed{.T_a_b = best.T_ref_cur, .covariance = best.covariance};
     if (best.status != MatchStatus::kConverged ||
-        InformationRatioWithHeadingGiven(best.pair_information) < kMinInformationRatio ||
+        InformationRatioWithHeadingGiven(best.pair_information) < kMinSubmapRatio ||
         agreed.SigmaXY_m() > kMaxSigmaShare * estimated.SigmaXY_m() ||
         Distance_m(agreed.T_a_b, estimated.T_a_b) < kSamePose_m) {
       return std::nullopt;

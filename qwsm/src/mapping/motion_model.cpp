@@ -9,7 +9,7 @@ namespace qwsm {
 namespace {
 
 // A direction counts if the pairs tell at least this share of what they tell of the strongest one.
-constexpr double kMinInformationRatio = 0.25;
+constexpr double kMinLearnedRatio = 0.25;
 // Share of the newest innovation in a scale: it forgets with a time constant of twenty scans.
 constexpr double kForgettingFactor = 0.05;
 // The model counts as so many innovations: the first ones do not replace it.
@@ -75,7 +75,7 @@ void MotionModel::Adapt(const UncertainPose2& predicted,
   const Eigen::Vector2d& weakest = degeneracy.weakest_direction;
   const Eigen::Vector2d strongest(-weakest.y(), weakest.x());
   for (const Eigen::Vector2d& direction : {strongest, weakest}) {
-    if (direction == weakest && degeneracy.ratio() < kMinInformationRatio) continue;
+    if (direction == weakest && degeneracy.ratio() < kMinLearnedRatio) continue;
     const Eigen::Vector2d in_last = R_last_ref * direction;
     const double expected_m2 = direction.dot(expected.topLeftCorner<2, 2>() * direction);
     const double noise_m2 = in_last.dot(noise.topLeftCorner<2, 2>() * in_last);

@@ -62,7 +62,7 @@ ExitCode RunBench(const BenchArguments& arguments) {
 
 Command AddBenchSearchCommand(CLI::App& program) {
   CLI::App* parser =
-      program.add_subcommand("bench-search", "cached search against search from the root");
+      AddParser(program, "bench-search", "cached search against search from the root");
   auto arguments = std::make_shared<BenchArguments>();
   parser->footer(
       "  slam6d bench-search dat/                   a table for the first two scans\n"

@@ -6,6 +6,7 @@
 
 namespace slam6d::apps {
 
+using qwsm::apps::AddParser;
 using qwsm::apps::Command;
 using qwsm::apps::ExitCode;
 

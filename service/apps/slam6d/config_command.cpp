@@ -11,7 +11,7 @@
 namespace slam6d::apps {
 
 Command AddConfigCommand(CLI::App& program) {
-  CLI::App* parser = program.add_subcommand("config", "all options, as YAML or table");
+  CLI::App* parser = AddParser(program, "config", "all options, as YAML or table");
   struct Settings {
     qwsm::config::OptionSources sources;
     bool describe = false;

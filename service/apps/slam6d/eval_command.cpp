@@ -60,7 +60,7 @@ ExitCode RunEval(const EvalArguments& arguments) {
 }  // namespace
 
 Command AddEvalCommand(CLI::App& program) {
-  CLI::App* parser = program.add_subcommand("eval", "how good registered poses are");
+  CLI::App* parser = AddParser(program, "eval", "how good registered poses are");
   auto arguments = std::make_shared<EvalArguments>();
   parser->footer(
       "  slam6d eval results/latest --truth dat/gt\n"

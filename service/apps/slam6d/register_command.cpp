@@ -142,7 +142,7 @@ ExitCode RunRegister(const RegisterArguments& arguments) {
 }  // namespace
 
 Command AddRegisterCommand(CLI::App& program) {
-  CLI::App* parser = program.add_subcommand("register", "one consistent model from 3D scans");
+  CLI::App* parser = AddParser(program, "register", "one consistent model from 3D scans");
   auto arguments = std::make_shared<RegisterArguments>();
   parser->footer(
       "  slam6d register dat/                              scans and poses of 3DTK\n"

@@ -44,8 +44,7 @@ ExitCode RunReplay(const SeriesReplayArguments& arguments) {
 }  // namespace
 
 Command AddReplayCommand(CLI::App& program) {
-  CLI::App* parser =
-      program.add_subcommand("replay", "a folder of 3D scans as a robot on the network");
+  CLI::App* parser = AddParser(program, "replay", "a folder of 3D scans as a robot on the network");
   auto arguments = std::make_shared<SeriesReplayArguments>();
   parser->footer(
       "  slam6d replay dat/                     as /points and /odom, a scan a second\n"

@@ -79,7 +79,7 @@ ExitCode RunSim(SimArguments arguments) {
 
 Command AddSimCommand(CLI::App& program) {
   CLI::App* parser =
-      program.add_subcommand("sim", "3D scans of a simulated drive, with odometry and truth");
+      AddParser(program, "sim", "3D scans of a simulated drive, with odometry and truth");
   auto arguments = std::make_shared<SimArguments>();
   parser->footer(
       "  slam6d sim park --output park3d              scans as 3DTK has them, the truth in gt/\n"

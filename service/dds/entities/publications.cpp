@@ -11,7 +11,7 @@
 namespace qwsm::dds {
 namespace {
 
-constexpr std::size_t kBatch = 32;
+constexpr std::size_t kPublicationBatch = 32;
 
 Guid ToGuid(const dds_guid_t& raw) {
   Guid guid{};
@@ -53,10 +53,11 @@ Publications::Publications(const Participant& participant)
 }
 
 void Publications::TakeAll(const std::function<void(const Publication&)>& take) const {
-  std::array<void*, kBatch> samples{};
-  std::array<dds_sample_info_t, kBatch> infos{};
+  std::array<void*, kPublicationBatch> samples{};
+  std::array<dds_sample_info_t, kPublicationBatch> infos{};
   while (true) {
-    const dds_return_t count = dds_take(handle(), samples.data(), infos.data(), kBatch, kBatch);
+    const dds_return_t count =
+        dds_take(handle(), samples.data(), infos.data(), kPublicationBatch, kPublicationBatch);
     if (count <= 0) return;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       Tell(*static_cast<const dds_builtintopic_endpoint_t*>(samples[i]),

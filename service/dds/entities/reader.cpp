@@ -11,13 +11,14 @@
 namespace qwsm::dds {
 namespace {
 
-constexpr std::size_t kBatch = 64;
+constexpr std::size_t kSampleBatch = 64;
 
 /// Samples on loan from the middleware.
 class Loan {
  public:
   explicit Loan(dds_entity_t reader)
-      : reader_(reader), count_(dds_take(reader, samples_.data(), infos_.data(), kBatch, kBatch)) {}
+      : reader_(reader),
+        count_(dds_take(reader, samples_.data(), infos_.data(), kSampleBatch, kSampleBatch)) {}
   Loan(const Loan&) = delete;
   Loan& operator=(const Loan&) = delete;
   ~Loan() {
@@ -32,8 +33,8 @@ class Loan {
 
  private:
   dds_entity_t reader_;
-  std::array<void*, kBatch> samples_{};
-  std::array<dds_sample_info_t, kBatch> infos_{};
+  std::array<void*, kSampleBatch> samples_{};
+  std::array<dds_sample_info_t, kSampleBatch> infos_{};
   dds_return_t count_;
 };
 

@@ -12,14 +12,10 @@
 namespace slam6d::io {
 namespace {
 
-[[noreturn]] void Fail(const RecordFile& file, const std::string& what) {
-  throw std::runtime_error(file.Problem(what));
-}
-
 /// The words behind each keyword, up to and with DATA.
 using PcdHeader = std::map<std::string, std::vector<std::string>, std::less<>>;
 
-PcdHeader ReadHeader(RecordFile& file) {
+PcdHeader ReadPcdHeader(RecordFile& file) {
   PcdHeader header;
   while (const std::optional<std::string_view> line = file.NextLine()) {
     std::istringstream words{std::string(*line)};
@@ -29,13 +25,13 @@ PcdHeader ReadHeader(RecordFile& file) {
     for (std::string word; words >> word;) values.push_back(word);
     if (keyword == "DATA") return header;
   }
-  Fail(file, "no line 'DATA ascii' or 'DATA binary': this is no PCD file");
+  file.Fail("no line 'DATA ascii' or 'DATA binary': this is no PCD file");
 }
 
 std::size_t NumberOf(const RecordFile& file, const std::string& word) {
   std::size_t number = 0;
   std::istringstream stream(word);
-  if (!(stream >> number)) Fail(file, "'" + word + "' in the header is no count");
+  if (!(stream >> number)) file.Fail("'" + word + "' in the header is no count");
   return number;
 }
 
@@ -48,7 +44,7 @@ NumberType TypeOf(const RecordFile& file, const std::string& type, std::size_t s
   if (type == "U" && size == 1) return NumberType::kUint8;
   if (type == "U" && size == 2) return NumberType::kUint16;
   if (type == "U" && size == 4) return NumberType::kUint32;
-  Fail(file, "a field of TYPE " + type + " and SIZE " + std::to_string(size) + " is not read");
+  file.Fail("a field of TYPE " + type + " and SIZE " + std::to_string(size) + " is not read");
 }
 
 RecordLayout LayoutOf(const RecordFile& file, const PcdHeader& header) {
@@ -61,7 +57,7 @@ RecordLayout LayoutOf(const RecordFile& file, const PcdHeader& header) {
   const std::vector<std::string> types = values("TYPE");
   const std::vector<std::string> counts = values("COUNT");
   if (sizes.size() != names.size() || types.size() != names.size()) {
-    Fail(file, "FIELDS, SIZE and TYPE must have as many entries each");
+    file.Fail("FIELDS, SIZE and TYPE must have as many entries each");
   }
   RecordLayout layout;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -81,7 +77,7 @@ std::size_t CountOf(const RecordFile& file, const PcdHeader& header) {
   const std::optional<std::size_t> points = number("POINTS");
   const std::optional<std::size_t> width = number("WIDTH");
   if (points) return *points;
-  if (!width) Fail(file, "neither POINTS nor WIDTH in the header");
+  if (!width) file.Fail("neither POINTS nor WIDTH in the header");
   return *width * number("HEIGHT").value_or(1);
 }
 
@@ -89,7 +85,7 @@ std::size_t CountOf(const RecordFile& file, const PcdHeader& header) {
 
 ScanPoints ReadPcd(const std::filesystem::path& path) {
   RecordFile file(path);
-  const PcdHeader header = ReadHeader(file);
+  const PcdHeader header = ReadPcdHeader(file);
   const std::vector<std::string>& data = header.at("DATA");
   const std::string encoding = data.empty() ? "" : data.front();
   const RecordLayout layout = LayoutOf(file, header);
@@ -99,7 +95,7 @@ ScanPoints ReadPcd(const std::filesystem::path& path) {
   } else if (encoding == "binary") {
     TakeBinary(file, layout, CountOf(file, header), points);
   } else {
-    Fail(file, "DATA " + encoding + " is not read; convert it with pcl_convert_pcd_ascii_binary");
+    file.Fail("DATA " + encoding + " is not read; convert it with pcl_convert_pcd_ascii_binary");
   }
   return points;
 }

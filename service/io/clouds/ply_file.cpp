@@ -48,13 +48,9 @@ std::optional<NumberType> TypeNamed(std::string_view name) {
   return found->second;
 }
 
-[[noreturn]] void Fail(const RecordFile& file, const std::string& what) {
-  throw std::runtime_error(file.Problem(what));
-}
-
 void ReadFormat(const RecordFile& file, const std::string& format, PlyHeader& header) {
   if (format != "ascii" && format != "binary_little_endian") {
-    Fail(file, "the format '" + format + "' is not read; ascii and binary_little_endian are");
+    file.Fail("the format '" + format + "' is not read; ascii and binary_little_endian are");
   }
   header.binary = format != "ascii";
 }
@@ -64,12 +60,12 @@ void ReadProperty(const RecordFile& file, std::istringstream& words, PlyHeader& 
   std::string name;
   words >> type >> name;
   const std::optional<NumberType> number = TypeNamed(type);
-  if (!number) Fail(file, "a vertex may not have a property of type '" + type + "'");
+  if (!number) file.Fail("a vertex may not have a property of type '" + type + "'");
   header.layout.Add(name, *number);
 }
 
-PlyHeader ReadHeader(RecordFile& file) {
-  if (file.NextLine() != "ply") Fail(file, "a PLY file begins with the line 'ply'");
+PlyHeader ReadPlyHeader(RecordFile& file) {
+  if (file.NextLine() != "ply") file.Fail("a PLY file begins with the line 'ply'");
   PlyHeader header;
   std::string element;
   while (const std::optional<std::string_view> line = file.NextLine()) {
@@ -83,24 +79,24 @@ PlyHeader ReadHeader(RecordFile& file) {
       ReadFormat(file, format, header);
     } else if (keyword == "element") {
       if (element.empty() && words >> element && element != "vertex") {
-        Fail(file, "the first element must be 'vertex', not '" + element + "'");
+        file.Fail("the first element must be 'vertex', not '" + element + "'");
       }
       if (header.layout.columns == 0 && !(words >> header.vertices)) {
-        Fail(file, "expected a number of vertices");
+        file.Fail("expected a number of vertices");
       }
       if (header.layout.columns > 0) element = "other";
     } else if (keyword == "property" && element == "vertex") {
       ReadProperty(file, words, header);
     }
   }
-  Fail(file, "the header has no end_header");
+  file.Fail("the header has no end_header");
 }
 
 }  // namespace
 
 ScanPoints ReadPly(const std::filesystem::path& path) {
   RecordFile file(path);
-  const PlyHeader header = ReadHeader(file);
+  const PlyHeader header = ReadPlyHeader(file);
   header.layout.Check(path);
   ScanPoints points;
   if (header.binary) {

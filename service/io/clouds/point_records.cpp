@@ -121,6 +121,8 @@ std::string RecordFile::Problem(const std::string& what) const {
   return path.string() + ":" + std::to_string(line) + ": " + what;
 }
 
+void RecordFile::Fail(const std::string& what) const { throw std::runtime_error(Problem(what)); }
+
 void TakeBinary(RecordFile& file,
                 const RecordLayout& layout,
                 std::size_t count,

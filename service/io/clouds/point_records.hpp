@@ -50,6 +50,8 @@ struct RecordFile {
   std::optional<std::string_view> NextLine();
   /// "file:line: what".
   std::string Problem(const std::string& what) const;
+  /// @throws std::runtime_error of the Problem().
+  [[noreturn]] void Fail(const std::string& what) const;
 };
 
 /// Takes `count` records; fewer in the file are a problem that is kept with what is there.

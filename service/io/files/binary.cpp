@@ -10,7 +10,7 @@ namespace qwsm::io {
 namespace {
 
 template <std::unsigned_integral Number>
-void Append(std::string& bytes, Number value) {
+void AppendBytes(std::string& bytes, Number value) {
   for (std::size_t i = 0; i < sizeof(Number); ++i) {
     bytes.push_back(static_cast<char>((value >> (8 * i)) & 0xFF));
   }
@@ -34,11 +34,13 @@ std::uint32_t Checksum(std::string_view bytes) {
   return crc.checksum();
 }
 
-void BinaryWriter::Add(std::uint32_t value) { Append(bytes_, value); }
-void BinaryWriter::Add(std::uint64_t value) { Append(bytes_, value); }
-void BinaryWriter::Add(std::int64_t value) { Append(bytes_, static_cast<std::uint64_t>(value)); }
-void BinaryWriter::Add(float value) { Append(bytes_, std::bit_cast<std::uint32_t>(value)); }
-void BinaryWriter::Add(double value) { Append(bytes_, std::bit_cast<std::uint64_t>(value)); }
+void BinaryWriter::Add(std::uint32_t value) { AppendBytes(bytes_, value); }
+void BinaryWriter::Add(std::uint64_t value) { AppendBytes(bytes_, value); }
+void BinaryWriter::Add(std::int64_t value) {
+  AppendBytes(bytes_, static_cast<std::uint64_t>(value));
+}
+void BinaryWriter::Add(float value) { AppendBytes(bytes_, std::bit_cast<std::uint32_t>(value)); }
+void BinaryWriter::Add(double value) { AppendBytes(bytes_, std::bit_cast<std::uint64_t>(value)); }
 void BinaryWriter::Add(std::string_view text) {
   Add(static_cast<std::uint32_t>(text.size()));
   bytes_ += text;

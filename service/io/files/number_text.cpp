@@ -10,7 +10,7 @@ namespace qwsm::io {
 namespace {
 
 template <class Value>
-void Append(std::string& text, Value value) {
+void AppendShortest(std::string& text, Value value) {
   std::array<char, 32> digits;  // NOLINT(cppcoreguidelines-pro-type-member-init): written next.
   const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value);
   text.append(digits.data(), result.ptr);
@@ -18,8 +18,8 @@ void Append(std::string& text, Value value) {
 
 }  // namespace
 
-void AppendNumber(std::string& text, double value) { Append(text, value); }
-void AppendNumber(std::string& text, float value) { Append(text, value); }
+void AppendNumber(std::string& text, double value) { AppendShortest(text, value); }
+void AppendNumber(std::string& text, float value) { AppendShortest(text, value); }
 
 void AppendStamp(std::string& text, Timestamp stamp) {
   constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
@@ -29,7 +29,7 @@ void AppendStamp(std::string& text, Timestamp stamp) {
                                   ? std::uint64_t{0} - static_cast<std::uint64_t>(stamp.count())
                                   : static_cast<std::uint64_t>(stamp.count());
   if (negative) text += '-';
-  Append(text, count / kNanosecondsPerSecond);
+  AppendShortest(text, count / kNanosecondsPerSecond);
   const std::string decimals = std::to_string(count % kNanosecondsPerSecond);
   text += '.';
   text.append(9 - decimals.size(), '0');

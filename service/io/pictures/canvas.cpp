@@ -26,7 +26,7 @@ struct DestroyContext {
 using Surface = std::unique_ptr<cairo_surface_t, DestroySurface>;
 using Context = std::unique_ptr<cairo_t, DestroyContext>;
 
-cairo_status_t WriteBytes(void* stream, const unsigned char* bytes, unsigned int count) {
+cairo_status_t WriteSvg(void* stream, const unsigned char* bytes, unsigned int count) {
   auto& out = *static_cast<std::ostream*>(stream);
   out.write(reinterpret_cast<const char*>(bytes), count);
   return out ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
@@ -196,7 +196,7 @@ void Canvas::Save(const std::filesystem::path& path) const {
   AtomicFile file(path);
   if (extension == ".svg") {
     const Surface svg(
-        cairo_svg_surface_create_for_stream(WriteBytes, &file.stream(), width_px_, height_px_));
+        cairo_svg_surface_create_for_stream(WriteSvg, &file.stream(), width_px_, height_px_));
     Replay(recording_->surface.get(), svg.get());
     cairo_surface_finish(svg.get());
     ThrowIfFailed(cairo_surface_status(svg.get()), path);

@@ -21,7 +21,7 @@ constexpr double kLeastExtent_m = 1.0;
 /// This share of the points at either end of an axis may lie outside.
 constexpr double kStrayShare = 0.002;
 
-constexpr Color kInk = FromBytes(0, 40, 120);
+constexpr Color kPointColor = FromBytes(0, 40, 120);
 constexpr Color kPath = FromBytes(220, 60, 20);
 constexpr Color kText = FromBytes(60, 60, 60);
 
@@ -85,7 +85,8 @@ qwsm::io::PixelImage Shade(const PointCloud& points, const Projection& projectio
   for (const std::uint32_t count : counts) {
     const double share = std::min(std::log1p(static_cast<double>(count)) / full, 1.0);
     const auto mix = [&](double ink) { return 1.0 + std::sqrt(share) * (ink - 1.0); };
-    image.pixels.push_back(qwsm::io::ToPixel({mix(kInk.red), mix(kInk.green), mix(kInk.blue)}));
+    image.pixels.push_back(
+        qwsm::io::ToPixel({mix(kPointColor.red), mix(kPointColor.green), mix(kPointColor.blue)}));
   }
   return image;
 }

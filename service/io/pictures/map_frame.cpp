@@ -16,7 +16,7 @@ namespace {
 constexpr int kMargin_px = 16;
 constexpr int kNarrowest_px = 640;  // So that a legend fits below a narrow map.
 constexpr Color kFrameColor = FromBytes(170, 176, 186);
-constexpr Color kInk = FromBytes(40, 46, 56);
+constexpr Color kScaleColor = FromBytes(40, 46, 56);
 
 int CanvasWidth(const MapView& view) {
   return std::max(view.width_px() + 2 * kMargin_px, kNarrowest_px);
@@ -32,7 +32,7 @@ LegendItem ScaleItem(double px_per_m) {
           .draw_sample = [length_px](Canvas& canvas, const Eigen::Vector2d& left_px) {
             const Eigen::Vector2d right_px = left_px + Eigen::Vector2d(length_px, 0.0);
             const Eigen::Vector2d up_px(0.0, -kHalfHeight_px);
-            const LineStyle style{.color = kInk, .width_px = 2.0};
+            const LineStyle style{.color = kScaleColor, .width_px = 2.0};
             canvas.StrokeLine(left_px, right_px, style);
             canvas.StrokeLine(left_px - up_px, left_px + up_px, style);
             canvas.StrokeLine(right_px - up_px, right_px + up_px, style);

@@ -16,7 +16,7 @@ namespace {
 constexpr Color kUnknownDark = FromBytes(226, 226, 227);
 constexpr Color kUnknownLight = FromBytes(237, 237, 238);
 constexpr Color kFree = FromBytes(255, 255, 255);
-constexpr Color kGridLine = FromBytes(226, 230, 236);
+constexpr Color kMeshLine = FromBytes(226, 230, 236);
 constexpr Color kWall = FromBytes(0, 40, 120);
 
 constexpr double kGridStep_px = 28.0;  // At least, between lines.
@@ -39,13 +39,13 @@ struct Span {
 
 // For every pixel of a side, the cells under it, of `count` there are.
 std::vector<Span> CellsUnder(int side_px, double px_per_cell, double offset_cells, int count) {
-  constexpr double kTolerance = 1e-6;
+  constexpr double kOfACell = 1e-6;
   std::vector<Span> cells;
   for (int px = 0; px < side_px; ++px) {
     const double first = px / px_per_cell + offset_cells;
     const double last = (px + 1) / px_per_cell + offset_cells;
-    cells.push_back({std::clamp(static_cast<int>(std::floor(first + kTolerance)), 0, count),
-                     std::clamp(static_cast<int>(std::ceil(last - kTolerance)), 0, count)});
+    cells.push_back({std::clamp(static_cast<int>(std::floor(first + kOfACell)), 0, count),
+                     std::clamp(static_cast<int>(std::ceil(last - kOfACell)), 0, count)});
   }
   return cells;
 }
@@ -85,7 +85,7 @@ std::vector<Place> PlacesOf(int side_px, double first_m, double m_per_px, double
 }
 
 constexpr std::uint32_t kWallPixel = ToPixel(kWall);
-constexpr std::array kFreePixels{ToPixel(kFree), ToPixel(kGridLine)};
+constexpr std::array kFreePixels{ToPixel(kFree), ToPixel(kMeshLine)};
 constexpr std::array kUnknownPixels{ToPixel(kUnknownDark), ToPixel(kUnknownLight)};
 
 std::uint32_t PixelOf(CellState state, const Place& column, const Place& row) {

@@ -42,7 +42,8 @@ std::string ProgressLine(const std::string& task,
   std::string total;
   if (has_share) {
     line += fmt::format("  {:2.0f} %", std::floor(*progress.share * 100.0));
-    total = "/" + WithThousands(static_cast<std::size_t>(std::llround(scans / *progress.share)));
+    const auto expected = static_cast<std::size_t>(std::llround(scans / *progress.share));
+    total = fmt::format("/{}", WithThousands(expected));
   }
   line += fmt::format("  {}{} scans", WithThousands(progress.scans), total);
   if (elapsed.count() > 0.0) line += fmt::format("  {:.0f} scan/s", scans / elapsed.count());

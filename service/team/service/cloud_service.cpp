@@ -15,7 +15,7 @@ slam6d::UncertainPose3 SpatialStart(const RobotStartOptions& robot) {
                     .translation_m = {robot.x_m, robot.y_m, 0.0}}};
 }
 
-io::JournalEntry ToJournal(const KeptCloud& kept, const std::string& service) {
+io::JournalEntry CloudEntry(const KeptCloud& kept, const std::string& service) {
   return {.service = service,
           .robot = kept.robot,
           .sequence = kept.sequence,
@@ -77,7 +77,7 @@ void CloudService::Restore(KeptCloud scan) {
 }
 
 void CloudService::Keep(const KeptCloud& scan) {
-  if (host_.journal()) host_.journal().Append(ToJournal(scan, identity()), {});
+  if (host_.journal()) host_.journal().Append(CloudEntry(scan, identity()), {});
 }
 
 MapStatus CloudService::StatusOfModels() const {

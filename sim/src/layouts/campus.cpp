@@ -5,7 +5,7 @@
 namespace sim {
 namespace {
 
-constexpr double kWaypointSpacing_m = 15.0;
+constexpr double kStreetWaypointSpacing_m = 15.0;
 constexpr double kLampRadius_m = 0.08;
 constexpr double kFromHouse_m = 1.2;  // Of trees and posts.
 
@@ -107,7 +107,7 @@ Place MakeCampus(const CampusOptions& options, RandomEngine& random) {
     }
   }
   AddOuterPosts(options, random, place.scenery);
-  place.routes = {Refined(way, kWaypointSpacing_m)};
+  place.routes = {Refined(way, kStreetWaypointSpacing_m)};
   return place;
 }
 

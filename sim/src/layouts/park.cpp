@@ -10,13 +10,13 @@
 namespace sim {
 namespace {
 
-constexpr double kWaypointSpacing_m = 8.0;
+constexpr double kPathWaypointSpacing_m = 8.0;
 constexpr double kNearestGroup_m = 4.0;  // From the way to the middle of a group of trees.
 constexpr double kFarthestGroup_m = 8.0;
 constexpr double kBetweenTrunks_m = 1.2;
 constexpr double kNearestTree_m = 6.0;  // A single tree is planted at least so far ahead.
 constexpr double kLonelyBefore = 0.7;   // Share of the lonely stretch that lies before the turn.
-constexpr int kAttempts = 300;
+constexpr int kPlantingAttempts = 300;
 constexpr int kLayouts = 20;  // Tried, of which the best is taken.
 constexpr int kSpare = 0;     // Trees a lonely place may have at the edge of its view.
 
@@ -88,7 +88,7 @@ class Planter {
 
   /// Plants single trees ahead until enough can be seen.
   void PlantInViewOf(const Outlook& outlook) {
-    for (int attempt = 0; attempt < kAttempts && !IsSatisfied(outlook); ++attempt) {
+    for (int attempt = 0; attempt < kPlantingAttempts && !IsSatisfied(outlook); ++attempt) {
       const double bearing_rad =
           Uniform(random_, -kSureView.half_angle_rad, kSureView.half_angle_rad);
       const double range_m = Uniform(random_, kNearestTree_m, kSureView.range_m);
@@ -124,7 +124,7 @@ class Planter {
 
   /// Plants so many trees within `radius_m` of the middle, or fewer where there is no more room.
   void PlantNear(const Eigen::Vector2d& middle_m, double radius_m, int trees) {
-    for (int attempt = 0; attempt < kAttempts && trees > 0; ++attempt) {
+    for (int attempt = 0; attempt < kPlantingAttempts && trees > 0; ++attempt) {
       const double direction_rad = Uniform(random_, 0.0, 2.0 * std::numbers::pi);
       const double distance_m = radius_m * std::sqrt(Uniform(random_, 0.0, 1.0));
       const Eigen::Vector2d way(std::cos(direction_rad), std::sin(direction_rad));
@@ -236,7 +236,7 @@ std::vector<Outlook> OutlooksAlong(const Route& route,
 
 Place MakePark(const ParkOptions& options, RandomEngine& random) {
   const Eigen::Vector2d sharp_turn_m(options.width_m - 8.0, options.height_m - 7.0);
-  const Route route = Refined(Loop(options, sharp_turn_m), kWaypointSpacing_m);
+  const Route route = Refined(Loop(options, sharp_turn_m), kPathWaypointSpacing_m);
   const std::vector<Outlook> outlooks = OutlooksAlong(route, options, sharp_turn_m);
   std::vector<RoundOptions> trees;
   std::ptrdiff_t most_satisfied = -1;

@@ -12,7 +12,7 @@ namespace {
 constexpr double kOuterWall_m = 0.2;
 constexpr double kFromWalls_m = 2.0;  // Of the way.
 constexpr int kWindings = 8;          // Way points round the hall.
-constexpr int kAttempts = 200;
+constexpr int kPlacingAttempts = 200;
 
 /// Round the hall, nearer to the middle at every second way point.
 Route WindingLoop(const RubbleOptions& options, RandomEngine& random) {
@@ -41,7 +41,7 @@ std::optional<Eigen::Vector2d> ClearPlace(const RubbleOptions& options,
                                           const Route& route,
                                           double radius_m,
                                           RandomEngine& random) {
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+  for (int attempt = 0; attempt < kPlacingAttempts; ++attempt) {
     const Eigen::Vector2d p_m = AnyPlace(options, radius_m, random);
     if (DistanceToRoute(p_m, route) > options.clearance_m + radius_m) return p_m;
   }

@@ -10,7 +10,7 @@
 namespace slam6d {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kBeyondAll_m = std::numeric_limits<double>::infinity();
 
 /// A leaf of several points tells how far the second nearest is; a leaf of one does not. The search
 /// then goes on to this multiple of the squared distance (kd_tree_bench: at bucket size 1 it halves
@@ -28,8 +28,8 @@ CachedSearch::CachedSearch(const KdTree& tree,
       max_distance2_m2_(options.max_distance_m * options.max_distance_m),
       searched_(query_count),
       neighbor_(query_count),
-      others_m_(query_count, -kInfinity),
-      distance2_m2_(query_count, kInfinity),
+      others_m_(query_count, -kBeyondAll_m),
+      distance2_m2_(query_count, kBeyondAll_m),
       slot_(query_count, KdTreeLayout::kNoSlot) {}
 
 SearchStatistics CachedSearch::Find(const PointCloud& queries,
