@@ -133,6 +133,7 @@ void RobotTracker::Locate(const ScanMap& map,
       step.match = other;
     }
   }
+  step.odometry_motion = last_robot.adapted;
   step.map_robot = map_last_ * last_robot.conservative;
   step.local_covariance = (local_last_ * last_robot.conservative).covariance;
   const UncertainPose2 last_in_map{.T_a_b = map_last_.T_a_b};
@@ -200,6 +201,7 @@ void RobotTracker::CloseLoop(const ScanMap& map,
   step.match = *closed;
   step.status = StatusOf(*closed);
   step.reason = "loop closed";
+  step.closed_loop = true;
   step.map_robot.T_a_b = closed->T_ref_cur;
   step.map_robot.covariance = closed->covariance;
   step.local_covariance = closed->covariance;

@@ -22,7 +22,37 @@ FrameCovariance OwnError(const UncertainPose2& map_robot, const FrameCovariance&
   return FrameCovariance::Of(own);
 }
 
+bool IsNewSurface(const SurfaceMap& surfaces,
+                  const Eigen::Vector2d& p_map_m,
+                  const ScanMapOptions& options) {
+  return surfaces.quadtree().CountInRadius(
+             p_map_m, options.density_radius_m, options.max_density_points) <
+         options.max_density_points;
+}
+
 }  // namespace
+
+std::vector<MapPoint> PointsToStore(const SurfaceMap& surfaces,
+                                    std::span<const ScanPoint> points,
+                                    const UncertainPose2& map_robot,
+                                    const ScanMapOptions& options) {
+  std::vector<MapPoint> stored;
+  stored.reserve(points.size());
+  const FrameCovariance covariance = FrameCovariance::Of(map_robot);
+  const RigidTransform2 to_map(map_robot.T_a_b);
+  for (const ScanPoint& point : points) {
+    const Eigen::Vector2d p_map = to_map * point.p_robot_m;
+    if (options.insertion == InsertionRule::kNewSurface &&
+        !IsNewSurface(surfaces, p_map, options)) {
+      continue;
+    }
+    stored.push_back({.p_map_m = p_map,
+                      .normal_map = to_map.R_a_b * point.normal_robot,
+                      .spacing_m = point.spacing_m,
+                      .drift_m2 = covariance.PositionVariance(p_map)});
+  }
+  return stored;
+}
 
 ScanMap::ScanMap(const ScanMapOptions& options) : options_(options), surfaces_(options.surfaces) {}
 
@@ -37,17 +67,7 @@ MapAddition ScanMap::Prepare(const LaserScan& scan,
                              const UncertainPose2& map_robot) const {
   MapAddition addition{.scan = scan, .map_robot = map_robot, .points = {}, .own_error = {}};
   if (!empty()) addition.own_error = OwnError(map_robot, CovarianceUnder(points, map_robot.T_a_b));
-  addition.points.reserve(points.size());
-  const FrameCovariance covariance = FrameCovariance::Of(map_robot);
-  const RigidTransform2 to_map(map_robot.T_a_b);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector2d p_map = to_map * points[i].p_robot_m;
-    if (options_.insertion == InsertionRule::kNewSurface && !IsNewSurface(p_map)) continue;
-    addition.points.push_back({.p_map_m = p_map,
-                               .normal_map = to_map.R_a_b * points[i].normal_robot,
-                               .spacing_m = points[i].spacing_m,
-                               .drift_m2 = covariance.PositionVariance(p_map)});
-  }
+  addition.points = PointsToStore(surfaces_, points, map_robot, options_);
   return addition;
 }
 
@@ -60,12 +80,6 @@ ScanId ScanMap::Add(MapAddition addition) {
   errors_.push_back({.shared = {PositivePart(whole - own)}, .own = {own}});
   scans_.push_back({.id = id, .scan = std::move(addition.scan), .map_robot = addition.map_robot});
   return id;
-}
-
-bool ScanMap::IsNewSurface(const Eigen::Vector2d& p_map_m) const {
-  return surfaces_.quadtree().CountInRadius(
-             p_map_m, options_.density_radius_m, options_.max_density_points) <
-         options_.max_density_points;
 }
 
 void ScanMap::ForgetPoints() { surfaces_ = SurfaceMap(options_.surfaces); }

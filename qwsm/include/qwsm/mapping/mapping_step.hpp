@@ -23,12 +23,15 @@ std::string_view Name(StepStatus status);
 /// The mapper's answer to one observation.
 struct MappingStep {
   Timestamp stamp{};
+  /// Motion since the last scan as odometry tells it, as uncertain as it has proved to be.
+  UncertainPose2 odometry_motion{};
   UncertainPose2 map_robot{};  ///< Covariance of all error since the start.
   /// Covariance of the error relative to the map around the robot, without the drift of that map.
   Eigen::Matrix3d local_covariance = Eigen::Matrix3d::Zero();
   StepStatus status = StepStatus::kFirst;
   std::string_view reason{};  ///< Why that status, in words.
   MatchResult match{};        ///< The match that gave the pose, or the bad one that did not.
+  bool closed_loop = false;   ///< The pose does not continue the one before.
   bool relevant = false;      ///< Whether the map is to be extended with this scan.
   /// The scan without the beams that ended on what moves; empty unless it is relevant.
   LaserScan relevant_scan{};

@@ -56,6 +56,13 @@ void Describe(Visitor& visit, ScanMapOptions& o) {
          .max = 1000});
 }
 
+/// The points of a scan that are to be stored among surfaces, by the insertion rule.
+/// @param points as ToPoints() gives them.
+std::vector<MapPoint> PointsToStore(const SurfaceMap& surfaces,
+                                    std::span<const ScanPoint> points,
+                                    const UncertainPose2& map_robot,
+                                    const ScanMapOptions& options);
+
 /// What a relevant scan adds to a map.
 struct MapAddition {
   LaserScan scan;
@@ -101,8 +108,6 @@ class ScanMap {
     FrameCovariance shared;  // What it shares with the scans it lies on.
     FrameCovariance own;     // What is independent of all scans before.
   };
-
-  bool IsNewSurface(const Eigen::Vector2d& p_map_m) const;
 
   ScanMapOptions options_;
   SurfaceMap surfaces_;
