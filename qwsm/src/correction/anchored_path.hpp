@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "qwsm/graph/pose_graph.hpp"
+#include "qwsm/mapping/mapping_step.hpp"
+
+namespace qwsm {
+
+/// The path of all scans, hung on those that are nodes of the graph.
+class AnchoredPath {
+ public:
+  /// Takes the answer to a scan. If it is relevant, it is a node, the first one being node 0.
+  void Take(const MappingStep& step);
+
+  /// The path as it was answered.
+  std::vector<UncertainPose2> AsAnswered() const;
+  /// The path when the nodes are there. Between two nodes it goes from the correction of the one
+  /// to that of the other as time goes; where the answers did not continue, it keeps the first.
+  std::vector<UncertainPose2> At(std::span<const UncertainPose2> map_node) const;
+
+ private:
+  struct Answer {
+    Timestamp stamp{};
+    UncertainPose2 map_robot;
+    std::optional<NodeId> node;  // The last one before it, or itself.
+  };
+  struct Anchor {
+    Timestamp stamp{};
+    UncertainPose2 map_robot;
+    bool continues = true;
+  };
+
+  UncertainPose2 Since(NodeId node, const UncertainPose2& map_robot) const;
+  Pose2 Interpolated(const Answer& answer, std::span<const UncertainPose2> map_node) const;
+
+  std::vector<Answer> answers_;
+  std::vector<Anchor> anchors_;  // By node.
+};
+
+}  // namespace qwsm

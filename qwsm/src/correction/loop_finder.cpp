@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_finder.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <utility>
+
+#include "submap_match.hpp"
+
+namespace qwsm {
+namespace {
+
+// Scans so near to a submap see the same surfaces.
+constexpr double kReach_m = 4.0;
+constexpr double kWindowSigmas = 3.0;
+constexpr double kMaxWindow_m = 5.0;
+constexpr double kMinOverlap = 0.65;
+// Fewer nodes after a submap the robot is still on the same pass.
+constexpr NodeId kNodesBetweenPasses = 8;
+// What the error model does not know of: poses are never taken to be more certain.
+constexpr double kModelSigma_m = 0.1;
+constexpr double kModelSigma_rad = 0.02;
+
+double ReachOf(const UncertainPose2& expected) {
+  return kReach_m + std::min(kMaxWindow_m, kWindowSigmas * expected.SigmaXY_m());
+}
+
+// What a match tells of the pose in a frame that is itself uncertain.
+Eigen::Matrix3d InformationWith(const Eigen::Matrix3d& of_match, const Eigen::Matrix3d& frame) {
+  const Eigen::Matrix3d of_frame = frame.inverse();
+  return of_frame - of_frame * (of_match + of_frame).inverse() * of_frame;
+}
+
+}  // namespace
+
+std::vector<Loop> LoopFinder::Find(const PoseEstimate& estimate, std::span<const Loop> last) const {
+  ReferencePoses references;
+  std::vector<FoundLoop> found;
+  std::vector<ScanPoint> points;
+  std::optional<NodeId> node;  // Whose points they are.
+  for (const Candidate& candidate : NearPasses(estimate, references)) {
+    if (node != candidate.node) {
+      node = candidate.node;
+      points = ToPoints(nodes_[*node].scan);
+    }
+    const Loop* known = AcceptedAmong(last, candidate);
+    const auto loop = known != nullptr ? std::optional(*known) : Recognise(candidate, points);
+    if (loop) found.push_back({*loop, candidate.submap});
+  }
+  ConfirmByOthers(found, references, chain_);
+  std::vector<Loop> loops;
+  loops.reserve(found.size());
+  for (const FoundLoop& one : found) loops.push_back(one.loop);
+  return loops;
+}
+
+const Loop* LoopFinder::AcceptedAmong(std::span<const Loop> loops,
+                                      const Candidate& candidate) const {
+  const std::pair ends(candidate.node, chain_.submaps()[candidate.submap].reference());
+  const auto loop = std::ranges::lower_bound(
+      loops, ends, {}, [](const Loop& l) { return std::pair(l.edge.to, l.edge.from); });
+  const bool is_accepted = loop != loops.end() && loop->edge.to == ends.first &&
+                           loop->edge.from == ends.second &&
+                           loop->verdict == LoopVerdict::kAccepted;
+  return is_accepted ? &*loop : nullptr;
+}
+
+// Of each pass, which is a row of submaps that came near, the nearest one.
+std::vector<LoopFinder::Candidate> LoopFinder::NearPasses(const PoseEstimate& estimate,
+                                                          ReferencePoses& references) const {
+  std::vector<Candidate> near;
+  const std::span<const RigidSubmap> submaps = chain_.submaps();
+  for (std::size_t i = 0; i < submaps.size(); ++i) {
+    const NodeId reference = submaps[i].reference();
+    const std::vector<UncertainPose2> seen = estimate.SeenFrom(reference);
+    std::vector<UncertainPose2> later_references;
+    for (const RigidSubmap& later : submaps.subspan(i)) {
+      later_references.push_back(seen[later.reference() - reference]);
+    }
+    references.Add(std::move(later_references));
+    for (NodeId node = submaps[i].end + kNodesBetweenPasses; node < nodes_.size(); ++node) {
+      const UncertainPose2& expected = seen[node - reference];
+      const double distance_m = expected.T_a_b.translation_m().norm();
+      if (distance_m <= ReachOf(expected)) near.push_back({node, i, expected, distance_m});
+    }
+  }
+  std::ranges::sort(near, {}, [](const Candidate& c) { return std::pair(c.node, c.submap); });
+  return NearestOfEachPass(near);
+}
+
+std::vector<LoopFinder::Candidate> LoopFinder::NearestOfEachPass(std::span<const Candidate> near) {
+  std::vector<Candidate> nearest;
+  const Candidate* last = nullptr;
+  for (const Candidate& candidate : near) {
+    const bool same_pass =
+        last != nullptr && candidate.node == last->node && candidate.submap == last->submap + 1;
+    if (!same_pass) {
+      nearest.push_back(candidate);
+    } else if (candidate.distance_m < nearest.back().distance_m) {
+      nearest.back() = candidate;
+    }
+    last = &candidate;
+  }
+  return nearest;
+}
+
+std::optional<Loop> LoopFinder::Recognise(const Candidate& candidate,
+                                          std::span<const ScanPoint> points) const {
+  const RigidSubmap& submap = chain_.submaps()[candidate.submap];
+  const Pose2& T_chain_reference = chain_.T_chain_node()[submap.reference()];
+  UncertainPose2 expected = UncertainPose2{.T_a_b = T_chain_reference} * candidate.reference_node;
+  expected.covariance += UncertainPose2::WithSigmas({}, kModelSigma_m, kModelSigma_rad).covariance;
+  const MatchResult match = LocateAmong(submap.surfaces, points, expected, locator_, matcher_);
+  if (!IsRecognised(match, kMinOverlap)) return std::nullopt;
+  Eigen::Matrix3d R_chain_reference = Eigen::Matrix3d::Identity();
+  R_chain_reference.topLeftCorner<2, 2>() = T_chain_reference.Rotation();
+  const Eigen::Matrix3d of_match = R_chain_reference.transpose() *
+                                   InformationOfPairs(match, matcher_.options()) *
+                                   R_chain_reference;
+  return Loop{.edge = {.from = submap.reference(),
+                       .to = candidate.node,
+                       .T_from_to = T_chain_reference.Inverse() * match.T_ref_cur,
+                       .information = InformationWith(of_match, ErrorWithin(submap)),
+                       .trust = EdgeTrust::kLoop},
+              .overlap = match.overlap,
+              .reduced_chi2 = match.reduced_chi2};
+}
+
+// How wrong the scans of a submap lie to its reference: that of one half way to its end.
+Eigen::Matrix3d LoopFinder::ErrorWithin(const RigidSubmap& submap) const {
+  const NodeId half_way = (submap.reference() + submap.end) / 2;
+  return chain_.Relative(submap.reference(), half_way).covariance;
+}
+
+}  // namespace qwsm

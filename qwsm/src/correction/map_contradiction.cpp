@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map_contradiction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace qwsm {
+namespace {
+
+constexpr std::size_t kStep = 4;  // Of so many scans one is asked.
+constexpr double kNear_m = 15.0;  // Scans so near to each other look at the same surfaces.
+constexpr double kPointSpacing_m = 0.3;
+constexpr double kMaxSigmas = 3.0;
+
+// One scan where it is thought to have been taken.
+struct PlacedScan {
+  Pose2 T_map_robot;
+  std::vector<ScanPoint> points;
+  FreeRangeImage seen_free;
+};
+
+std::vector<PlacedScan> Placed(std::span<const ScanNode> nodes,
+                               std::span<const Pose2> T_map_node,
+                               const FreeSpaceOptions& options) {
+  std::vector<PlacedScan> placed;
+  placed.reserve(nodes.size() / kStep + 1);
+  for (std::size_t i = 0; i < nodes.size(); i += kStep) {
+    const Pose2& T_map_robot = T_map_node[i];
+    placed.push_back({.T_map_robot = T_map_robot,
+                      .points = ThinOut(ToPoints(nodes[i].scan), kPointSpacing_m),
+                      .seen_free = FreeRangeImage(nodes[i].scan, T_map_robot, options)});
+  }
+  return placed;
+}
+
+}  // namespace
+
+double Contradiction::share() const {
+  return looked_at == 0 ? 0.0 : static_cast<double>(seen_through) / static_cast<double>(looked_at);
+}
+
+// Both counts scatter as those of rare events do.
+bool IsWorse(const Contradiction& after, const Contradiction& before) {
+  const auto variance_of_share = [](const Contradiction& c) {
+    return c.share() / static_cast<double>(std::max<std::size_t>(1, c.looked_at));
+  };
+  const double sigma = std::sqrt(variance_of_share(after) + variance_of_share(before));
+  return after.share() > before.share() + kMaxSigmas * sigma;
+}
+
+Contradiction ContradictionAt(std::span<const ScanNode> nodes,
+                              std::span<const Pose2> T_map_node,
+                              const FreeSpaceOptions& options) {
+  const std::vector<PlacedScan> scans = Placed(nodes, T_map_node, options);
+  Contradiction contradiction;
+  std::vector<std::uint8_t> marks;
+  for (const PlacedScan& from : scans) {
+    for (const PlacedScan& at : scans) {
+      const Eigen::Vector2d apart_m =
+          from.T_map_robot.translation_m() - at.T_map_robot.translation_m();
+      if (&from == &at || apart_m.squaredNorm() > kNear_m * kNear_m) continue;
+      marks.assign(at.points.size(), 0);
+      from.seen_free.MarkSeenThrough(at.points, at.T_map_robot, marks);
+      contradiction.looked_at += marks.size();
+      contradiction.seen_through += static_cast<std::size_t>(std::ranges::count(marks, 1));
+    }
+  }
+  return contradiction;
+}
+
+}  // namespace qwsm

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_estimate.hpp"
+
+#include "qwsm/geometry/frame_covariance.hpp"
+
+namespace qwsm {
+
+std::vector<UncertainPose2> AnsweredPoses::SeenFrom(NodeId from) const {
+  const UncertainPose2& map_from = nodes_[from].map_robot;
+  const FrameCovariance known = FrameCovariance::Of(map_from);
+  const UncertainPose2 from_map{.T_a_b = map_from.T_a_b.Inverse()};
+  std::vector<UncertainPose2> seen;
+  seen.reserve(nodes_.size() - from);
+  for (const ScanNode& node : nodes_.subspan(from)) {
+    UncertainPose2 since = node.map_robot;
+    since.covariance = PositivePart(since.covariance - known.At(since.T_a_b.translation_m()));
+    seen.push_back(from_map * since);
+  }
+  return seen;
+}
+
+std::vector<UncertainPose2> SolvedPoses::map_node() const {
+  std::vector<UncertainPose2> map_node;
+  map_node.reserve(T_map_node_.size());
+  for (NodeId node = 0; node < T_map_node_.size(); ++node) {
+    map_node.push_back({.T_a_b = T_map_node_[node], .covariance = marginals_[node]});
+  }
+  return map_node;
+}
+
+std::vector<UncertainPose2> SolvedPoses::SeenFrom(NodeId from) const {
+  const std::vector<Eigen::Matrix3d> covariances = covariance_.RelativeTo(from, marginals_);
+  const Pose2 T_from_map = T_map_node_[from].Inverse();
+  std::vector<UncertainPose2> seen;
+  seen.reserve(T_map_node_.size() - from);
+  for (NodeId node = from; node < T_map_node_.size(); ++node) {
+    seen.push_back({.T_a_b = T_from_map * T_map_node_[node], .covariance = covariances[node]});
+  }
+  return seen;
+}
+
+}  // namespace qwsm

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "qwsm/correction/scan_node.hpp"
+#include "qwsm/graph/graph_covariance.hpp"
+
+namespace qwsm {
+
+/// What is thought of the poses of all nodes.
+class PoseEstimate {
+ public:
+  PoseEstimate() = default;
+  PoseEstimate(const PoseEstimate&) = delete;
+  PoseEstimate& operator=(const PoseEstimate&) = delete;
+  virtual ~PoseEstimate() = default;
+
+  /// Poses of this node and all later ones as seen from it.
+  virtual std::vector<UncertainPose2> SeenFrom(NodeId from) const = 0;
+};
+
+/// The poses as they were answered. What a later one is more uncertain by than an earlier one is
+/// how uncertain it is as seen from there.
+class AnsweredPoses final : public PoseEstimate {
+ public:
+  /// @param nodes outlive this.
+  explicit AnsweredPoses(std::span<const ScanNode> nodes) : nodes_(nodes) {}
+
+  std::vector<UncertainPose2> SeenFrom(NodeId from) const override;
+
+ private:
+  std::span<const ScanNode> nodes_;
+};
+
+/// The poses of a solved graph.
+class SolvedPoses final : public PoseEstimate {
+ public:
+  SolvedPoses(const PoseGraph& graph, const GraphSolution& solution)
+      : T_map_node_(solution.T_map_node),
+        covariance_(graph, solution),
+        marginals_(covariance_.Marginals()) {}
+
+  std::vector<UncertainPose2> SeenFrom(NodeId from) const override;
+  /// The poses in the map; the first is certain.
+  std::vector<UncertainPose2> map_node() const;
+
+ private:
+  std::vector<Pose2> T_map_node_;
+  GraphCovariance covariance_;
+  std::vector<Eigen::Matrix3d> marginals_;
+};
+
+}  // namespace qwsm
