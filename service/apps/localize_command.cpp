@@ -83,9 +83,9 @@ ExitCode RunLocalize(LocalizeArguments arguments) {
   const RunSession session(arguments.run, options);
   Mapper mapper(options.mapper, std::move(map), start);
   pipeline::ResultsWriter results(session.folder());
-  const pipeline::ReplayResult end = session.Run("localize", *source, mapper, results);
+  const pipeline::ReplayResult end = session.Run("localize", *source, mapper, {&results});
   results.Finish(mapper, options.rendering);
-  session.Summarize(results, mapper);
+  session.Summarize(results, mapper.map());
   return Conclude(end);
 }
 

@@ -16,6 +16,7 @@
 #include "service/config/suggestion.hpp"
 #include "service/io/files/atomic_file.hpp"
 #include "service/io/maps/map_file.hpp"
+#include "service/pipeline/results/corrected_run.hpp"
 #include "service/pipeline/results/results_writer.hpp"
 #include "service/pipeline/simulation/simulator_source.hpp"
 
@@ -81,6 +82,36 @@ Origin OpenOrigin(const MapArguments& arguments, const options::LogOptions& log)
           .scenario = scenario};
 }
 
+// The papers' incremental mapping.
+ExitCode MapOnly(const MapArguments& arguments,
+                 const options::ProgramOptions& options,
+                 pipeline::ScanSource& source,
+                 const RunSession& session) {
+  Mapper mapper(options.mapper);
+  pipeline::ResultsWriter results(session.folder());
+  const pipeline::ReplayResult end = session.Run("map", source, mapper, {&results});
+  results.Finish(mapper, options.rendering, source.truth());
+  if (arguments.save_map) io::SaveMap(*arguments.save_map, mapper.map());
+  session.Summarize(results, mapper.map());
+  return Conclude(end);
+}
+
+// The same, and then all poses anew where loops tell that the path drifted.
+ExitCode MapAndCorrect(const MapArguments& arguments,
+                       const options::ProgramOptions& options,
+                       pipeline::ScanSource& source,
+                       const RunSession& session) {
+  Mapper mapper(options.mapper);
+  pipeline::ResultsWriter results(session.folder(), "trajectory_live.tum");
+  pipeline::CorrectionSink correction(options.mapper);
+  const pipeline::ReplayResult end = session.Run("map", source, mapper, {&results, &correction});
+  const pipeline::CorrectedRun corrected = correction.Correct(mapper.map());
+  results.Finish(mapper, corrected, options.rendering, source.truth());
+  if (arguments.save_map) io::SaveMap(*arguments.save_map, corrected.map);
+  session.Summarize(results, corrected.map);
+  return Conclude(end);
+}
+
 ExitCode RunMap(MapArguments arguments) {
   StartMessages(arguments.run.verbosity);
   CheckSource(arguments);
@@ -98,13 +129,10 @@ ExitCode RunMap(MapArguments arguments) {
   if (origin.scenario) {
     io::WriteTextFile(session.folder() / "scenario.yaml", ScenarioText(*origin.scenario));
   }
-  Mapper mapper(options.mapper);
-  pipeline::ResultsWriter results(session.folder());
-  const pipeline::ReplayResult end = session.Run("map", *origin.source, mapper, results);
-  results.Finish(mapper, options.rendering, origin.source->truth());
-  if (arguments.save_map) io::SaveMap(*arguments.save_map, mapper.map());
-  session.Summarize(results, mapper);
-  return Conclude(end);
+  if (options.graph.enabled && options.mapper.matcher == MatcherKind::kQWsm) {
+    return MapAndCorrect(arguments, options, *origin.source, session);
+  }
+  return MapOnly(arguments, options, *origin.source, session);
 }
 
 }  // namespace
@@ -117,6 +145,7 @@ Command AddMapCommand(CLI::App& program) {
       "  qwsm map intel.log --output intel                results in intel/\n"
       "  qwsm map intel.log --matcher wsm                 the incremental baseline\n"
       "  qwsm map intel.log --save-map intel.qwsm         to localize in later\n"
+      "  qwsm map intel.log --set graph.enabled=false     nothing is corrected in the end\n"
       "  qwsm map robot.log --set mapper.motion.rotation_per_rotation=0.5\n"
       "  qwsm map --sim office --seed 7                   a simulated robot, with the truth\n"
       "  zcat *.log.gz | qwsm map - --quiet               from a pipe");

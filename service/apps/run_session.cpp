@@ -84,9 +84,8 @@ RunSession::RunSession(const RunArguments& arguments, const options::ProgramOpti
 ReplayResult RunSession::Run(const std::string& task,
                              ScanSource& source,
                              Mapper& mapper,
-                             StepSink& sink) const {
+                             std::vector<StepSink*> sinks) const {
   JsonLinesSink json(stdout);
-  std::vector<StepSink*> sinks{&sink};
   if (verbosity_.json) sinks.push_back(&json);
   return Run(task, source, {{.mapper = &mapper, .sinks = std::move(sinks)}});
 }
@@ -104,10 +103,10 @@ ReplayResult RunSession::Run(const std::string& task,
   return result;
 }
 
-void RunSession::Summarize(const ResultsWriter& results, const Mapper& mapper) const {
+void RunSession::Summarize(const ResultsWriter& results, const ScanMap& map) const {
   if (verbosity_.quiet || verbosity_.json) return;
   Print("{}results        {}\n",
-        SummaryText(results.statistics(), mapper.map(), results.truth_report()),
+        SummaryText(results.statistics(), map, results.truth_report(), results.loops()),
         folder_.path().string());
 }
 

@@ -52,11 +52,11 @@ class RunSession {
 
   const pipeline::ResultsFolder& folder() const { return folder_; }
 
-  /// Runs all scans through the mapper into the sink, with progress and messages as asked for.
+  /// Runs all scans through the mapper into the sinks, with progress and messages as asked for.
   pipeline::ReplayResult Run(const std::string& task,
                              pipeline::ScanSource& source,
                              Mapper& mapper,
-                             pipeline::StepSink& sink) const;
+                             std::vector<pipeline::StepSink*> sinks) const;
 
   /// The same with several mappers, which take turns; their sinks are all there is for answers.
   pipeline::ReplayResult Run(const std::string& task,
@@ -64,7 +64,7 @@ class RunSession {
                              std::vector<pipeline::MappingRun> runs) const;
 
   /// Tells what came out, if a person reads standard output.
-  void Summarize(const pipeline::ResultsWriter& results, const Mapper& mapper) const;
+  void Summarize(const pipeline::ResultsWriter& results, const ScanMap& map) const;
 
  private:
   Verbosity verbosity_;

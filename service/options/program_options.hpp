@@ -32,10 +32,23 @@ void Describe(Visitor& visit, LogOptions& o) {
          .max = 2.0 * std::numbers::pi});
 }
 
+/// Correcting the map where loops are closed.
+struct GraphOptions {
+  bool enabled = true;
+};
+
+template <class Visitor>
+void Describe(Visitor& visit, GraphOptions& o) {
+  visit("enabled",
+        o.enabled,
+        {.help = "correct path and map once loops are closed; false: incremental, as the papers"});
+}
+
 /// Everything that can be configured of the program `qwsm`.
 struct ProgramOptions {
   LogOptions log;
   MapperOptions mapper;
+  GraphOptions graph;
   OccupancyGridOptions rendering;
   dds::NetworkOptions network;
   team::TeamOptions team;
@@ -45,6 +58,7 @@ template <class Visitor>
 void Describe(Visitor& visit, ProgramOptions& o) {
   visit("log", o.log, {.help = "reading of logs"});
   visit("mapper", o.mapper, {.help = "matching scans and extending the map"});
+  visit("graph", o.graph, {.help = "correcting the map where loops are closed"});
   visit("rendering", o.rendering, {.help = "the occupancy map that is drawn of the result"});
   visit("network", o.network, {.help = "DDS, by which robots and services talk"});
   visit("team", o.team, {.help = "the service for robots on the network"});

@@ -51,7 +51,9 @@ class DdsFaults : public ::testing::Test {
     more.insert(more.begin(), {"replay", Log(), "--robot", "robot1"});
     return network_.Run(more);
   }
-  Outcome MapOf() const { return RunProgram({"map", Log(), "--output", Path("mapped")}); }
+  Outcome MapOf() const {
+    return RunProgram({"map", Log(), "--output", Path("mapped"), "--set", "graph.enabled=false"});
+  }
 
   TemporaryFolder folder_;
   PrivateNetwork network_;

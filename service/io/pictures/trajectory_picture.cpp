@@ -24,6 +24,9 @@ constexpr LineStyle kHalo{.color = {1.0, 1.0, 1.0, 0.75}, .width_px = 6.0};
 constexpr LineStyle kTruthStyle{.color = FromBytes(60, 60, 60), .width_px = 5.0};
 constexpr LineStyle kOdometryStyle{
     .color = FromBytes(120, 125, 132), .width_px = 1.6, .dash_px = 6.0};
+constexpr LineStyle kAnsweredStyle{.color = FromBytes(70, 75, 82), .width_px = 1.2, .dash_px = 2.0};
+constexpr LineStyle kLoopStyle{.color = FromBytes(0, 130, 60, 0.45), .width_px = 1.0};
+constexpr LineStyle kRefusedStyle{.color = FromBytes(225, 20, 30, 0.8), .width_px = 1.4};
 constexpr LineStyle kEllipseStyle{.color = FromBytes(150, 0, 140), .width_px = 1.1};
 constexpr Color kEllipseFill = FromBytes(150, 0, 140, 0.12);
 constexpr Color kDeadReckoned = FromBytes(225, 20, 30);
@@ -161,6 +164,8 @@ class OverlayPainter {
   void Paint() {
     frame_.canvas().Clip(frame_.map_area());
     StrokePath(overlay_.odometry, kOdometryStyle);
+    StrokePath(overlay_.answered, kAnsweredStyle);
+    PaintLoops();
     PaintEllipses();
     if (overlay_.truth.empty()) StrokePath(overlay_.path, kHalo);
     StrokePath(overlay_.truth, kTruthStyle);
@@ -186,7 +191,32 @@ class OverlayPainter {
     if (!ellipses_.empty()) items.push_back(EllipseItem(enlargement_));
     if (!overlay_.truth.empty()) items.push_back(LineItem("truth", kTruthStyle));
     if (!overlay_.odometry.empty()) items.push_back(LineItem("odometry", kOdometryStyle));
+    if (!overlay_.answered.empty()) items.push_back(LineItem("as answered", kAnsweredStyle));
+    const auto loops = std::ssize(overlay_.loops);
+    const auto accepted = std::ranges::count(overlay_.loops, true, &LoopLine::is_accepted);
+    if (accepted > 0) items.push_back(LoopsItem("loops", accepted, kLoopStyle));
+    if (loops > accepted) {
+      items.push_back(LoopsItem("loops not believed", loops - accepted, kRefusedStyle));
+    }
     return items;
+  }
+
+  static LegendItem LoopsItem(const std::string& name,
+                              std::ptrdiff_t count,
+                              const LineStyle& style) {
+    return LineItem(name + " (" + std::to_string(count) + ")", style);
+  }
+
+  // Those that are not believed on top: they are few, and what one looks for.
+  void PaintLoops() {
+    for (const bool accepted : {true, false}) {
+      for (const LoopLine& loop : overlay_.loops) {
+        if (loop.is_accepted != accepted) continue;
+        frame_.canvas().StrokeLine(frame_.ToCanvas(loop.from_map_m),
+                                   frame_.ToCanvas(loop.to_map_m),
+                                   accepted ? kLoopStyle : kRefusedStyle);
+      }
+    }
   }
 
   // Without the poses that are within a pixel of the one before: a robot that waits has thousands.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
 #include <vector>
 
@@ -18,11 +19,20 @@ struct PathPose {
   StepStatus status = StepStatus::kMatched;
 };
 
+/// A place that was recognised: where the robot was, and where it had been before.
+struct LoopLine {
+  Eigen::Vector2d from_map_m = Eigen::Vector2d::Zero();
+  Eigen::Vector2d to_map_m = Eigen::Vector2d::Zero();
+  bool is_accepted = true;
+};
+
 /// What is drawn over a map. All paths are in the frame `map`.
 struct MapOverlay {
   std::vector<PathPose> path;
-  Trajectory truth;     ///< Empty where it is not known.
-  Trajectory odometry;  ///< Empty where it is of no interest.
+  Trajectory truth;       ///< Empty where it is not known.
+  Trajectory odometry;    ///< Empty where it is of no interest.
+  Trajectory answered{};  ///< The path before it was corrected; empty where it was not.
+  std::vector<LoopLine> loops{};
 };
 
 /// Draws the map and the robot's path over it, coloured by time, dead-reckoned poses marked, with

@@ -16,9 +16,21 @@
 #include "service/pipeline/results/run_report.hpp"
 
 namespace qwsm::pipeline {
+namespace {
 
-ResultsWriter::ResultsWriter(const ResultsFolder& folder)
-    : folder_(folder), trajectory_(folder / "trajectory.tum"), table_(folder / "scans.csv") {}
+Trajectory TrajectoryOf(std::span<const io::PathPose> path) {
+  Trajectory trajectory;
+  trajectory.reserve(path.size());
+  for (const io::PathPose& pose : path) {
+    trajectory.push_back({.stamp = pose.stamp, .T_map_robot = pose.map_robot.T_a_b});
+  }
+  return trajectory;
+}
+
+}  // namespace
+
+ResultsWriter::ResultsWriter(const ResultsFolder& folder, std::string_view trajectory)
+    : folder_(folder), trajectory_(folder / trajectory), table_(folder / "scans.csv") {}
 
 void ResultsWriter::Take(const TimedStep& timed) {
   trajectory_.Take(timed);
@@ -32,28 +44,67 @@ void ResultsWriter::Finish(const Mapper& mapper,
                            const Trajectory& truth) {
   trajectory_.Commit();
   table_.Commit();
-  const MatcherKind matcher = mapper.options().matcher;
-  const std::vector<io::PathPose>& path = history_.path();
-  const Trajectory truth_in_map = TruthInMap(path, truth);
-  truth_report_ = CompareWithTruth(path, truth);
-  if (!truth_in_map.empty()) io::WriteTumFile(folder_ / "truth.tum", truth_in_map);
-  io::WriteTextFile(folder_ / "metrics.json",
-                    MetricsJson(statistics_, mapper.map(), matcher, truth_report_));
-  const std::array<io::ResidualSeries, 1> series{
-      {{.name = std::string(Name(matcher)), .residual_mm = history_.residuals_mm()}}};
-  io::WriteResidualPlot(folder_ / "residual.png", series);
-  DrawMap(mapper, rendering, truth_in_map);
+  Report({.map = mapper.map(),
+          .matcher = mapper.options().matcher,
+          .path = history_.path(),
+          .loops = {}},
+         truth);
+  io::MapOverlay overlay = history_.Overlay();
+  overlay.truth = truth_in_map_;
+  DrawMap(mapper.map(), rendering, overlay);
 }
 
-void ResultsWriter::DrawMap(const Mapper& mapper,
+void ResultsWriter::Finish(const Mapper& mapper,
+                           const CorrectedRun& corrected,
+                           const OccupancyGridOptions& rendering,
+                           const Trajectory& truth) {
+  trajectory_.Commit();
+  table_.Commit();
+  const Correction& correction = corrected.correction;
+  io::MapOverlay overlay = history_.Overlay();
+  overlay.answered = TrajectoryOf(overlay.path);
+  overlay.path = CorrectedPath(correction);
+  overlay.loops = LoopLines(correction);
+  AddCorrectedPoses(folder_ / "scans.csv", correction.map_robot);
+  io::WriteTumFile(folder_ / "trajectory.tum", TrajectoryOf(overlay.path));
+  WriteLoops(folder_, correction, corrected.map);
+  Report({.map = corrected.map,
+          .matcher = mapper.options().matcher,
+          .path = overlay.path,
+          .loops = CountLoops(correction.loops)},
+         truth);
+  overlay.truth = truth_in_map_;
+  DrawMap(corrected.map, rendering, overlay);
+  const auto before = RenderOrWarn(mapper.map(), rendering);
+  if (before) io::WriteMapPicture(folder_ / "map_live.png", *before);
+}
+
+std::vector<io::PathPose> ResultsWriter::CorrectedPath(const Correction& correction) const {
+  std::vector<io::PathPose> path = history_.path();
+  for (std::size_t i = 0; i < path.size(); ++i) path[i].map_robot = correction.map_robot[i];
+  return path;
+}
+
+void ResultsWriter::Report(const Outcome& outcome, const Trajectory& truth) {
+  truth_in_map_ = TruthInMap(outcome.path, truth);
+  truth_report_ = CompareWithTruth(outcome.path, truth);
+  loops_ = outcome.loops;
+  if (!truth_in_map_.empty()) io::WriteTumFile(folder_ / "truth.tum", truth_in_map_);
+  io::WriteTextFile(
+      folder_ / "metrics.json",
+      MetricsJson(statistics_, outcome.map, outcome.matcher, truth_report_, outcome.loops));
+  const std::array<io::ResidualSeries, 1> series{
+      {{.name = std::string(Name(outcome.matcher)), .residual_mm = history_.residuals_mm()}}};
+  io::WriteResidualPlot(folder_ / "residual.png", series);
+}
+
+void ResultsWriter::DrawMap(const ScanMap& map,
                             const OccupancyGridOptions& rendering,
-                            Trajectory truth_in_map) const {
-  const std::optional<OccupancyGrid> grid = RenderOrWarn(mapper.map(), rendering);
+                            const io::MapOverlay& overlay) const {
+  const std::optional<OccupancyGrid> grid = RenderOrWarn(map, rendering);
   if (!grid) return;
   io::WriteRosMap(folder_ / "map.yaml", *grid);
   io::WriteMapPicture(folder_ / "map.png", *grid);
-  io::MapOverlay overlay = history_.Overlay();
-  overlay.truth = std::move(truth_in_map);
   io::WriteTrajectoryPicture(folder_ / "trajectory.png", *grid, overlay);
 }
 

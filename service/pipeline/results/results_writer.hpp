@@ -2,9 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
 
 #include "qwsm/mapping/occupancy_grid.hpp"
+#include "service/pipeline/results/corrected_run.hpp"
 #include "service/pipeline/results/results_folder.hpp"
 #include "service/pipeline/results/run_history.hpp"
 #include "service/pipeline/results/run_statistics.hpp"
@@ -19,7 +23,9 @@ namespace qwsm::pipeline {
 class ResultsWriter final : public StepSink {
  public:
   /// @throws io::WriteError, as do all others here.
-  explicit ResultsWriter(const ResultsFolder& folder);
+  /// @param trajectory name of the file for the poses as they were answered.
+  explicit ResultsWriter(const ResultsFolder& folder,
+                         std::string_view trajectory = "trajectory.tum");
 
   void Take(const TimedStep& timed) override;
 
@@ -28,22 +34,42 @@ class ResultsWriter final : public StepSink {
   void Finish(const Mapper& mapper,
               const OccupancyGridOptions& rendering,
               const Trajectory& truth = {});
+  /// The same of a corrected run: the corrected poses are the trajectory, and the map is that of
+  /// the scans there; the map as it was goes into map_live.png.
+  void Finish(const Mapper& mapper,
+              const CorrectedRun& corrected,
+              const OccupancyGridOptions& rendering,
+              const Trajectory& truth = {});
 
   const RunStatistics& statistics() const { return statistics_; }
+  /// After Finish() of a corrected run.
+  const std::optional<LoopCounts>& loops() const { return loops_; }
   /// After Finish(), where the truth is known.
   const std::optional<TruthReport>& truth_report() const { return truth_report_; }
 
  private:
-  void DrawMap(const Mapper& mapper,
+  // What a run ends with.
+  struct Outcome {
+    const ScanMap& map;
+    MatcherKind matcher;
+    std::span<const io::PathPose> path;
+    std::optional<LoopCounts> loops{};
+  };
+
+  void Report(const Outcome& outcome, const Trajectory& truth);
+  void DrawMap(const ScanMap& map,
                const OccupancyGridOptions& rendering,
-               Trajectory truth_in_map) const;
+               const io::MapOverlay& overlay) const;
+  std::vector<io::PathPose> CorrectedPath(const Correction& correction) const;
 
   ResultsFolder folder_;
   TrajectorySink trajectory_;
   ScanTableSink table_;
   RunStatistics statistics_;
   RunHistory history_;
+  Trajectory truth_in_map_;
   std::optional<TruthReport> truth_report_;
+  std::optional<LoopCounts> loops_;
 };
 
 /// The map at the wanted cell size, or, with a warning, at the smallest one that can be rendered;

@@ -38,7 +38,8 @@ std::string_view Name(MatcherKind matcher) {
 std::string MetricsJson(const RunStatistics& run,
                         const ScanMap& map,
                         MatcherKind matcher,
-                        const std::optional<TruthReport>& truth) {
+                        const std::optional<TruthReport>& truth,
+                        const std::optional<LoopCounts>& loops) {
   const PointQuadtreeStatistics points = map.surfaces().quadtree().Statistics();
   nlohmann::ordered_json json;
   json["matcher"] = Name(matcher);
@@ -62,13 +63,18 @@ std::string MetricsJson(const RunStatistics& run,
   json["map"]["quadtree_nodes"] = points.nodes;
   json["map"]["quadtree_depth"] = points.depth;
   json["map"]["quadtree_bytes"] = points.bytes;
+  if (loops) {
+    json["loops"]["found"] = loops->found;
+    json["loops"]["accepted"] = loops->accepted;
+  }
   if (truth) AddTo(json, *truth);
   return json.dump(2) + "\n";
 }
 
 std::string SummaryText(const RunStatistics& run,
                         const ScanMap& map,
-                        const std::optional<TruthReport>& truth) {
+                        const std::optional<TruthReport>& truth,
+                        const std::optional<LoopCounts>& loops) {
   const PointQuadtreeStatistics points = map.surfaces().quadtree().Statistics();
   std::string text = fmt::format("scans          {}", WithThousands(run.scans()));
   if (run.scans() == 0) return text + "\n";
@@ -93,6 +99,12 @@ std::string SummaryText(const RunStatistics& run,
                       WithThousands(points.points),
                       WithThousands(map.scans().size()),
                       static_cast<double>(points.bytes) * 1e-6);
+  if (loops) {
+    text += fmt::format("loops          {} accepted of {} found; path and map {}\n",
+                        WithThousands(loops->accepted),
+                        WithThousands(loops->found),
+                        loops->accepted > 0 ? "are corrected" : "stay as they were answered");
+  }
   if (truth) {
     text += fmt::format(
         "truth          ATE {:.3f} m rmse, {:.3f} m from tip to tail; NEES {:.2f} (3 is right)\n",

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "service/pipeline/results/corrected_run.hpp"
 #include "service/pipeline/results/run_statistics.hpp"
 #include "service/pipeline/results/truth_report.hpp"
 
@@ -18,11 +19,13 @@ std::string_view Name(MatcherKind matcher);
 std::string MetricsJson(const RunStatistics& run,
                         const ScanMap& map,
                         MatcherKind matcher,
-                        const std::optional<TruthReport>& truth);
+                        const std::optional<TruthReport>& truth,
+                        const std::optional<LoopCounts>& loops = {});
 
 /// The same in a few lines for people.
 std::string SummaryText(const RunStatistics& run,
                         const ScanMap& map,
-                        const std::optional<TruthReport>& truth);
+                        const std::optional<TruthReport>& truth,
+                        const std::optional<LoopCounts>& loops = {});
 
 }  // namespace qwsm::pipeline

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/results/scan_table_sink.hpp"
 
+#include <fstream>
+#include <string>
 #include <string_view>
 
 #include "service/io/files/csv_row.hpp"
@@ -13,6 +15,20 @@ constexpr std::string_view kHeader =
     "stamp_s,x_m,y_m,theta_rad,"
     "cov_xx_m2,cov_xy_m2,cov_xtheta_m_rad,cov_yy_m2,cov_ytheta_m_rad,cov_thetatheta_rad2,"
     "status,reason,relevant,pairs,overlap,residual_mm,trace,iterations,ms\n";
+constexpr std::string_view kCorrectedHeader =
+    "corrected_x_m,corrected_y_m,corrected_theta_rad,"
+    "corrected_cov_xx_m2,corrected_cov_xy_m2,corrected_cov_xtheta_m_rad,corrected_cov_yy_m2,"
+    "corrected_cov_ytheta_m_rad,corrected_cov_thetatheta_rad2\n";
+
+void Add(const UncertainPose2& map_robot, io::CsvRow& row) {
+  const Pose2& T_map_robot = map_robot.T_a_b;
+  for (const double number : {T_map_robot.x_m, T_map_robot.y_m, T_map_robot.theta_rad}) {
+    row.Add(number);
+  }
+  for (int i = 0; i < 3; ++i) {
+    for (int j = i; j < 3; ++j) row.Add(map_robot.covariance(i, j));
+  }
+}
 
 }  // namespace
 
@@ -26,14 +42,9 @@ ScanTableSink::ScanTableSink(const std::filesystem::path& path) : file_(path) {
 
 void ScanTableSink::Take(const TimedStep& timed) {
   const MappingStep& step = timed.step;
-  const Pose2& T_map_robot = step.map_robot.T_a_b;
   io::CsvRow row;
   row.Add(step.stamp);
-  for (const double value : {T_map_robot.x_m, T_map_robot.y_m, T_map_robot.theta_rad})
-    row.Add(value);
-  for (int i = 0; i < 3; ++i) {
-    for (int j = i; j < 3; ++j) row.Add(step.map_robot.covariance(i, j));
-  }
+  Add(step.map_robot, row);
   row.Add(Name(step.status));
   row.Add(step.reason);
   row.Add(step.relevant ? "1" : "0");
@@ -45,6 +56,22 @@ void ScanTableSink::Take(const TimedStep& timed) {
   row.Add(std::chrono::duration<double, std::milli>(timed.duration).count());
   file_.stream() << row.Finish();
   file_.ThrowIfFailed();
+}
+
+void AddCorrectedPoses(const std::filesystem::path& table,
+                       std::span<const UncertainPose2> corrected) {
+  std::ifstream rows(table);
+  io::AtomicFile wider(table);
+  std::string row;
+  std::getline(rows, row);
+  wider.stream() << row << ',' << kCorrectedHeader;
+  for (const UncertainPose2& map_robot : corrected) {
+    std::getline(rows, row);
+    io::CsvRow columns;
+    Add(map_robot, columns);
+    wider.stream() << row << ',' << columns.Finish();
+  }
+  wider.Commit();
 }
 
 }  // namespace qwsm::pipeline

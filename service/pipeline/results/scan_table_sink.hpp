@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "service/io/files/atomic_file.hpp"
@@ -25,5 +26,10 @@ class ScanTableSink final : public StepSink {
  private:
   io::AtomicFile file_;
 };
+
+/// Adds the corrected poses and their covariances to a table, as further columns.
+/// @param corrected of every scan of the table. @throws io::WriteError.
+void AddCorrectedPoses(const std::filesystem::path& table,
+                       std::span<const UncertainPose2> corrected);
 
 }  // namespace qwsm::pipeline
