@@ -76,10 +76,11 @@ class RecordingSink : public team::TeamSink {
     const std::lock_guard lock(mutex_);
     return statuses_.size();
   }
-  bool HasEvent(const std::string& event) const {
+  std::ptrdiff_t CountEvents(const std::string& event) const {
     const std::lock_guard lock(mutex_);
-    return std::ranges::find(events_, event) != events_.end();
+    return std::ranges::count(events_, event);
   }
+  bool HasEvent(const std::string& event) const { return CountEvents(event) > 0; }
 
  private:
   mutable std::mutex mutex_;

@@ -70,6 +70,34 @@ TEST(TeamService, AnswersARobotBitForBitAsTheMapperDoes) {
   EXPECT_GT(sink.new_points(), 0U);
 }
 
+TEST(TeamService, ThinsScansThatAreTooHeavyAndSaysSoOnce) {
+  test::RecordingSink sink;
+  TeamServiceOptions options = LosslessOptions();
+  options.team.session.max_readings = 200;
+  TeamService service(options, sink);
+  service.Start();
+  for (int scan = 0; scan < 5; ++scan) {
+    Observation observation = test::ObservationInRoom(scan);
+    LaserScan& heavy = observation.scan;
+    std::vector<float> ranges_m;
+    for (const float range_m : heavy.ranges_m) ranges_m.insert(ranges_m.end(), 50, range_m);
+    heavy.ranges_m = ranges_m;
+    heavy.geometry.bearing_step_rad /= 50.0F;
+    EXPECT_TRUE(service.robots().TakeScan("robot1", heavy));
+  }
+  Give(service, "robot2", 0, 1);
+  service.WaitUntilIdle();
+  EXPECT_EQ(StatusOf(service, "robot1").counts.answered, 5U);
+  EXPECT_EQ(sink.relevant().front().scan.size(), 197U);  // One in 46 of 9050.
+  EXPECT_EQ(
+      sink.CountEvents("robot1: sends more readings in a scan than team.session.max_readings: "
+                       "one in 46 is used"),
+      1);
+  EXPECT_FALSE(
+      sink.HasEvent("robot2: sends more readings in a scan than "
+                    "team.session.max_readings: one in 1 is used"));
+}
+
 TEST(TeamService, CountsEveryScanThatIsDroppedForNewerOnes) {
   test::RecordingSink sink;
   TeamServiceOptions options = LosslessOptions();

@@ -5,6 +5,7 @@
 #include "slam6d/geometry/position.hpp"
 
 namespace qwsm::team {
+
 std::string_view ObjectionTo(const CloudScan& scan) {
   if (scan.cloud.empty()) return "the cloud has no points";
   if (scan.cloud.size() > kMaxCloudPoints) return "the cloud has more than 20 million points";

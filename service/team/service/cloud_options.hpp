@@ -9,7 +9,9 @@ namespace qwsm::team {
 
 /// A service for robots with 3D scanners.
 struct CloudTeamOptions : ServiceOptions {
-  CloudTeamOptions() : ServiceOptions{.service = "slam6d", .map_period_s = 2.0} {}
+  CloudTeamOptions()
+      : ServiceOptions{
+            .service = "slam6d", .session = {.max_readings = 1'000'000}, .map_period_s = 2.0} {}
 
   slam6d::ReductionOptions map{.voxel_m = 0.1};
 };

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "qwsm/sensor/scan_limits.hpp"
+#include "service/team/scans/thinning.hpp"
 
 namespace qwsm::team {
 namespace {
@@ -82,6 +83,7 @@ template <class Kind>
 bool SessionIntake<Kind>::Enqueue(Scan scan) {
   Join();
   const bool is_malformed = !ObjectionTo(scan).empty();
+  if (!is_malformed) ThinOut(scan);
   const std::lock_guard lock(mutex_);
   ++counts_.scans;
   if (is_malformed) {
@@ -110,6 +112,15 @@ bool SessionIntake<Kind>::Enqueue(Scan scan) {
   queue_.Push({.scan = std::move(scan), .arrived = now});
   counts_.dropped = queue_.dropped();
   return true;
+}
+
+/// Scans that are too heavy would cost the others their answers.
+template <class Kind>
+void SessionIntake<Kind>::ThinOut(Scan& scan) {
+  const std::size_t step = Thin(scan, static_cast<std::size_t>(options_.max_readings));
+  if (step == 1 || is_thinning_told_.exchange(true)) return;
+  events_.Warn("sends more readings in a scan than team.session.max_readings: one in " +
+               std::to_string(step) + " is used");
 }
 
 template <class Kind>

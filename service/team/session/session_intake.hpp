@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -90,12 +91,14 @@ class SessionIntake {
   };
 
   bool IsHere() const;
+  void ThinOut(Scan& scan);
   Lane::Time AwaitsOdometryUntil(const Arrival& next) const;
   void DropScansBeforeOdometry();
   void WatchOdometry(Work& work);
 
   const RobotEvents events_;
   const SessionOptions options_;
+  std::atomic<bool> is_thinning_told_ = false;
 
   mutable std::mutex mutex_;  // Guards what follows.
   RobotState state_ = RobotState::kExpected;

@@ -29,6 +29,7 @@ void Describe(Visitor& visit, RobotStartOptions& o) {
 /// How one robot is listened to.
 struct SessionOptions {
   int queue_scans = 4;
+  int max_readings = 5000;
   double odometry_wait_s = 0.05;
   double max_speed_mps = 5.0;
   double max_turn_rate_radps = 10.0;
@@ -41,6 +42,11 @@ void Describe(Visitor& visit, SessionOptions& o) {
         {.help = "scans of a robot that may wait; then the oldest is dropped",
          .min = 1,
          .max = 100000});
+  visit("max_readings",
+        o.max_readings,
+        {.help = "of a scan with more beams, or points, no more than so many are used, evenly",
+         .min = 100,
+         .max = 20'000'000});
   visit("odometry_wait_s",
         o.odometry_wait_s,
         {.help = "how long a scan waits for the odometry of its moment", .min = 0, .max = 10});

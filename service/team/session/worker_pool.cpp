@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <tuple>
 #include <utility>
 
 namespace qwsm::team {
@@ -58,24 +59,47 @@ void WorkerPool::Work(const std::stop_token& stop) {
       changed_.wait_until(lock, next.ready_at);
       continue;
     }
-    next.entry->is_running = true;
-    lock.unlock();
-    next.entry->lane->RunOne();
-    lock.lock();
-    next.entry->is_running = false;
+    Run(*next.entry, lock);
     changed_.notify_all();
   }
 }
 
-WorkerPool::Choice WorkerPool::NextOf() const {
-  Choice first;
+void WorkerPool::Run(Entry& entry, std::unique_lock<std::mutex>& lock) {
+  fair_share_ = std::max(fair_share_, entry.used);
+  entry.is_running = true;
+  lock.unlock();
+  const Lane::Time begun = Lane::Time::clock::now();
+  entry.lane->RunOne();
+  const Duration used = Lane::Time::clock::now() - begun;
+  lock.lock();
+  entry.is_running = false;
+  entry.used += used;
+}
+
+/// Of those that can be run now, the one that has used least; where there is none, the one that can
+/// be run first.
+WorkerPool::Choice WorkerPool::NextOf() {
+  const Lane::Time now = Lane::Time::clock::now();
+  Choice next;
   for (const std::unique_ptr<Entry>& entry : entries_) {
     if (entry->is_running) continue;
     const std::optional<Lane::Time> ready_at = entry->lane->ReadyAt();
-    if (!ready_at || (first.entry != nullptr && first.ready_at <= *ready_at)) continue;
-    first = {.entry = entry.get(), .ready_at = *ready_at};
+    Note(*entry, ready_at.has_value());
+    if (!ready_at) continue;
+    const auto rank = [now](const Entry& of, Lane::Time at) {
+      return std::tuple(std::max(at, now), of.used, at);
+    };
+    if (next.entry != nullptr && rank(*next.entry, next.ready_at) <= rank(*entry, *ready_at)) {
+      continue;
+    }
+    next = {.entry = entry.get(), .ready_at = *ready_at};
   }
-  return first;
+  return next;
+}
+
+void WorkerPool::Note(Entry& entry, bool has_work) const {
+  if (has_work && !entry.has_work) entry.used = std::max(entry.used, fair_share_);
+  entry.has_work = has_work;
 }
 
 bool WorkerPool::IsIdle() const {

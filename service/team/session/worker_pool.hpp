@@ -29,8 +29,10 @@ class Lane {
   virtual void RunOne() = 0;
 };
 
-/// Threads that work on lanes: each lane in order, the lanes side by side, what has waited longest
-/// first.
+/// Threads that work on lanes: each lane in order, the lanes side by side. Where more than one has
+/// work, it is the turn of that which has had least of the workers' time: a lane whose pieces take
+/// long is worked on less often, and costs the others nothing but the piece that is at work (start
+/// time fair queueing, Goyal et al. 1996).
 class WorkerPool {
  public:
   /// @pre threads > 0
@@ -50,9 +52,12 @@ class WorkerPool {
   void Stop();
 
  private:
+  using Duration = Lane::Time::duration;
   struct Entry {
     std::shared_ptr<Lane> lane;
     bool is_running = false;
+    bool has_work = false;  // As it was looked at last.
+    Duration used{};        // Of the workers' time. What it left unused while idle counts, too.
   };
   struct Choice {
     Entry* entry = nullptr;  // The one to run, once it is time.
@@ -60,12 +65,15 @@ class WorkerPool {
   };
 
   void Work(const std::stop_token& stop);
-  Choice NextOf() const;
+  void Run(Entry& entry, std::unique_lock<std::mutex>& lock);
+  Choice NextOf();
+  void Note(Entry& entry, bool has_work) const;
   bool IsIdle() const;
 
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;
   std::vector<std::unique_ptr<Entry>> entries_;
+  Duration fair_share_{};  // What the entry that ran last had used: who is back begins with that.
   std::vector<std::jthread> threads_;  // Last: they use all of the above.
 };
 
