@@ -59,8 +59,8 @@ std::vector<ScanPoint> LocalSubmap::PointsAround(const Pose2& T_map_robot) const
     }
   }
   std::ranges::sort(seen, {}, [](const Seen& s) { return std::pair(s.cell, s.number); });
-  const auto [first, last] = std::ranges::unique(seen, {}, &Seen::cell);
-  seen.erase(first, last);
+  const auto is_same_cell = [](const Seen& a, const Seen& b) { return a.cell == b.cell; };
+  seen.erase(std::unique(seen.begin(), seen.end(), is_same_cell), seen.end());
   std::vector<ScanPoint> points;
   points.reserve(seen.size());
   for (const Seen& one : seen) points.push_back(*one.T_robot_then * *one.point);
