@@ -44,7 +44,7 @@ void Summarize(const team::TeamStatus& status) {
   for (const team::RobotStatus& robot : status.robots) {
     Print(
         "{:<14} {} of {} scans answered, {} dead-reckoned, {} without odometry, {} dropped, "
-        "{} unplaced, {} relevant; "
+        "{} unplaced, {} relevant{}; "
         "latency {:.2f} ms, p99 {:.2f} ms\n",
         team::DisplayName(robot.name),
         robot.counts.answered,
@@ -54,6 +54,9 @@ void Summarize(const team::TeamStatus& status) {
         robot.counts.dropped,
         robot.counts.unplaced,
         robot.counts.relevant,
+        robot.counts.contradicted_poses == 0
+            ? std::string()
+            : fmt::format(", {} initial poses contradicted", robot.counts.contradicted_poses),
         milliseconds(robot.latency.median),
         milliseconds(robot.latency.p99));
   }

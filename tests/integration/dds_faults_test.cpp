@@ -17,9 +17,11 @@
 #include "service/dds/entities/writer.hpp"
 #include "service/dds/wire/robot_names.hpp"
 #include "service/dds/wire/scan_conversion.hpp"
+#include "service/dds/wire/transform_sample.hpp"
 #include "tests/support/hostile_peer.hpp"
 #include "tests/support/network.hpp"
 #include "tests/support/process_state.hpp"
+#include "tests/support/robot_in_room.hpp"
 #include "tests/support/room_log.hpp"
 
 namespace qwsm::test {
@@ -173,6 +175,68 @@ void PublishAbsurdScans(const PrivateNetwork& network) {
     scans.Write(sample);
     std::this_thread::sleep_for(5ms);
   }
+}
+
+/// A stranger who says again and again that a robot's laser sits elsewhere, as long as it lives.
+class WrongMounting {
+ public:
+  explicit WrongMounting(const PrivateNetwork& network)
+      : participant_({.interface = "lo", .tag = network.tag()}),
+        transforms_(participant_, "/tf_static", dds::Profile::kStaticTransformsOut),
+        thread_([this](const std::stop_token& stop) {
+          for (double turn_rad = 1.0; !stop.stop_requested(); turn_rad += 0.001) {
+            const std::string robot = "robot1/base_link";
+            const std::string laser = "robot1/laser";
+            const auto pose = dds::ToWire(Pose2{1.0, 0.0, NormalizeAngle(turn_rad)});
+            transforms_.Write(dds::TransformSample({}, robot, laser, pose).sample());
+            std::this_thread::sleep_for(10ms);
+          }
+        }) {}
+
+ private:
+  dds::Participant participant_;
+  dds::Writer<dds::wire::TFMessage> transforms_;
+  std::jthread thread_;
+};
+
+TEST_F(DdsFaults, StrangersDoNotSayWhereALaserSits) {
+  Daemon service(Serve({"--output", Path("served")}));
+  ASSERT_TRUE(service.WaitUntilItSays("serving as"));
+  const WrongMounting stranger(network_);
+  const Outcome replay = Replay({"--rate", "max"});
+  EXPECT_EQ(replay.exit_code, 0) << replay.errors;
+  EXPECT_TRUE(service.WaitUntilItSays("/tf_static: a sample was refused: the robot itself says"));
+  EXPECT_EQ(service.End().exit_code, 0);
+  ASSERT_EQ(MapOf().exit_code, 0);
+  EXPECT_TRUE(ReadFile(Path("served/robot1/trajectory.tum")) ==
+              ReadFile(Path("mapped/trajectory.tum")));
+}
+
+TEST_F(DdsFaults, WrongInitialPosesAreRefusedOrTakenBack) {
+  Daemon service(Serve());
+  ASSERT_TRUE(service.WaitUntilItSays("serving as"));
+  RobotInRoom robot(network_);
+  ASSERT_GE(robot.DriveUntilAnswered(60).size(), 60U);
+  robot.Tell({.T_a_b = robot.T_map_robot(), .covariance = 1e300 * Eigen::Matrix3d::Identity()});
+  robot.Tell({.T_a_b = {1e300, 0.0, 0.0}});
+  for (const Pose2& wrong : {Pose2{3.0, 1.0, 1.0}, Pose2{19999.0, 19999.0, 0.0}}) {
+    robot.Tell(UncertainPose2::WithSigmas(robot.T_map_robot() * wrong, 0.5, 0.26));
+    std::this_thread::sleep_for(100ms);  // It is best effort: nobody says that it arrived.
+    const std::vector<dds::MatchReport> reports = robot.DriveUntilAnswered(40);
+    ASSERT_GE(reports.size(), 40U);
+    const Pose2 error = reports.back().map_robot.T_a_b.Inverse() * robot.T_map_robot();
+    EXPECT_LT(error.translation_m().norm(), 0.3);  // Not all that was sent is answered yet.
+  }
+  // From the nearer one its scans may have found back to the right place themselves.
+  const auto some = [](const std::string& count) { return count != "0"; };
+  EXPECT_TRUE(robot.DriveUntil("qwsm: robot1", "contradicted_poses", some));
+  const Outcome served = service.End();
+  for (const char* told : {"the covariance is larger than that of a pose anywhere on Earth",
+                           "its pose is not finite, or more than 10000 km away",
+                           "is not where it was told, says the map: it is back"}) {
+    EXPECT_NE(served.errors.find(told), std::string::npos) << told << '\n' << served.errors;
+  }
+  EXPECT_NE(served.output.find(" initial poses contradicted"), std::string::npos) << served.output;
 }
 
 TEST_F(DdsFaults, AbsurdScansAreRefusedAndTold) {

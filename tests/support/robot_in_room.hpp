@@ -37,6 +37,11 @@ class RobotInRoom {
   Observation NextObservation() { return ObservationInRoom(scan_++); }
   void Publish(const Observation& observation) { publisher_.Publish(observation); }
 
+  /// Tells where it is, as an operator would.
+  void Tell(const UncertainPose2& map_robot) { publisher_.TellPose({}, map_robot); }
+  /// Where it is, as its odometry says, which begins with the map.
+  Pose2 T_map_robot() const { return *ObservationInRoom(scan_ - 1).T_odom_robot; }
+
   /// What a service reported for so long.
   std::vector<dds::MatchReport> Hear(std::chrono::milliseconds period) {
     const auto until = std::chrono::steady_clock::now() + period;

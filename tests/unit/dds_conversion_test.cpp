@@ -65,9 +65,10 @@ TEST(RobotNames, FindRobotsByTheirTopics) {
   EXPECT_EQ(RobotNames("robot1").Frame("odom"), "robot1/odom");
 }
 
-TEST(StaticTransforms, FollowFramesAndRefuseCircles) {
+TEST(StaticTransforms, FollowFramesAskWhoKnowsThemAndRefuseCircles) {
   StaticTransforms transforms;
-  const auto add = [&transforms](std::string parent, std::string child, const Pose2& pose) {
+  Guid source{};
+  const auto add = [&](std::string parent, std::string child, const Pose2& pose) {
     wire::TransformStamped transform{};
     transform.header = HeaderOf({}, parent);
     transform.child_frame_id = Borrow(child);
@@ -75,7 +76,7 @@ TEST(StaticTransforms, FollowFramesAndRefuseCircles) {
     transform.transform.rotation = QuaternionOf(pose.theta_rad);
     wire::TFMessage message{};
     message.transforms = {._maximum = 1, ._length = 1, ._buffer = &transform, ._release = false};
-    transforms.Take(message);
+    transforms.Take(message, source);
   };
   add("base_link", "mast", {1.0, 0.0, kPi / 2});
   add("mast", "laser", {0.5, 0.0, 0.0});
@@ -85,6 +86,13 @@ TEST(StaticTransforms, FollowFramesAndRefuseCircles) {
   EXPECT_NEAR(found->y_m, 0.5, 1e-12);
   EXPECT_EQ(transforms.Find("base_link", "base_link"), Pose2{});
   EXPECT_FALSE(transforms.Find("base_link", "camera"));
+  EXPECT_FALSE(transforms.has_rivals());
+  const Guid own = source;
+  source.front() = 1;
+  add("mast", "laser", {9.0, 0.0, 0.0});
+  EXPECT_TRUE(transforms.has_rivals());
+  EXPECT_NEAR(transforms.Find("base_link", "laser")->y_m, 9.0, 1e-12);
+  EXPECT_NEAR(transforms.Find("base_link", "laser", {own})->y_m, 0.5, 1e-12);
   add("b", "a", {});
   add("a", "b", {});
   EXPECT_FALSE(transforms.Find("base_link", "a"));

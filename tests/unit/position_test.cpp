@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "qwsm/mapping/mapper.hpp"
@@ -34,6 +35,22 @@ TEST(Position, IsFiniteAndOnEarth) {
     EXPECT_FALSE(IsPosition(pose));
     EXPECT_FALSE(ObjectionTo(UncertainPose2{.T_a_b = pose}).empty());
   }
+}
+
+TEST(Position, IsNoLessCertainThanAnywhereOnEarth) {
+  const auto objection = [](const Eigen::Matrix3d& covariance) {
+    return std::string(ObjectionTo(UncertainPose2{.T_a_b = {}, .covariance = covariance}));
+  };
+  EXPECT_EQ(objection(Eigen::Matrix3d::Zero()), "");
+  EXPECT_EQ(objection(1e14 * Eigen::Matrix3d::Identity()), "");
+  EXPECT_EQ(objection(Eigen::Matrix3d::Ones()), "");
+  EXPECT_NE(objection(-Eigen::Matrix3d::Identity()), "");
+  EXPECT_NE(objection(kNan * Eigen::Matrix3d::Ones()), "");
+  EXPECT_EQ(objection(1e300 * Eigen::Matrix3d::Identity()),
+            "the covariance is larger than that of a pose anywhere on Earth");
+  Eigen::Matrix3d correlated = Eigen::Matrix3d::Identity();
+  correlated(0, 1) = 1e300;
+  EXPECT_EQ(objection(correlated), "the covariance has correlations beyond one");
 }
 
 TEST(Position, OfSpaceIsFiniteAndOnEarth) {

@@ -4,7 +4,9 @@
 
 #include <dds/dds.h>
 
+#include <algorithm>
 #include <array>
+#include <utility>
 
 #include "service/dds/entities/topic.hpp"
 
@@ -30,6 +32,7 @@ class Loan {
   const void* operator[](std::size_t i) const {
     return infos_[i].valid_data ? samples_[i] : nullptr;
   }
+  std::uint64_t WriterOf(std::size_t i) const { return infos_[i].publication_handle; }
 
  private:
   dds_entity_t reader_;
@@ -63,14 +66,35 @@ std::size_t UntypedReader::lost_writer_count() const {
   return status.total_count - status.current_count;
 }
 
-std::size_t UntypedReader::TakeSamples(const std::function<void(const void*)>& take) const {
+std::set<Guid> UntypedReader::Participants() const {
+  constexpr std::size_t kMostWriters = 64;
+  std::array<dds_instance_handle_t, kMostWriters> writers{};
+  const dds_return_t count = dds_get_matched_publications(handle(), writers.data(), writers.size());
+  std::set<Guid> participants;
+  for (std::size_t i = 0; std::cmp_less(i, count) && i < writers.size(); ++i) {
+    participants.insert(ParticipantOf(writers[i]));
+  }
+  return participants;
+}
+
+Guid UntypedReader::ParticipantOf(std::uint64_t writer) const {
+  Guid guid{};
+  dds_builtintopic_endpoint_t* const endpoint = dds_get_matched_publication_data(handle(), writer);
+  if (endpoint == nullptr) return guid;
+  std::ranges::copy(endpoint->participant_key.v, guid.begin());
+  dds_builtintopic_free_endpoint(endpoint);
+  return guid;
+}
+
+std::size_t UntypedReader::TakeSamples(
+    const std::function<void(const void*, std::uint64_t)>& take) const {
   std::size_t taken = 0;
   while (true) {
     const Loan loan(handle());
     if (loan.count() == 0) return taken;
     for (std::size_t i = 0; i < loan.count(); ++i) {
       if (loan[i] == nullptr) continue;
-      take(loan[i]);
+      take(loan[i], loan.WriterOf(i));
       ++taken;
     }
   }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <set>
 #include <string>
 
 #include "service/dds/entities/participant.hpp"
@@ -26,12 +27,16 @@ class UntypedReader {
   std::size_t writer_count() const;
   /// How many there have been that are gone.
   std::size_t lost_writer_count() const;
+  /// The participants whose writers this reader hears now.
+  std::set<Guid> Participants() const;
   Entity::Handle handle() const { return reader_.handle(); }
 
  protected:
   /// Hands over every sample that has arrived, in order, and gives it back to the middleware
-  /// afterwards, whatever the callback does.
-  std::size_t TakeSamples(const std::function<void(const void*)>& take) const;
+  /// afterwards, whatever the callback does. It gets the writer's handle, too.
+  std::size_t TakeSamples(const std::function<void(const void*, std::uint64_t)>& take) const;
+  /// All zeros where the writer is gone.
+  Guid ParticipantOf(std::uint64_t writer) const;
 
  private:
   Entity topic_;
@@ -48,7 +53,15 @@ class Reader : public UntypedReader {
   /// Calls `take(const T&)` with every sample that has arrived; returns how many there were.
   template <class Take>
   std::size_t TakeAll(Take&& take) const {
-    return TakeSamples([&take](const void* sample) { take(*static_cast<const T*>(sample)); });
+    return TakeSamples(
+        [&take](const void* sample, std::uint64_t) { take(*static_cast<const T*>(sample)); });
+  }
+  /// Calls `take(const T&, const Guid&)` with the participant it comes from, too.
+  template <class Take>
+  std::size_t TakeAllWithSource(Take&& take) const {
+    return TakeSamples([this, &take](const void* sample, std::uint64_t writer) {
+      take(*static_cast<const T*>(sample), ParticipantOf(writer));
+    });
   }
 };
 

@@ -20,8 +20,10 @@ class RobotFeed::Topics {
 
   void Deliver(std::chrono::nanoseconds timeout, team::RobotListener<team::Planar>& listener) {
     wait_set_.Wait(timeout);
-    static_transforms_.TakeAll(
-        [this](const wire::TFMessage& message) { transforms_.Take(message); });
+    static_transforms_.TakeAllWithSource(
+        [this](const wire::TFMessage& message, const Guid& source) {
+          transforms_.Take(message, source);
+        });
     inbox_.Deliver(transforms_, listener);
   }
 

@@ -15,7 +15,7 @@ namespace {
 // A transform that is not there after this long will not come.
 constexpr auto kPatienceForTransforms = std::chrono::seconds(1);
 constexpr std::size_t kMaxUnplaced = 64;
-constexpr std::size_t kMaxMissingFrames = 256;
+constexpr std::size_t kMaxFrames = 256;
 
 template <class Kind>
 std::string_view ObjectionToPose(const wire::Header& header, const wire::Pose& pose) {
@@ -50,6 +50,7 @@ template <class Kind>
 void BasicRobotInbox<Kind>::Deliver(const BasicStaticTransforms<Kind>& transforms,
                                     team::RobotListener<Kind>& listener) {
   listener.ExpectOdometry(names_.name(), odometry_.writer_count() > 0);
+  if (scans_.writer_count() == 0) mountings_.clear();  // Who comes back may be another one.
   // Robots tell their odometry before the scan: whose scan is here has its odometry here, too.
   scans_.TakeAll([this](const typename OnWire<Kind>::Scan& sample) { HoldScan(sample); });
   odometry_.TakeAll([&](const wire::Odometry& sample) { TakeOdometry(sample, listener); });
@@ -88,15 +89,33 @@ void BasicRobotInbox<Kind>::DeliverPlacedScans(const BasicStaticTransforms<Kind>
                                                team::RobotListener<Kind>& listener) {
   std::deque<UnplacedScan> waiting;
   for (UnplacedScan& next : unplaced_) {
-    const auto T_robot_sensor = SensorOnRobot(next.sensor_frame, transforms);
-    if (!T_robot_sensor) {
+    if (const auto placement = SensorOnRobot(next.sensor_frame, transforms)) {
+      DeliverScan(std::move(next.scan), next.sensor_frame, *placement, listener);
+    } else {
       waiting.push_back(std::move(next));
-      continue;
     }
-    OnWire<Kind>::Mounting(next.scan) = *T_robot_sensor;
-    listener.TakeScan(names_.name(), std::move(next.scan));
   }
   unplaced_ = std::move(waiting);
+}
+
+// A robot does not mount its sensors anew while it drives. Whether it did, its scans will tell.
+template <class Kind>
+void BasicRobotInbox<Kind>::DeliverScan(typename Kind::Scan scan,
+                                        const std::string& sensor_frame,
+                                        const Placement& placement,
+                                        team::RobotListener<Kind>& listener) {
+  const typename Kind::Pose& told = placement.T_robot_sensor;
+  OnWire<Kind>::Mounting(scan) = told;
+  if (placement.is_told && mountings_.size() < kMaxFrames) {
+    mountings_.try_emplace(sensor_frame, told);
+  }
+  const auto used = mountings_.find(sensor_frame);
+  if (used == mountings_.end() || IsSame(used->second, told)) {
+    listener.TakeScan(names_.name(), std::move(scan));
+    return;
+  }
+  OnWire<Kind>::Mounting(scan) = used->second;
+  listener.TakeContestedScan(names_.name(), std::move(scan), told);
 }
 
 template <class Kind>
@@ -113,13 +132,31 @@ void BasicRobotInbox<Kind>::TakeInitialPose(const wire::PoseWithCovarianceStampe
 
 /// A sensor nobody says anything about sits in the middle of the robot.
 template <class Kind>
-std::optional<typename Kind::Pose> BasicRobotInbox<Kind>::SensorOnRobot(
+std::optional<typename BasicRobotInbox<Kind>::Placement> BasicRobotInbox<Kind>::SensorOnRobot(
     const std::string& sensor_frame, const BasicStaticTransforms<Kind>& transforms) {
-  if (const auto known = transforms.Find(robot_frame_, sensor_frame)) return known;
+  if (const auto known = FindSensor(sensor_frame, transforms)) return Placement{*known, true};
   const auto now = std::chrono::steady_clock::now();
-  if (missing_since_.size() >= kMaxMissingFrames) missing_since_.clear();
+  if (missing_since_.size() >= kMaxFrames) missing_since_.clear();
   const auto since = missing_since_.try_emplace(sensor_frame, now).first->second;
-  return now - since < kPatienceForTransforms ? std::nullopt : std::optional(typename Kind::Pose{});
+  if (now - since < kPatienceForTransforms) return std::nullopt;
+  return Placement{};
+}
+
+/// Where several tell of a frame, the participant that sends the robot's scans, or its odometry, is
+/// the one that knows.
+template <class Kind>
+std::optional<typename Kind::Pose> BasicRobotInbox<Kind>::FindSensor(
+    const std::string& sensor_frame, const BasicStaticTransforms<Kind>& transforms) {
+  if (!transforms.has_rivals()) return transforms.Find(robot_frame_, sensor_frame);
+  std::set<Guid> own = scans_.Participants();
+  own.merge(odometry_.Participants());
+  const auto known = transforms.Find(robot_frame_, sensor_frame, own);
+  const auto by_last = transforms.Find(robot_frame_, sensor_frame);
+  const bool is_overruled = known && by_last && !IsSame(*known, *by_last);
+  if (is_overruled && overruled_.insert(sensor_frame).second) {
+    refusals_.Add(kStaticTransformsTopic, "the robot itself says otherwise where its sensor sits");
+  }
+  return known;
 }
 
 template class BasicRobotInbox<team::Planar>;

@@ -7,6 +7,7 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "service/dds/entities/reader.hpp"
@@ -33,14 +34,26 @@ class BasicRobotInbox {
   void Deliver(const BasicStaticTransforms<Kind>& transforms, team::RobotListener<Kind>& listener);
 
  private:
+  /// Where a sensor sits.
+  struct Placement {
+    typename Kind::Pose T_robot_sensor;
+    bool is_told = false;  // Else nobody says anything about it.
+  };
+
   void TakeOdometry(const wire::Odometry& sample, team::RobotListener<Kind>& listener);
   void HoldScan(const typename OnWire<Kind>::Scan& sample);
   void DeliverPlacedScans(const BasicStaticTransforms<Kind>& transforms,
                           team::RobotListener<Kind>& listener);
   void TakeInitialPose(const wire::PoseWithCovarianceStamped& sample,
                        team::RobotListener<Kind>& listener);
-  std::optional<typename Kind::Pose> SensorOnRobot(const std::string& sensor_frame,
-                                                   const BasicStaticTransforms<Kind>& transforms);
+  void DeliverScan(typename Kind::Scan scan,
+                   const std::string& sensor_frame,
+                   const Placement& placement,
+                   team::RobotListener<Kind>& listener);
+  std::optional<Placement> SensorOnRobot(const std::string& sensor_frame,
+                                         const BasicStaticTransforms<Kind>& transforms);
+  std::optional<typename Kind::Pose> FindSensor(const std::string& sensor_frame,
+                                                const BasicStaticTransforms<Kind>& transforms);
 
   /// A scan that waits until it is known where its sensor sits.
   struct UnplacedScan {
@@ -56,6 +69,8 @@ class BasicRobotInbox {
   Reader<wire::PoseWithCovarianceStamped> initial_poses_;
   std::deque<UnplacedScan> unplaced_;
   std::map<std::string, std::chrono::steady_clock::time_point> missing_since_;  // By frame.
+  std::set<std::string> overruled_;  // Frames of which strangers say something else.
+  std::map<std::string, typename Kind::Pose> mountings_;  // By frame, as its scans were sent first.
 };
 
 using RobotInbox = BasicRobotInbox<team::Planar>;

@@ -13,14 +13,6 @@
 #include "service/dds/wire/wire_kind.hpp"
 
 namespace qwsm::dds {
-namespace {
-
-bool IsSame(const Pose2& a, const Pose2& b) { return a == b; }
-bool IsSame(const slam6d::Pose3& a, const slam6d::Pose3& b) {
-  return a.rotation == b.rotation && a.translation_m == b.translation_m;
-}
-
-}  // namespace
 
 template <class Kind>
 class BasicRobotPublisher<Kind>::Topics {

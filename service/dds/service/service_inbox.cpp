@@ -41,8 +41,10 @@ template <class Session>
 void ServiceInbox<Session>::Deliver() {
   NoteMembers();
   ShareRobots();
-  static_transform_reader_.TakeAll(
-      [this](const wire::TFMessage& message) { transforms_.Take(message); });
+  static_transform_reader_.TakeAllWithSource(
+      [this](const wire::TFMessage& message, const Guid& source) {
+        transforms_.Take(message, source);
+      });
   for (const auto& [name, robot] : robots_) robot.inbox->Deliver(transforms_, sessions_);
 }
 

@@ -42,6 +42,8 @@ Health HealthOf(const team::RobotStatus& robot) {
   Add(health, "odometry_readings", counts.odometry_readings);
   Add(health, "odometry_refused", counts.odometry_refused);
   Add(health, "odometry_jumps", counts.odometry_jumps);
+  Add(health, "contradicted_poses", counts.contradicted_poses);
+  Add(health, "contradicted_mountings", counts.contradicted_mountings);
   Add(health, "waiting", robot.waiting);
   AddMilliseconds(health, "matching_median_ms", robot.matching.median);
   AddMilliseconds(health, "matching_p99_ms", robot.matching.p99);

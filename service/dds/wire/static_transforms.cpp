@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/dds/wire/static_transforms.hpp"
 
+#include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "qwsm/geometry/position.hpp"
 #include "service/dds/wire/robot_names.hpp"
@@ -11,14 +13,14 @@
 namespace qwsm::dds {
 namespace {
 
-constexpr std::size_t kMaxFrames = 10'000;  // Of any sane team; more is an attack.
+constexpr std::size_t kMaxStatements = 10'000;  // Of any sane team; more is an attack.
 
 bool IsName(const char* frame) { return strnlen(frame, kMaxNameLength + 1) <= kMaxNameLength; }
 
 }  // namespace
 
 template <class Kind>
-void BasicStaticTransforms<Kind>::Take(const wire::TFMessage& message) {
+void BasicStaticTransforms<Kind>::Take(const wire::TFMessage& message, const Guid& source) {
   for (std::uint32_t i = 0; i < message.transforms._length; ++i) {
     const wire::TransformStamped& transform = message.transforms._buffer[i];
     const auto& p = transform.transform.translation;
@@ -26,27 +28,46 @@ void BasicStaticTransforms<Kind>::Take(const wire::TFMessage& message) {
     const Pose T_parent_child = OnWire<Kind>::PoseOf({{p.x, p.y, p.z}, rotation});
     if (!IsName(transform.header.frame_id) || !IsName(transform.child_frame_id)) continue;
     if (!IsPosition(T_parent_child) || !OnWire<Kind>::IsRotation(rotation)) continue;
-    if (links_.size() >= kMaxFrames && !links_.contains(transform.child_frame_id)) continue;
-    links_[transform.child_frame_id] = {.parent = transform.header.frame_id,
-                                        .T_parent_child = T_parent_child,
-                                        .is_usable = OnWire<Kind>::IsUsable(rotation)};
+    Take(transform.child_frame_id,
+         {.source = source,
+          .parent = transform.header.frame_id,
+          .T_parent_child = T_parent_child,
+          .is_usable = OnWire<Kind>::IsUsable(rotation)});
   }
 }
 
 template <class Kind>
+void BasicStaticTransforms<Kind>::Take(const std::string& child, Link link) {
+  const auto known = links_.find(child);
+  if (known != links_.end()) {
+    statements_ -=
+        std::erase_if(known->second, [&](const Link& old) { return old.source == link.source; });
+  }
+  if (statements_ >= kMaxStatements) return;
+  links_[child].push_back(std::move(link));
+  ++statements_;
+}
+
+template <class Kind>
 std::optional<typename Kind::Pose> BasicStaticTransforms<Kind>::Find(
-    const std::string& ancestor, const std::string& frame) const {
+    const std::string& ancestor, const std::string& frame, const std::set<Guid>& own) const {
   std::optional<Pose> T_current_frame;
   std::string current = frame;
   // A circle of frames ends after as many steps as there are frames.
   for (std::size_t step = 0; step <= links_.size(); ++step) {
     if (current == ancestor) return T_current_frame.value_or(Pose{});
-    const auto link = links_.find(current);
-    if (link == links_.end() || !link->second.is_usable) return std::nullopt;
+    const auto told = links_.find(current);
+    if (told == links_.end()) return std::nullopt;
+    const std::vector<Link>& links = told->second;
+    const auto by_own = std::find_if(links.rbegin(), links.rend(), [&own](const Link& link) {
+      return own.contains(link.source);
+    });
+    const Link& link = by_own != links.rend() ? *by_own : links.back();
+    if (!link.is_usable) return std::nullopt;
     // One step is taken as it is: a product would round.
-    const Pose& T_parent_current = link->second.T_parent_child;
+    const Pose& T_parent_current = link.T_parent_child;
     T_current_frame = T_current_frame ? T_parent_current * *T_current_frame : T_parent_current;
-    current = link->second.parent;
+    current = link.parent;
   }
   return std::nullopt;
 }

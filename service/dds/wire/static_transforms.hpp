@@ -4,13 +4,16 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <vector>
 
+#include "service/dds/entities/participant.hpp"
 #include "service/dds/wire/wire_kind.hpp"
 
 namespace qwsm::dds {
 
-/// What /tf_static says: where frames sit in their parent frames.
+/// What /tf_static says: where frames sit in their parent frames, and who says so.
 /// @tparam Kind of the poses: in the plane, from which tilted frames cannot be reached, or in
 /// space.
 template <class Kind>
@@ -19,20 +22,32 @@ class BasicStaticTransforms {
   using Pose = typename Kind::Pose;
 
   /// Takes all that makes sense; transforms that do not are passed over.
-  void Take(const wire::TFMessage& message);
+  /// @param source the participant that says so.
+  void Take(const wire::TFMessage& message, const Guid& source);
+
+  /// Whether there are frames of which more than one participant tells.
+  bool has_rivals() const { return statements_ > links_.size(); }
 
   /// Where a frame sits on another, over any number of steps; nothing where that is not known, or
-  /// not in the plane.
-  std::optional<Pose> Find(const std::string& ancestor, const std::string& frame) const;
+  /// not in the plane. Of several who tell of one frame the last one counts.
+  /// @param own who counts before all others.
+  std::optional<Pose> Find(const std::string& ancestor,
+                           const std::string& frame,
+                           const std::set<Guid>& own = {}) const;
 
  private:
+  /// What one participant says of a frame.
   struct Link {
+    Guid source{};
     std::string parent;
     Pose T_parent_child;
     bool is_usable = true;
   };
 
-  std::map<std::string, Link> links_;  // By child.
+  void Take(const std::string& child, Link link);
+
+  std::map<std::string, std::vector<Link>> links_;  // By child; the newest last.
+  std::size_t statements_ = 0;
 };
 
 using StaticTransforms = BasicStaticTransforms<team::Planar>;

@@ -44,8 +44,12 @@ std::vector<std::pair<std::size_t, std::string>> ReadLines(const std::filesystem
   std::ifstream stream = qwsm::io::OpenForReading(file);
   qwsm::io::LineReader reader{qwsm::io::ByteSource(stream)};
   std::vector<std::pair<std::size_t, std::string>> lines;
-  while (const std::optional<qwsm::io::Line> line = reader.Next()) {
-    if (!IsBlank(line->text)) lines.emplace_back(line->number, line->text);
+  try {
+    while (const std::optional<qwsm::io::Line> line = reader.Next()) {
+      if (!IsBlank(line->text)) lines.emplace_back(line->number, line->text);
+    }
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(file.string() + ": " + error.what());
   }
   return lines;
 }

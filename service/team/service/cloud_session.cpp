@@ -68,6 +68,9 @@ void CloudSession::RunOne() {
   if (RestoreOne()) return;
   std::optional<Work> work = intake_.Take();
   if (!work) return;
+  if (work->T_robot_sensor_claimed && !std::exchange(is_claim_told_, true)) {
+    events_.Warn("/tf_static has its scanner elsewhere while it drives: not before it joins anew");
+  }
   T_odom_sensor_last_ = EstimateSensor(*work);
   const auto scan = std::make_shared<const CloudScan>(std::move(work->scan));
   CloudAnswer answer = Register(scan);
@@ -161,7 +164,7 @@ SessionCounts CloudSession::Note(const Work& work, const CloudAnswer& answer) {
                              .working = answer.matching,
                              .is_dead_reckoned = status == slam6d::SlamStatus::kDeadReckoned ||
                                                  status == slam6d::SlamStatus::kUnusable,
-                             .is_relevant = status != slam6d::SlamStatus::kUnusable,
+                             .relevant = status != slam6d::SlamStatus::kUnusable ? 1U : 0U,
                              .has_odometry = work.T_odom_robot.has_value()});
 }
 

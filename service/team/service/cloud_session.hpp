@@ -89,6 +89,7 @@ class CloudSession final : public Lane {
 
   // Of the worker alone.
   slam6d::Slam slam_;
+  bool is_claim_told_ = false;                // That its scanner is said to sit elsewhere.
   slam6d::Pose3 T_odom_sensor_last_;          // As it was given to slam_.
   std::optional<slam6d::Pose3> T_slam_odom_;  // Where odometry began anew, or the start was told.
   std::uint64_t sequence_ = SequenceOfNow();

@@ -52,16 +52,20 @@ void RobotSession::PlaceAt(const UncertainPose2& map_robot) {
 void RobotSession::RunOne() {
   std::optional<Work> work = intake_.Take();
   if (!work) return;
+  const std::optional<Pose2> claimed =
+      tracker_.Mount(work->scan, work->T_robot_sensor_claimed, is_placed_);
   HideTeammates(*work);
   const std::vector<ScanPoint> points = ToPoints(work->scan);
-  Answer(*work, points);
+  Answer(*work, points, claimed);
 }
 
-void RobotSession::Answer(Work& work, std::span<const ScanPoint> points) {
+void RobotSession::Answer(Work& work,
+                          std::span<const ScanPoint> points,
+                          const std::optional<Pose2>& claimed_mounting) {
   const auto begun = steady_clock::now();
   const Observation observation{.scan = std::move(work.scan), .T_odom_robot = work.T_odom_robot};
   work.scan.stamp = observation.scan.stamp;
-  MappingStep step;
+  ContestedTracker::Tracked tracked;
   {
     const TeamMap::State::View map = context_.map.Read();
     is_placed_ = is_placed_ && !work.was_elsewhere;
@@ -70,10 +74,12 @@ void RobotSession::Answer(Work& work, std::span<const ScanPoint> points) {
     // Odometry that moves faster than any robot has begun anew; after an interruption it may have.
     const bool may_be_new = work.odometry_goes_on && work.is_interrupted;
     if (work.odometry_jumped || may_be_new) tracker_.SuspectOdometryReset();
-    step = tracker_.Track(*map, observation, points);
+    tracked = tracker_.Track(*map, observation, points, claimed_mounting);
   }
   const auto answered = steady_clock::now();
-  const SessionCounts counts = Note(work, step, answered - begun);
+  const MappingStep& step = tracked.step;
+  TellNews(tracked.news);
+  const SessionCounts counts = Note(work, tracked, answered - begun);
   context_.map.robots().Report(name(), step.map_robot.T_a_b.translation_m(), answered);
   const RobotAnswer answer{.robot = name(),
                            .step = step,
@@ -83,14 +89,30 @@ void RobotSession::Answer(Work& work, std::span<const ScanPoint> points) {
                            .scans = counts.scans,
                            .dropped = counts.dropped};
   context_.sinks.Tell(&TeamSink::TakeAnswer, answer);
-  if (step.relevant) {
-    context_.extend({.key = {.service = context_.service, .robot = name(), .sequence = ++sequence_},
-                     .scan = step.relevant_scan,
-                     .map_robot = step.map_robot,
-                     .T_odom_robot = work.T_odom_robot},
-                    ToPoints(step.relevant_scan));
+  for (TeamScan& scan : tracked.relevant) {
+    scan.key = {.service = context_.service, .robot = name(), .sequence = ++sequence_};
+    context_.extend(scan, ToPoints(scan.scan));
   }
   context_.report(answer);
+}
+
+void RobotSession::TellNews(ContestedTracker::News news) {
+  switch (news) {
+    case ContestedTracker::News::kNone:
+      return;
+    case ContestedTracker::News::kPlaceContradicted:
+      intake_.NoteContradictedPose();
+      return events_.Warn(
+          "is not where it was told, says the map: it is back where it was tracked");
+    case ContestedTracker::News::kMountingContested:
+      return events_.Warn(
+          "/tf_static has its laser elsewhere while it drives: its scans will tell");
+    case ContestedTracker::News::kMountingRefuted:
+      intake_.NoteContradictedMounting();
+      return events_.Warn("its laser is not where /tf_static has it now, say its scans");
+    case ContestedTracker::News::kMountingChanged:
+      return events_.Inform("its laser is where /tf_static has it now, say its scans");
+  }
 }
 
 bool RobotSession::Place(const ScanMap& map, const Work& work, std::span<const ScanPoint> points) {
@@ -100,7 +122,7 @@ bool RobotSession::Place(const ScanMap& map, const Work& work, std::span<const S
     initial_pose = std::exchange(initial_pose_, std::nullopt);
   }
   if (initial_pose) {
-    tracker_.PlaceAt(*initial_pose);
+    is_placed_ ? tracker_.PlaceAsTold(*initial_pose) : tracker_.PlaceAt(*initial_pose);
     return true;
   }
   if (is_placed_) return true;
@@ -148,14 +170,15 @@ void RobotSession::HideTeammates(Work& work) {
 }
 
 SessionCounts RobotSession::Note(const Work& work,
-                                 const MappingStep& step,
+                                 const ContestedTracker::Tracked& tracked,
                                  std::chrono::nanoseconds matching) {
+  const MappingStep& step = tracked.step;
   return intake_.NoteAnswer({.stamp = step.stamp,
                              .map_robot = step.map_robot,
                              .arrived = work.arrived,
                              .working = matching,
                              .is_dead_reckoned = step.status == StepStatus::kDeadReckoned,
-                             .is_relevant = step.relevant,
+                             .relevant = tracked.relevant.size(),
                              .has_odometry = work.T_odom_robot.has_value()});
 }
 

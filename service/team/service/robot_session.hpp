@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "qwsm/mapping/robot_tracker.hpp"
 #include "service/team/map/team_map.hpp"
+#include "service/team/service/contested_tracker.hpp"
 #include "service/team/session/session_intake.hpp"
 #include "service/team/session/session_options.hpp"
 #include "service/team/session/worker_pool.hpp"
@@ -37,7 +37,7 @@ struct SessionContext {
 /// Where it starts: as told; else where it was last, if the map has scans of it; else as
 /// configured; else, where the map is empty, at the origin of its odometry; else where its scan
 /// fits the map and fits nowhere else. Until one of these tells, its scans are counted but not
-/// answered.
+/// answered. What it is told while it is tracked is put to a trial (ContestedTracker).
 class RobotSession final : public Lane {
  public:
   using Kind = Planar;
@@ -60,11 +60,16 @@ class RobotSession final : public Lane {
  private:
   using Work = SessionIntake<Planar>::Work;
 
-  void Answer(Work& work, std::span<const ScanPoint> points);
+  void Answer(Work& work,
+              std::span<const ScanPoint> points,
+              const std::optional<Pose2>& claimed_mounting);
   bool Place(const ScanMap& map, const Work& work, std::span<const ScanPoint> points);
   bool RelocalizeIn(const ScanMap& map, Timestamp stamp, std::span<const ScanPoint> points);
   void HideTeammates(Work& work);
-  SessionCounts Note(const Work& work, const MappingStep& step, std::chrono::nanoseconds matching);
+  void TellNews(ContestedTracker::News news);
+  SessionCounts Note(const Work& work,
+                     const ContestedTracker::Tracked& tracked,
+                     std::chrono::nanoseconds matching);
 
   const SessionContext context_;
   const RobotEvents events_;
@@ -74,7 +79,7 @@ class RobotSession final : public Lane {
   std::optional<UncertainPose2> initial_pose_;
 
   // Of the worker alone.
-  RobotTracker tracker_;
+  ContestedTracker tracker_;
   bool is_placed_ = false;
   std::optional<Pose2> T_odom_last_;
   std::optional<Timestamp> last_relocalization_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string_view>
+#include <utility>
 
 #include "service/team/scans/sensor_kind.hpp"
 
@@ -21,6 +22,12 @@ class RobotListener {
 
   /// @return false if the scan was refused.
   virtual bool TakeScan(std::string_view robot, typename Kind::Scan scan) = 0;
+  /// The same, where somebody has begun to say that its sensor sits elsewhere on the robot.
+  virtual bool TakeContestedScan(std::string_view robot,
+                                 typename Kind::Scan scan,
+                                 const typename Kind::Pose& /*T_robot_sensor_claimed*/) {
+    return TakeScan(robot, std::move(scan));
+  }
   virtual void TakeOdometry(std::string_view robot,
                             Timestamp stamp,
                             const typename Kind::Pose& T_odom_robot) = 0;

@@ -80,7 +80,7 @@ bool SessionIntake<Kind>::IsHere() const {
 }
 
 template <class Kind>
-bool SessionIntake<Kind>::Enqueue(Scan scan) {
+bool SessionIntake<Kind>::Enqueue(Scan scan, const std::optional<Pose>& T_robot_sensor_claimed) {
   Join();
   const bool is_malformed = !ObjectionTo(scan).empty();
   if (!is_malformed) ThinOut(scan);
@@ -109,7 +109,8 @@ bool SessionIntake<Kind>::Enqueue(Scan scan) {
   }
   const Lane::Time now = steady_clock::now();
   if (!first_arrived_) first_arrived_ = now;
-  queue_.Push({.scan = std::move(scan), .arrived = now});
+  queue_.Push(
+      {.scan = std::move(scan), .arrived = now, .T_robot_sensor_claimed = T_robot_sensor_claimed});
   counts_.dropped = queue_.dropped();
   return true;
 }
@@ -173,7 +174,10 @@ std::optional<typename SessionIntake<Kind>::Work> SessionIntake<Kind>::Take() {
   DropScansBeforeOdometry();
   if (queue_.empty()) return std::nullopt;
   Arrival next = queue_.Pop();
-  Work work{.scan = std::move(next.scan), .arrived = next.arrived, .T_odom_robot = {}};
+  Work work{.scan = std::move(next.scan),
+            .arrived = next.arrived,
+            .T_odom_robot = {},
+            .T_robot_sensor_claimed = next.T_robot_sensor_claimed};
   work.T_odom_robot = odometry_.At(work.scan.stamp);
   work.is_interrupted = std::exchange(is_interrupted_, false);
   work.was_elsewhere = std::exchange(was_elsewhere_, false);
@@ -213,12 +217,24 @@ void SessionIntake<Kind>::NoteUnplaced() {
 }
 
 template <class Kind>
+void SessionIntake<Kind>::NoteContradictedPose() {
+  const std::lock_guard lock(mutex_);
+  ++counts_.contradicted_poses;
+}
+
+template <class Kind>
+void SessionIntake<Kind>::NoteContradictedMounting() {
+  const std::lock_guard lock(mutex_);
+  ++counts_.contradicted_mountings;
+}
+
+template <class Kind>
 SessionCounts SessionIntake<Kind>::NoteAnswer(const Outcome& outcome) {
   const std::lock_guard lock(mutex_);
   if (state_ == RobotState::kUnplaced) state_ = RobotState::kTracked;
   ++counts_.answered;
   if (outcome.is_dead_reckoned) ++counts_.dead_reckoned;
-  if (outcome.is_relevant) ++counts_.relevant;
+  counts_.relevant += outcome.relevant;
   if (!outcome.has_odometry) ++counts_.without_odometry;
   working_.Add(outcome.working);
   latency_.Add(steady_clock::now() - outcome.arrived);

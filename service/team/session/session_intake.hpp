@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -34,6 +35,7 @@ class SessionIntake {
     Scan scan;
     Lane::Time arrived{};
     std::optional<Pose> T_odom_robot;
+    std::optional<Pose> T_robot_sensor_claimed;  ///< See RobotListener::TakeContestedScan().
     bool is_interrupted = false;    ///< The robot, or its clock, was away since the last scan.
     bool was_elsewhere = false;     ///< Another service knows better where it is.
     bool odometry_jumped = false;   ///< It moved faster than any robot: it began anew.
@@ -47,7 +49,7 @@ class SessionIntake {
     Lane::Time arrived{};
     std::chrono::nanoseconds working{};
     bool is_dead_reckoned = false;
-    bool is_relevant = false;
+    std::size_t relevant = 0;  ///< Scans that the map is extended with now.
     bool has_odometry = false;
   };
 
@@ -64,7 +66,7 @@ class SessionIntake {
 
   /// Whoever sends scans has joined. @return false if the scan was refused. One that is taken may
   /// still be dropped for newer ones.
-  bool Enqueue(Scan scan);
+  bool Enqueue(Scan scan, const std::optional<Pose>& T_robot_sensor_claimed = {});
   void TakeOdometry(Timestamp stamp, const Pose& T_odom_robot);
   /// Whether scans are to wait for odometry. They are, from the first reading on.
   void ExpectOdometry(bool expected);
@@ -79,6 +81,10 @@ class SessionIntake {
 
   /// Nobody knows where the robot is: its scan was left unanswered.
   void NoteUnplaced();
+  /// Its scans contradict where it was told to be.
+  void NoteContradictedPose();
+  /// They contradict where its sensor was said to sit.
+  void NoteContradictedMounting();
   /// @return the robot's counts with this answer.
   SessionCounts NoteAnswer(const Outcome& outcome);
 
@@ -88,6 +94,7 @@ class SessionIntake {
   struct Arrival {
     Scan scan;
     Lane::Time arrived{};
+    std::optional<Pose> T_robot_sensor_claimed;
   };
 
   bool IsHere() const;

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -74,10 +75,12 @@ class SessionList final : public RobotListener<typename Session::Kind> {
   /// @return false if the scan was refused: malformed, of a wrong time or a duplicate. See its
   /// counts.
   bool TakeScan(std::string_view robot, typename Kind::Scan scan) override {
-    const auto session = Of(robot);
-    if (!session || !session->intake().Enqueue(std::move(scan))) return false;
-    Wake();
-    return true;
+    return Enqueue(robot, std::move(scan), std::nullopt);
+  }
+  bool TakeContestedScan(std::string_view robot,
+                         typename Kind::Scan scan,
+                         const typename Kind::Pose& T_robot_sensor_claimed) override {
+    return Enqueue(robot, std::move(scan), T_robot_sensor_claimed);
   }
   void TakeOdometry(std::string_view robot,
                     Timestamp stamp,
@@ -113,6 +116,16 @@ class SessionList final : public RobotListener<typename Session::Kind> {
     const std::lock_guard lock(mutex_);
     const auto found = sessions_.find(robot);
     return found == sessions_.end() ? nullptr : found->second;
+  }
+  bool Enqueue(std::string_view robot,
+               typename Kind::Scan scan,
+               const std::optional<typename Kind::Pose>& T_robot_sensor_claimed) {
+    const auto session = Of(robot);
+    if (!session || !session->intake().Enqueue(std::move(scan), T_robot_sensor_claimed)) {
+      return false;
+    }
+    Wake();
+    return true;
   }
   void Wake() {
     const std::lock_guard lock(mutex_);

@@ -46,7 +46,9 @@ struct SessionCounts {
   std::uint64_t clock_resets = 0;      ///< The robot's clock was set.
   std::uint64_t odometry_readings = 0;
   std::uint64_t odometry_refused = 0;
-  std::uint64_t odometry_jumps = 0;  ///< Faster than any robot: odometry began anew.
+  std::uint64_t odometry_jumps = 0;          ///< Faster than any robot: odometry began anew.
+  std::uint64_t contradicted_poses = 0;      ///< Initial poses that its scans contradicted.
+  std::uint64_t contradicted_mountings = 0;  ///< Places of its laser that they contradicted.
 };
 
 struct LatencySummary {

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "service/team/service/tracking_trial.hpp"
+
+namespace qwsm::team {
+
+/// The tracker of a robot of which anybody may say where it is and where its laser sits. What goes
+/// against how it is tracked is put to the trial of its scans:
+/// * Where it was told to be it is from then on, but the map is not extended until its scans agree;
+///   it goes back to where it was tracked if they contradict.
+/// * Its laser sits where it did, until its scans agree better with what is claimed.
+class ContestedTracker {
+ public:
+  /// What a scan has brought to light.
+  enum class News {
+    kNone,
+    kPlaceContradicted,  ///< It is back where it was tracked, not where it was told.
+    kMountingContested,  ///< Somebody says that its laser sits elsewhere: its scans will tell.
+    kMountingRefuted,    ///< It does not.
+    kMountingChanged,    ///< It does.
+  };
+
+  struct Tracked {
+    MappingStep step;
+    std::vector<TeamScan> relevant;  ///< To extend the map with; they have no keys yet.
+    News news = News::kNone;
+  };
+
+  explicit ContestedTracker(const MapperOptions& options) : tracker_(options) {}
+
+  /// Where the robot is, beyond dispute.
+  void PlaceAt(const UncertainPose2& map_robot, const std::optional<Pose2>& T_odom_robot = {});
+  /// Somebody says where it is, while it is tracked.
+  void PlaceAsTold(const UncertainPose2& map_robot);
+  /// See RobotTracker.
+  void SuspectOdometryReset();
+
+  /// Settles where the laser of a scan sits. @param claimed where somebody says that it does, other
+  /// than the scan. @param is_tracked else the claim is taken. @return the claim if it is open.
+  std::optional<Pose2> Mount(LaserScan& scan, const std::optional<Pose2>& claimed, bool is_tracked);
+
+  /// Finds where the robot is. @param claimed what Mount() returned.
+  Tracked Track(const ScanMap& map,
+                const Observation& observation,
+                std::span<const ScanPoint> points,
+                const std::optional<Pose2>& claimed);
+
+  const UncertainPose2& map_robot() const { return tracker_.map_robot(); }
+
+ private:
+  /// A claim that was settled.
+  struct Mounting {
+    Pose2 T_robot_laser;
+    Pose2 claimed;
+    bool is_believed = false;
+  };
+
+  bool Contest(const std::optional<Pose2>& claimed);
+  TrackingTrial::Verdict Hear(const ScanMap& map,
+                              const Observation& observation,
+                              std::span<const ScanPoint> points,
+                              const MappingStep& step);
+  News Settle(const Observation& observation, bool is_rival_right, Tracked& tracked);
+
+  RobotTracker tracker_;
+  double explained_share_ = 0.0;  // Of the last scan, by the map.
+  std::optional<TrackingTrial> trial_;
+  std::optional<Pose2> claimed_;  // The laser's place that the trial is about, if not the robot's.
+  std::vector<Mounting> settled_;
+};
+
+}  // namespace qwsm::team

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/team/service/tracking_trial.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace qwsm::team {
+namespace {
+
+// A wrong pose explains by chance about half of what the right one does: half way between them.
+constexpr double kStillExplained = 0.75;
+// After so many relevant scans that fit both alike nothing is to be expected of the next.
+constexpr std::size_t kUndecidedScans = 10;
+
+}  // namespace
+
+void AddRelevant(const MappingStep& step,
+                 const Observation& observation,
+                 std::vector<TeamScan>& scans) {
+  if (!step.relevant) return;
+  TeamScan& scan = scans.emplace_back();
+  scan.scan = step.relevant_scan;
+  scan.map_robot = step.map_robot;
+  scan.T_odom_robot = observation.T_odom_robot;
+}
+
+double ExplainedShare(const MappingStep& step) {
+  const bool is_matched =
+      step.status == StepStatus::kMatched || step.status == StepStatus::kExtended;
+  return is_matched ? step.match.overlap : 0.0;
+}
+
+void TrackingTrial::BeginAnew() {
+  evidence_points_ = std::max(0.0, evidence_points_);
+  held_.clear();
+}
+
+TrackingTrial::Verdict TrackingTrial::Hear(const ScanMap& map,
+                                           const Account& of_rival,
+                                           const Observation& observation,
+                                           const MappingStep& step) {
+  rival_step_ = rival_.Track(map, of_rival.observation, of_rival.points);
+  AddRelevant(step, observation, held_);
+  AddRelevant(rival_step_, of_rival.observation, held_by_rival_);
+  evidence_points_ += EvidenceOf(of_rival.points.size(), step);
+  const double whole_scan = rival_.options().locator.search.independent_points;
+  if (evidence_points_ > whole_scan) return Verdict::kRivalTakesOver;
+  const bool is_decided = evidence_points_ < -whole_scan || IsSamePlace(step) ||
+                          std::max(held_.size(), held_by_rival_.size()) >= kUndecidedScans;
+  return is_decided ? Verdict::kRivalFails : Verdict::kOpen;
+}
+
+double TrackingTrial::EvidenceOf(std::size_t points, const MappingStep& step) const {
+  const auto most = static_cast<std::size_t>(rival_.options().locator.search.independent_points);
+  const auto independent = static_cast<double>(std::min(points, most));
+  const double by_rival = ExplainedShare(rival_step_);
+  if (by_rival < kStillExplained * overlap_) return -independent * (overlap_ - by_rival);
+  return independent * (by_rival - ExplainedShare(step));
+}
+
+// To within what a search is sure of, for the robot and for what is a metre away from it.
+bool TrackingTrial::IsSamePlace(const MappingStep& step) const {
+  if (ExplainedShare(step) == 0.0 || ExplainedShare(rival_step_) == 0.0) return false;
+  const double sure_m = 3.0 * rival_.options().locator.search_error_m;
+  const Pose2 apart = step.map_robot.T_a_b.Inverse() * rival_step_.map_robot.T_a_b;
+  return apart.translation_m().norm() < sure_m && std::abs(apart.theta_rad) < sure_m;
+}
+
+}  // namespace qwsm::team

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "qwsm/mapping/robot_tracker.hpp"
+#include "service/team/scans/team_scan.hpp"
+
+namespace qwsm::team {
+
+/// Somebody says of a robot that is tracked what does not go with that: that it is somewhere else,
+/// or that its laser sits elsewhere. Both may be true, so the robot is followed by two trackers
+/// until its scans have told which is right. The rival takes over where it explains them as before
+/// and better than the other. Where the scans do not tell, as in rooms that are alike, it does not.
+///
+/// The evidence is a sequential test (Wald 1945): by how many points more the one explains the
+/// scans than the other, until that is as many as a whole scan can tell.
+class TrackingTrial {
+ public:
+  enum class Verdict { kOpen, kRivalFails, kRivalTakesOver };
+
+  /// A scan and what a tracker makes of it.
+  struct Account {
+    const Observation& observation;
+    std::span<const ScanPoint> points;
+  };
+
+  /// @param overlap of the robot's last match, before anything was said.
+  TrackingTrial(RobotTracker rival, double overlap) : rival_(std::move(rival)), overlap_(overlap) {}
+
+  /// The odometry may have begun anew, see RobotTracker.
+  void SuspectOdometryReset() { rival_.SuspectOdometryReset(); }
+  /// The other tracker begins anew. What spoke for the rival still does.
+  void BeginAnew();
+
+  /// Hears the next scan. @param of_rival as the rival sees it. @param step what the other made of
+  /// it.
+  Verdict Hear(const ScanMap& map,
+               const Account& of_rival,
+               const Observation& observation,
+               const MappingStep& step);
+
+  const RobotTracker& rival() const { return rival_; }
+  /// What the rival made of the last scan.
+  const MappingStep& rival_step() const { return rival_step_; }
+
+  /// The relevant scans since the trial began, by which the map is to be extended after it. They
+  /// have no keys yet.
+  const std::vector<TeamScan>& held() const { return held_; }
+  const std::vector<TeamScan>& held_by_rival() const { return held_by_rival_; }
+
+ private:
+  double EvidenceOf(std::size_t points, const MappingStep& step) const;
+  bool IsSamePlace(const MappingStep& step) const;
+
+  RobotTracker rival_;
+  double overlap_;
+  MappingStep rival_step_;
+  double evidence_points_ = 0.0;  // For the rival; negative: for the other.
+  std::vector<TeamScan> held_;
+  std::vector<TeamScan> held_by_rival_;
+};
+
+/// Adds the scan of a step if it is relevant, without a key.
+void AddRelevant(const MappingStep& step,
+                 const Observation& observation,
+                 std::vector<TeamScan>& scans);
+
+/// Share of the scan that the map explains; 0 where there is no match.
+double ExplainedShare(const MappingStep& step);
+
+}  // namespace qwsm::team
