@@ -206,10 +206,12 @@ TEST_F(DdsFaults, StrangersDoNotSayWhereALaserSits) {
   const Outcome replay = Replay({"--rate", "max"});
   EXPECT_EQ(replay.exit_code, 0) << replay.errors;
   EXPECT_TRUE(service.WaitUntilItSays("/tf_static: a sample was refused: the robot itself says"));
-  EXPECT_EQ(service.End().exit_code, 0);
+  const Outcome served = service.End();
+  EXPECT_EQ(served.exit_code, 0);
   ASSERT_EQ(MapOf().exit_code, 0);
   EXPECT_TRUE(ReadFile(Path("served/robot1/trajectory.tum")) ==
-              ReadFile(Path("mapped/trajectory.tum")));
+              ReadFile(Path("mapped/trajectory.tum")))
+      << served.errors << served.output;
 }
 
 TEST_F(DdsFaults, WrongInitialPosesAreRefusedOrTakenBack) {

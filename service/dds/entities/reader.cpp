@@ -67,7 +67,7 @@ std::size_t UntypedReader::lost_writer_count() const {
 }
 
 std::set<Guid> UntypedReader::Participants() const {
-  constexpr std::size_t kMostWriters = 64;
+  constexpr std::size_t kMostWriters = 1024;
   std::array<dds_instance_handle_t, kMostWriters> writers{};
   const dds_return_t count = dds_get_matched_publications(handle(), writers.data(), writers.size());
   std::set<Guid> participants;

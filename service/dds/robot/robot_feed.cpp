@@ -20,6 +20,7 @@ class RobotFeed::Topics {
 
   void Deliver(std::chrono::nanoseconds timeout, team::RobotListener<team::Planar>& listener) {
     wait_set_.Wait(timeout);
+    inbox_.HoldScans();
     static_transforms_.TakeAllWithSource(
         [this](const wire::TFMessage& message, const Guid& source) {
           transforms_.Take(message, source);
@@ -30,7 +31,7 @@ class RobotFeed::Topics {
  private:
   WaitSet wait_set_;
   Reader<wire::TFMessage> static_transforms_;
-  StaticTransforms transforms_;
+  StaticTransforms transforms_{[this] { return static_transforms_.Participants(); }};
   RobotInbox inbox_;
 };
 

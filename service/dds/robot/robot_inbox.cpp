@@ -47,12 +47,18 @@ std::array<Entity::Handle, 3> BasicRobotInbox<Kind>::handles() const {
 }
 
 template <class Kind>
+void BasicRobotInbox<Kind>::HoldScans() {
+  // Who comes back may have been mounted anew. What a publisher that is gone sent last was not.
+  if (!std::exchange(has_publisher_, scans_.writer_count() > 0) && has_publisher_) {
+    mountings_.clear();
+  }
+  scans_.TakeAll([this](const typename OnWire<Kind>::Scan& sample) { HoldScan(sample); });
+}
+
+template <class Kind>
 void BasicRobotInbox<Kind>::Deliver(const BasicStaticTransforms<Kind>& transforms,
                                     team::RobotListener<Kind>& listener) {
   listener.ExpectOdometry(names_.name(), odometry_.writer_count() > 0);
-  if (scans_.writer_count() == 0) mountings_.clear();  // Who comes back may be another one.
-  // Robots tell their odometry before the scan: whose scan is here has its odometry here, too.
-  scans_.TakeAll([this](const typename OnWire<Kind>::Scan& sample) { HoldScan(sample); });
   odometry_.TakeAll([&](const wire::Odometry& sample) { TakeOdometry(sample, listener); });
   initial_poses_.TakeAll(
       [&](const wire::PoseWithCovarianceStamped& sample) { TakeInitialPose(sample, listener); });
@@ -134,23 +140,31 @@ void BasicRobotInbox<Kind>::TakeInitialPose(const wire::PoseWithCovarianceStampe
 template <class Kind>
 std::optional<typename BasicRobotInbox<Kind>::Placement> BasicRobotInbox<Kind>::SensorOnRobot(
     const std::string& sensor_frame, const BasicStaticTransforms<Kind>& transforms) {
-  if (const auto known = FindSensor(sensor_frame, transforms)) return Placement{*known, true};
+  const auto known = FindSensor(sensor_frame, transforms);
+  const bool is_settled =
+      known && (mountings_.contains(sensor_frame) || !transforms.IsAwaited(sensor_frame, Own()));
+  if (is_settled) return Placement{*known, true};
   const auto now = std::chrono::steady_clock::now();
   if (missing_since_.size() >= kMaxFrames) missing_since_.clear();
   const auto since = missing_since_.try_emplace(sensor_frame, now).first->second;
   if (now - since < kPatienceForTransforms) return std::nullopt;
-  return Placement{};
+  return known ? Placement{*known, true} : Placement{};
 }
 
-/// Where several tell of a frame, the participant that sends the robot's scans, or its odometry, is
-/// the one that knows.
+/// The participants that send the robot's scans, or its odometry.
+template <class Kind>
+std::set<Guid> BasicRobotInbox<Kind>::Own() const {
+  std::set<Guid> own = scans_.Participants();
+  own.merge(odometry_.Participants());
+  return own;
+}
+
+/// Where several tell of a frame, the robot's own participant is the one that knows.
 template <class Kind>
 std::optional<typename Kind::Pose> BasicRobotInbox<Kind>::FindSensor(
     const std::string& sensor_frame, const BasicStaticTransforms<Kind>& transforms) {
   if (!transforms.has_rivals()) return transforms.Find(robot_frame_, sensor_frame);
-  std::set<Guid> own = scans_.Participants();
-  own.merge(odometry_.Participants());
-  const auto known = transforms.Find(robot_frame_, sensor_frame, own);
+  const auto known = transforms.Find(robot_frame_, sensor_frame, Own());
   const auto by_last = transforms.Find(robot_frame_, sensor_frame);
   const bool is_overruled = known && by_last && !IsSame(*known, *by_last);
   if (is_overruled && overruled_.insert(sensor_frame).second) {

@@ -30,7 +30,10 @@ class BasicRobotInbox {
 
   std::array<Entity::Handle, 3> handles() const;
 
-  /// Delivers all that has arrived: odometry before scans, for scans are matched with it.
+  /// Takes the scans that have arrived. To be called before transforms and odometry are taken:
+  /// robots tell these before the scan, so that whose scan is here has them here, too.
+  void HoldScans();
+  /// Delivers them, and all else that has arrived: odometry first, for scans are matched with it.
   void Deliver(const BasicStaticTransforms<Kind>& transforms, team::RobotListener<Kind>& listener);
 
  private:
@@ -52,6 +55,7 @@ class BasicRobotInbox {
                    team::RobotListener<Kind>& listener);
   std::optional<Placement> SensorOnRobot(const std::string& sensor_frame,
                                          const BasicStaticTransforms<Kind>& transforms);
+  std::set<Guid> Own() const;
   std::optional<typename Kind::Pose> FindSensor(const std::string& sensor_frame,
                                                 const BasicStaticTransforms<Kind>& transforms);
 
@@ -69,6 +73,7 @@ class BasicRobotInbox {
   Reader<wire::PoseWithCovarianceStamped> initial_poses_;
   std::deque<UnplacedScan> unplaced_;
   std::map<std::string, std::chrono::steady_clock::time_point> missing_since_;  // By frame.
+  bool has_publisher_ = false;                                                  // Of scans.
   std::set<std::string> overruled_;  // Frames of which strangers say something else.
   std::map<std::string, typename Kind::Pose> mountings_;  // By frame, as its scans were sent first.
 };

@@ -41,6 +41,7 @@ template <class Session>
 void ServiceInbox<Session>::Deliver() {
   NoteMembers();
   ShareRobots();
+  for (const auto& [name, robot] : robots_) robot.inbox->HoldScans();
   static_transform_reader_.TakeAllWithSource(
       [this](const wire::TFMessage& message, const Guid& source) {
         transforms_.Take(message, source);

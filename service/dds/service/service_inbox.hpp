@@ -75,7 +75,8 @@ class ServiceInbox {
   RobotDiscovery discovery_;
   OtherServices others_;
   Reader<wire::TFMessage> static_transform_reader_;
-  BasicStaticTransforms<Kind> transforms_;
+  BasicStaticTransforms<Kind> transforms_{
+      [this] { return static_transform_reader_.Participants(); }};
   std::set<std::string> publishers_;  // Robots whose scans are published.
   std::map<std::string, Robot> robots_;
 };

@@ -49,6 +49,19 @@ void BasicStaticTransforms<Kind>::Take(const std::string& child, Link link) {
 }
 
 template <class Kind>
+bool BasicStaticTransforms<Kind>::IsAwaited(const std::string& frame,
+                                            const std::set<Guid>& own) const {
+  const auto told = links_.find(frame);
+  const auto has_spoken = [&](const Guid& source) {
+    return told != links_.end() &&
+           std::ranges::find(told->second, source, &Link::source) != told->second.end();
+  };
+  const std::set<Guid> speakers = speakers_ ? speakers_() : std::set<Guid>{};
+  return std::ranges::any_of(
+      own, [&](const Guid& source) { return speakers.contains(source) && !has_spoken(source); });
+}
+
+template <class Kind>
 std::optional<typename Kind::Pose> BasicStaticTransforms<Kind>::Find(
     const std::string& ancestor, const std::string& frame, const std::set<Guid>& own) const {
   std::optional<Pose> T_current_frame;

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "service/dds/entities/participant.hpp"
@@ -21,9 +23,17 @@ class BasicStaticTransforms {
  public:
   using Pose = typename Kind::Pose;
 
+  using Speakers = std::function<std::set<Guid>()>;
+
+  /// @param speakers the participants that publish them at the moment.
+  explicit BasicStaticTransforms(Speakers speakers = {}) : speakers_(std::move(speakers)) {}
+
   /// Takes all that makes sense; transforms that do not are passed over.
   /// @param source the participant that says so.
   void Take(const wire::TFMessage& message, const Guid& source);
+
+  /// Whether one of those who publish transforms, and whose word counts, has not spoken of a frame.
+  bool IsAwaited(const std::string& frame, const std::set<Guid>& own) const;
 
   /// Whether there are frames of which more than one participant tells.
   bool has_rivals() const { return statements_ > links_.size(); }
@@ -46,6 +56,7 @@ class BasicStaticTransforms {
 
   void Take(const std::string& child, Link link);
 
+  Speakers speakers_;
   std::map<std::string, std::vector<Link>> links_;  // By child; the newest last.
   std::size_t statements_ = 0;
 };
