@@ -189,6 +189,19 @@ double DistanceToSurface(const test::World& world, const Eigen::Vector2d& p_m) {
 }
 
 // Every occupied cell is near a wall, and nearly all of the way that was driven is free.
+TEST(OccupancyGrid, HoldsMemoryForWhatWasSeenHoweverFarApart) {
+  RelevantScan scan = FourBeams({5.0F, 5.0F, 5.0F, 5.0F});
+  OccupancyPainter near;
+  near.Add(scan);
+  OccupancyPainter far;
+  far.Add(scan);
+  scan.map_robot.T_a_b = {200.0, -150.0, 1.0};
+  far.Add(scan);
+  EXPECT_EQ(far.Grid().status, RenderStatus::kRendered);
+  EXPECT_LE(far.bytes(), 3 * near.bytes());  // A tile more or less, where it begins.
+  EXPECT_LT(near.bytes(), 500'000U);
+}
+
 TEST(OccupancyGrid, OfASimulatedDriveIsTheWorld) {
   const test::Scene scene = test::TwoRoomsAndCorridor();
   const test::SimulatedDrive drive = DriveThrough(scene, {});

@@ -112,11 +112,15 @@ void OccupancyPainter::MakeRoom(const Eigen::AlignedBox2d& box_map_m) {
   if (!extent_m_.isEmpty() && extent_m_.contains(box_map_m)) return;
   extent_m_.extend(box_map_m);
   if (!Fits(extent_m_, options_.cell_m)) {
-    cells_ = {};
+    tiles_.clear();
+    last_tile_ = nullptr;
     return;
   }
   const Frame needed = FrameAround(extent_m_);
-  if (cells_.empty()) return GrowTo(needed);
+  if (frame_.width == 0) {
+    first_frame_ = needed;
+    return GrowTo(needed);
+  }
   const CellIndex at = Offset(needed, frame_);
   const bool is_there = at.x >= 0 && at.y >= 0 && at.x + needed.width <= frame_.width &&
                         at.y + needed.height <= frame_.height;
@@ -129,23 +133,9 @@ void OccupancyPainter::MakeRoom(const Eigen::AlignedBox2d& box_map_m) {
   GrowTo(Fits(wide_m, options_.cell_m) ? FrameAround(wide_m) : needed);
 }
 
-// @pre the frame holds everything seen so far.
 void OccupancyPainter::GrowTo(const Frame& grown) {
-  std::vector<Cell> cells(static_cast<std::size_t>(grown.width) *
-                          static_cast<std::size_t>(grown.height));
-  const Frame seen = cells_.empty() ? Frame{} : frame_;
-  const CellIndex at = Offset(seen, grown);
-  for (int y = 0; y < seen.height; ++y) {
-    for (int x = 0; x < seen.width; ++x) {
-      const Cell& cell = At({x, y});
-      if (cell.seen > 0) {
-        cells[static_cast<std::size_t>(y + at.y) * static_cast<std::size_t>(grown.width) +
-              static_cast<std::size_t>(x + at.x)] = cell;
-      }
-    }
-  }
   frame_ = grown;
-  cells_ = std::move(cells);
+  at_ = Offset(frame_, first_frame_);
 }
 
 OccupancyGridResult OccupancyPainter::Grid() const {
@@ -159,22 +149,33 @@ OccupancyGridResult OccupancyPainter::Grid() const {
     return result;
   }
   const Frame frame = FrameAround(extent_m_);
-  const CellIndex at = Offset(frame, frame_);
   result.grid = {.cell_m = options_.cell_m,
                  .origin_map_m = frame.origin_map_m,
                  .width = frame.width,
                  .height = frame.height,
                  .cells = {}};
-  result.grid.cells.reserve(static_cast<std::size_t>(frame.width) *
-                            static_cast<std::size_t>(frame.height));
-  for (int y = 0; y < frame.height; ++y) {
-    const Cell* row =
-        &cells_[static_cast<std::size_t>(y + at.y) * static_cast<std::size_t>(frame_.width) +
-                static_cast<std::size_t>(at.x)];
-    for (int x = 0; x < frame.width; ++x) result.grid.cells.push_back(StateOfCell(row[x]));
+  result.grid.cells.resize(
+      static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height),
+      CellState::kUnknown);
+  const CellIndex at = Offset(frame, first_frame_);
+  for (const auto& [key, tile] : tiles_) {
+    const CellIndex first = FirstCellOf(key);
+    Draw(tile, {first.x - at.x, first.y - at.y}, result.grid);
   }
   result.status = RenderStatus::kRendered;
   return result;
+}
+
+// What is seen lies in the grid, but not all of a tile that has some of it.
+void OccupancyPainter::Draw(const Tile& tile, CellIndex first, OccupancyGrid& grid) const {
+  const int end_x = std::min(Tile::kSide, grid.width - first.x);
+  const int end_y = std::min(Tile::kSide, grid.height - first.y);
+  for (int y = std::max(0, -first.y); y < end_y; ++y) {
+    for (int x = std::max(0, -first.x); x < end_x; ++x) {
+      grid.cells[static_cast<std::size_t>(first.y + y) * static_cast<std::size_t>(grid.width) +
+                 static_cast<std::size_t>(first.x + x)] = StateOfCell(tile.At({x, y}));
+    }
+  }
 }
 
 bool OccupancyPainter::Fits(const Eigen::AlignedBox2d& extent_m, double cell_m) const {
@@ -219,8 +220,13 @@ OccupancyPainter::CellIndex OccupancyPainter::CellOf(const Eigen::Vector2d& p_ma
 }
 
 OccupancyPainter::Cell& OccupancyPainter::At(CellIndex index) {
-  return cells_[static_cast<std::size_t>(index.y) * static_cast<std::size_t>(frame_.width) +
-                static_cast<std::size_t>(index.x)];
+  const CellIndex in_first{index.x + at_.x, index.y + at_.y};
+  const std::uint64_t key = Key(in_first);
+  if (last_tile_ == nullptr || key != last_key_) {
+    last_key_ = key;
+    last_tile_ = &tiles_[key];
+  }
+  return last_tile_->At(in_first);
 }
 
 CellState OccupancyPainter::StateOfCell(const Cell& cell) const {
@@ -251,19 +257,18 @@ void OccupancyPainter::CountFreeLine(CellIndex from, CellIndex to) {
   const int dx = std::abs(to.x - from.x);
   const int dy = -std::abs(to.y - from.y);
   const int step_x = from.x < to.x ? 1 : -1;
-  const std::ptrdiff_t row = from.y < to.y ? frame_.width : -frame_.width;
-  Cell* cell = &At(from);
+  const int step_y = from.y < to.y ? 1 : -1;
   int error = dx + dy;
-  for (const Cell* const last = &At(to); cell != last;) {
-    CountSeen(*cell);
+  for (CellIndex at = from; at.x != to.x || at.y != to.y;) {
+    CountSeen(At(at));
     const int doubled = 2 * error;
     if (doubled >= dy) {
       error += dy;
-      cell += step_x;
+      at.x += step_x;
     }
     if (doubled <= dx) {
       error += dx;
-      cell += row;
+      at.y += step_y;
     }
   }
 }
