@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <map>
-#include <ranges>
 #include <system_error>
 #include <vector>
 
@@ -40,8 +39,8 @@ fs::path FindScenario(const std::string& path_or_name) {
   if (!is_name || fs::is_regular_file(path_or_name, error)) return path_or_name;
   const std::map<std::string, fs::path> shipped = ShippedScenarios();
   if (const auto found = shipped.find(path_or_name); found != shipped.end()) return found->second;
-  const auto keys = std::views::keys(shipped);
-  const std::vector<std::string> names(keys.begin(), keys.end());
+  std::vector<std::string> names;
+  for (const auto& [name, file] : shipped) names.push_back(name);
   Problem unknown;
   unknown.location.source = path_or_name;
   unknown.what = fmt::format(
