@@ -10,11 +10,15 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <memory>
 #include <string>
+#include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "service/dds/entities/writer.hpp"
+#include "service/dds/robot/robot_feed.hpp"
 #include "service/dds/wire/robot_names.hpp"
 #include "service/dds/wire/scan_conversion.hpp"
 #include "service/dds/wire/transform_sample.hpp"
@@ -212,6 +216,65 @@ TEST_F(DdsFaults, StrangersDoNotSayWhereALaserSits) {
   EXPECT_TRUE(ReadFile(Path("served/robot1/trajectory.tum")) ==
               ReadFile(Path("mapped/trajectory.tum")))
       << served.errors << served.output;
+}
+
+/// Where the lasers of scans sit, and are claimed to.
+struct Mountings : team::RobotListener<team::Planar> {
+  bool TakeScan(std::string_view, LaserScan scan) override {
+    used.push_back(scan.geometry.T_robot_laser);
+    return true;
+  }
+  bool TakeContestedScan(std::string_view, LaserScan scan, const Pose2& told) override {
+    claimed.push_back(told);
+    return TakeScan({}, std::move(scan));
+  }
+  void TakeOdometry(std::string_view, Timestamp, const Pose2&) override {}
+  void ExpectOdometry(std::string_view, bool) override {}
+  void PlaceAt(std::string_view, const UncertainPose2&) override {}
+
+  std::vector<Pose2> used;
+  std::vector<Pose2> claimed;
+};
+
+TEST(DdsMounting, IsTakenFromWhoComesBackAndContestedWhileHeDrives) {
+  const PrivateNetwork network;
+  const dds::Participant participant({.interface = "lo", .tag = network.tag()});
+  dds::Refusals refusals([](const std::string&) {});
+  dds::RobotFeed feed(participant, dds::RobotNames("robot1"), refusals);
+  Mountings heard;
+  const auto hear = [&] {
+    for (int i = 0; i < 20; ++i) feed.Deliver(10ms, heard);
+  };
+  Observation observation = ObservationInRoom(0);
+  const auto join = [&](double x_m) {
+    hear();  // That whoever was there has left.
+    observation.scan.geometry.T_robot_laser = {x_m, 0.0, 0.0};
+    auto robot = std::make_unique<dds::RobotPublisher>(
+        participant, dds::RobotNames("robot1"), dds::OdometryUse::kPublished);
+    EXPECT_TRUE(robot->WaitForListener(observation.scan.geometry.T_robot_laser, 10s));
+    return robot;
+  };
+  const auto publish = [&](dds::RobotPublisher& robot) {
+    robot.Publish(observation);
+    const std::size_t before = heard.used.size();
+    for (int i = 0; i < 500 && heard.used.size() == before; ++i) feed.Deliver(10ms, heard);
+  };
+  publish(*join(0.2));
+  const auto robot = join(0.5);
+  publish(*robot);
+  EXPECT_EQ(heard.used, std::vector<Pose2>({{0.2, 0.0, 0.0}, {0.5, 0.0, 0.0}}));
+  EXPECT_TRUE(heard.claimed.empty());
+
+  const dds::Writer<dds::wire::TFMessage> transforms(
+      participant, "/tf_static", dds::Profile::kStaticTransformsOut);
+  const std::string base = "robot1/base_link";
+  const std::string laser = "robot1/laser";
+  transforms.Write(
+      dds::TransformSample({}, base, laser, dds::ToWire(Pose2{0.9, 0.0, 0.0})).sample());
+  hear();
+  publish(*robot);
+  EXPECT_EQ(heard.used.back(), (Pose2{0.5, 0.0, 0.0}));
+  EXPECT_EQ(heard.claimed, std::vector<Pose2>({{0.9, 0.0, 0.0}}));
 }
 
 TEST_F(DdsFaults, WrongInitialPosesAreRefusedOrTakenBack) {
