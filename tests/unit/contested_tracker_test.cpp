@@ -134,6 +134,27 @@ TEST_F(ContestedTrackerOfARobot, BelievesWhoToldAPlaceThatTheMapAgreesWith) {
   EXPECT_EQ(Status().counts.relevant, sink_.relevant().size());
 }
 
+TEST_F(ContestedTrackerOfARobot, BelievesWhoCorrectsAWrongStart) {
+  Drive(0, kRound);
+  const Pose2 wrong{1.0, 0.5, 0.4};
+  service_.robots().PlaceAt("robot2",
+                            UncertainPose2::WithSigmas(test::PoseInRoom(0) * wrong, 0.02, 0.01));
+  for (int scan = 0; scan < kRound; ++scan) {
+    if (scan == 15) {
+      service_.robots().PlaceAt("robot2",
+                                UncertainPose2::WithSigmas(test::PoseInRoom(scan), 0.1, 0.05));
+    }
+    const Observation seen = test::ObservationInRoom(scan);
+    service_.robots().TakeOdometry("robot2", seen.scan.stamp, *seen.T_odom_robot);
+    service_.robots().TakeScan("robot2", seen.scan);
+    service_.WaitUntilIdle();
+  }
+  const RobotStatus status = service_.Status().robots.at(1);
+  const Pose2 error = test::PoseInRoom(kRound - 1).Inverse() * status.map_robot.T_a_b;
+  EXPECT_LT(error.translation_m().norm(), 0.1);
+  EXPECT_EQ(status.counts.contradicted_poses, 0U);
+}
+
 TEST_F(ContestedTrackerOfARobot, IsNotLedAstrayByWhoSaysThatItsLaserSitsElsewhere) {
   const Pose2 T_robot_laser = test::ObservationInRoom(0).scan.geometry.T_robot_laser;
   Drive(0, 40);

@@ -10,6 +10,8 @@ namespace {
 
 // A wrong pose explains by chance about half of what the right one does: half way between them.
 constexpr double kStillExplained = 0.75;
+// What a robot saw last lies in the map where it was tracked, and flatters that place by so much.
+constexpr double kFlattery = 0.1;
 // After so many relevant scans that fit both alike nothing is to be expected of the next.
 constexpr std::size_t kUndecidedScans = 10;
 
@@ -56,7 +58,8 @@ double TrackingTrial::EvidenceOf(std::size_t points, const MappingStep& step) co
   const auto independent = static_cast<double>(std::min(points, most));
   const double by_rival = ExplainedShare(rival_step_);
   if (by_rival < kStillExplained * overlap_) return -independent * (overlap_ - by_rival);
-  return independent * (by_rival - ExplainedShare(step));
+  const double more = by_rival - ExplainedShare(step);
+  return independent * std::max(std::min(more, 0.0), more - kFlattery * by_rival);
 }
 
 // To within what a search is sure of, for the robot and for what is a metre away from it.
