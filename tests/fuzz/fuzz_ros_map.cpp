@@ -37,8 +37,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Expect(grid.cells.size() ==
            static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
   } catch (const std::runtime_error& error) {
-    Expect(std::string_view(error.what()).find(kHeader.path().parent_path().string()) !=
-           std::string_view::npos);
+    // The picture may be anywhere: its path begins at the root as that of the header does.
+    Expect(std::string_view(error.what()).starts_with('/'));
   }
   return 0;
 }
