@@ -72,21 +72,30 @@ std::vector<LoopFinder::Candidate> LoopFinder::NearPasses(const PoseEstimate& es
   std::vector<Candidate> near;
   const std::span<const RigidSubmap> submaps = chain_.submaps();
   for (std::size_t i = 0; i < submaps.size(); ++i) {
-    const NodeId reference = submaps[i].reference();
-    const std::vector<UncertainPose2> seen = estimate.SeenFrom(reference);
-    std::vector<UncertainPose2> later_references;
-    for (const RigidSubmap& later : submaps.subspan(i)) {
-      later_references.push_back(seen[later.reference() - reference]);
-    }
-    references.Add(std::move(later_references));
-    for (NodeId node = submaps[i].end + kNodesBetweenPasses; node < nodes_.size(); ++node) {
-      const UncertainPose2& expected = seen[node - reference];
-      const double distance_m = expected.T_a_b.translation_m().norm();
-      if (distance_m <= ReachOf(expected)) near.push_back({node, i, expected, distance_m});
+    std::vector<NodeId> nodes;
+    for (const RigidSubmap& later : submaps.subspan(i)) nodes.push_back(later.reference());
+    const std::size_t later_submaps = nodes.size();
+    AppendNodesInReach(submaps[i], estimate, nodes);
+    const auto seen = estimate.SeenFrom(submaps[i].reference(), nodes);
+    references.Add({seen.begin(), seen.begin() + std::ssize(submaps.subspan(i))});
+    for (std::size_t k = later_submaps; k < seen.size(); ++k) {
+      const double distance_m = seen[k].T_a_b.translation_m().norm();
+      if (distance_m <= ReachOf(seen[k])) near.push_back({nodes[k], i, seen[k], distance_m});
     }
   }
   std::ranges::sort(near, {}, [](const Candidate& c) { return std::pair(c.node, c.submap); });
   return NearestOfEachPass(near);
+}
+
+// Later nodes that may be in reach, however uncertain they are.
+void LoopFinder::AppendNodesInReach(const RigidSubmap& submap,
+                                    const PoseEstimate& estimate,
+                                    std::vector<NodeId>& nodes) const {
+  const Eigen::Vector2d reference_m = estimate.T_map_node(submap.reference()).translation_m();
+  for (NodeId node = submap.end + kNodesBetweenPasses; node < nodes_.size(); ++node) {
+    const Eigen::Vector2d apart_m = estimate.T_map_node(node).translation_m() - reference_m;
+    if (apart_m.norm() <= kReach_m + kMaxWindow_m) nodes.push_back(node);
+  }
 }
 
 std::vector<LoopFinder::Candidate> LoopFinder::NearestOfEachPass(std::span<const Candidate> near) {

@@ -39,6 +39,9 @@ class LoopFinder {
   };
 
   std::vector<Candidate> NearPasses(const PoseEstimate& estimate, ReferencePoses& references) const;
+  void AppendNodesInReach(const RigidSubmap& submap,
+                          const PoseEstimate& estimate,
+                          std::vector<NodeId>& nodes) const;
   static std::vector<Candidate> NearestOfEachPass(std::span<const Candidate> near);
   const Loop* AcceptedAmong(std::span<const Loop> loops, const Candidate& candidate) const;
   std::optional<Loop> Recognise(const Candidate& candidate,

@@ -6,14 +6,15 @@
 
 namespace qwsm {
 
-std::vector<UncertainPose2> AnsweredPoses::SeenFrom(NodeId from) const {
+std::vector<UncertainPose2> AnsweredPoses::SeenFrom(NodeId from,
+                                                    std::span<const NodeId> nodes) const {
   const UncertainPose2& map_from = nodes_[from].map_robot;
   const FrameCovariance known = FrameCovariance::Of(map_from);
   const UncertainPose2 from_map{.T_a_b = map_from.T_a_b.Inverse()};
   std::vector<UncertainPose2> seen;
-  seen.reserve(nodes_.size() - from);
-  for (const ScanNode& node : nodes_.subspan(from)) {
-    UncertainPose2 since = node.map_robot;
+  seen.reserve(nodes.size());
+  for (const NodeId node : nodes) {
+    UncertainPose2 since = nodes_[node].map_robot;
     since.covariance = PositivePart(since.covariance - known.At(since.T_a_b.translation_m()));
     seen.push_back(from_map * since);
   }
@@ -29,12 +30,13 @@ std::vector<UncertainPose2> SolvedPoses::map_node() const {
   return map_node;
 }
 
-std::vector<UncertainPose2> SolvedPoses::SeenFrom(NodeId from) const {
+std::vector<UncertainPose2> SolvedPoses::SeenFrom(NodeId from,
+                                                  std::span<const NodeId> nodes) const {
   const std::vector<Eigen::Matrix3d> covariances = covariance_.RelativeTo(from, marginals_);
   const Pose2 T_from_map = T_map_node_[from].Inverse();
   std::vector<UncertainPose2> seen;
-  seen.reserve(T_map_node_.size() - from);
-  for (NodeId node = from; node < T_map_node_.size(); ++node) {
+  seen.reserve(nodes.size());
+  for (const NodeId node : nodes) {
     seen.push_back({.T_a_b = T_from_map * T_map_node_[node], .covariance = covariances[node]});
   }
   return seen;

@@ -18,8 +18,10 @@ class PoseEstimate {
   PoseEstimate& operator=(const PoseEstimate&) = delete;
   virtual ~PoseEstimate() = default;
 
-  /// Poses of this node and all later ones as seen from it.
-  virtual std::vector<UncertainPose2> SeenFrom(NodeId from) const = 0;
+  virtual Pose2 T_map_node(NodeId node) const = 0;
+  /// The poses of nodes as seen from an earlier one.
+  virtual std::vector<UncertainPose2> SeenFrom(NodeId from,
+                                               std::span<const NodeId> nodes) const = 0;
 };
 
 /// The poses as they were answered. What a later one is more uncertain by than an earlier one is
@@ -29,7 +31,8 @@ class AnsweredPoses final : public PoseEstimate {
   /// @param nodes outlive this.
   explicit AnsweredPoses(std::span<const ScanNode> nodes) : nodes_(nodes) {}
 
-  std::vector<UncertainPose2> SeenFrom(NodeId from) const override;
+  Pose2 T_map_node(NodeId node) const override { return nodes_[node].map_robot.T_a_b; }
+  std::vector<UncertainPose2> SeenFrom(NodeId from, std::span<const NodeId> nodes) const override;
 
  private:
   std::span<const ScanNode> nodes_;
@@ -43,7 +46,8 @@ class SolvedPoses final : public PoseEstimate {
         covariance_(graph, solution),
         marginals_(covariance_.Marginals()) {}
 
-  std::vector<UncertainPose2> SeenFrom(NodeId from) const override;
+  Pose2 T_map_node(NodeId node) const override { return T_map_node_[node]; }
+  std::vector<UncertainPose2> SeenFrom(NodeId from, std::span<const NodeId> nodes) const override;
   /// The poses in the map; the first is certain.
   std::vector<UncertainPose2> map_node() const;
 
