@@ -36,23 +36,36 @@ Eigen::Matrix3d InformationWith(const Eigen::Matrix3d& of_match, const Eigen::Ma
 
 std::vector<Loop> LoopFinder::Find(const PoseEstimate& estimate, std::span<const Loop> last) const {
   ReferencePoses references;
-  std::vector<FoundLoop> found;
-  std::vector<ScanPoint> points;
-  std::optional<NodeId> node;  // Whose points they are.
-  for (const Candidate& candidate : NearPasses(estimate, references)) {
-    if (node != candidate.node) {
-      node = candidate.node;
-      points = ToPoints(nodes_[*node].scan);
-    }
-    const Loop* known = AcceptedAmong(last, candidate);
-    const auto loop = known != nullptr ? std::optional(*known) : Recognise(candidate, points);
-    if (loop) found.push_back({*loop, candidate.submap});
-  }
+  std::vector<Candidate> candidates = NearPasses(estimate, references);
+  std::vector<FoundLoop> found = RecogniseAll(candidates, last);
+  std::ranges::sort(
+      found, {}, [](const FoundLoop& f) { return std::pair(f.loop.edge.to, f.submap); });
   ConfirmByOthers(found, references, chain_);
   std::vector<Loop> loops;
   loops.reserve(found.size());
   for (const FoundLoop& one : found) loops.push_back(one.loop);
   return loops;
+}
+
+// Submap by submap, since the surfaces of one are made for it.
+std::vector<FoundLoop> LoopFinder::RecogniseAll(std::span<Candidate> candidates,
+                                                std::span<const Loop> last) const {
+  std::ranges::sort(candidates, {}, [](const Candidate& c) { return std::pair(c.submap, c.node); });
+  std::vector<FoundLoop> found;
+  std::optional<SurfaceMap> surfaces;
+  std::size_t of_submap = 0;
+  for (const Candidate& candidate : candidates) {
+    if (const Loop* known = AcceptedAmong(last, candidate)) {
+      found.push_back({*known, candidate.submap});
+      continue;
+    }
+    if (!surfaces || of_submap != candidate.submap) {
+      of_submap = candidate.submap;
+      surfaces = chain_.SurfacesOf(chain_.submaps()[of_submap], nodes_);
+    }
+    if (const auto loop = Recognise(candidate, *surfaces)) found.push_back({*loop, of_submap});
+  }
+  return found;
 }
 
 const Loop* LoopFinder::AcceptedAmong(std::span<const Loop> loops,
@@ -115,12 +128,13 @@ std::vector<LoopFinder::Candidate> LoopFinder::NearestOfEachPass(std::span<const
 }
 
 std::optional<Loop> LoopFinder::Recognise(const Candidate& candidate,
-                                          std::span<const ScanPoint> points) const {
+                                          const SurfaceMap& surfaces) const {
   const RigidSubmap& submap = chain_.submaps()[candidate.submap];
   const Pose2& T_chain_reference = chain_.T_chain_node()[submap.reference()];
   UncertainPose2 expected = UncertainPose2{.T_a_b = T_chain_reference} * candidate.reference_node;
   expected.covariance += UncertainPose2::WithSigmas({}, kModelSigma_m, kModelSigma_rad).covariance;
-  const MatchResult match = LocateAmong(submap.surfaces, points, expected, locator_, matcher_);
+  const MatchResult match =
+      LocateAmong(surfaces, ToPoints(nodes_[candidate.node].scan), expected, locator_, matcher_);
   if (!IsRecognised(match, kMinOverlap)) return std::nullopt;
   Eigen::Matrix3d R_chain_reference = Eigen::Matrix3d::Identity();
   R_chain_reference.topLeftCorner<2, 2>() = T_chain_reference.Rotation();

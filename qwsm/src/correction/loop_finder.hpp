@@ -44,8 +44,9 @@ class LoopFinder {
                           std::vector<NodeId>& nodes) const;
   static std::vector<Candidate> NearestOfEachPass(std::span<const Candidate> near);
   const Loop* AcceptedAmong(std::span<const Loop> loops, const Candidate& candidate) const;
-  std::optional<Loop> Recognise(const Candidate& candidate,
-                                std::span<const ScanPoint> points) const;
+  std::vector<FoundLoop> RecogniseAll(std::span<Candidate> candidates,
+                                      std::span<const Loop> last) const;
+  std::optional<Loop> Recognise(const Candidate& candidate, const SurfaceMap& surfaces) const;
   Eigen::Matrix3d ErrorWithin(const RigidSubmap& submap) const;
 
   ScanLocatorOptions locator_;

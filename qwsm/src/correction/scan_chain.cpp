@@ -74,8 +74,7 @@ void ScanChain::Add(const ScanNode& node) {
 
 // The last submap but one ends with the node before and began at least eight scans ago.
 UncertainPose2 ScanChain::Attach(const ScanNode& node, std::span<const ScanPoint> points) const {
-  const SurfaceMap& reference =
-      submaps_[submaps_.size() - std::min<std::size_t>(2, submaps_.size())].surfaces;
+  const SurfaceMap& reference = last_surfaces_.front();
   const UncertainPose2 chain_last{.T_a_b = T_chain_node_.back()};
   UncertainPose2 predicted = AtLeast(chain_last * node.odometry, kLeastSigma_m, kLeastSigma_rad);
   if (!node.closed_loop) {
@@ -101,15 +100,27 @@ UncertainPose2 ScanChain::Attach(const ScanNode& node, std::span<const ScanPoint
 
 void ScanChain::InsertIntoSubmaps(NodeId id, std::span<const ScanPoint> points) {
   if (id % kSubmapStep == 0) {
-    submaps_.push_back({.first = id, .end = id, .surfaces = SurfaceMap(map_options_.surfaces)});
+    submaps_.push_back({.first = id, .end = id});
+    last_surfaces_.emplace_back(map_options_.surfaces);
+    if (last_surfaces_.size() > 2) last_surfaces_.pop_front();
   }
+  for (SurfaceMap& surfaces : last_surfaces_) Insert(id, points, surfaces);
+  for (RigidSubmap& submap : std::span(submaps_).last(last_surfaces_.size())) submap.end = id + 1;
+}
+
+void ScanChain::Insert(NodeId id, std::span<const ScanPoint> points, SurfaceMap& surfaces) const {
   const UncertainPose2 chain_node{.T_a_b = T_chain_node_[id]};
-  for (RigidSubmap& submap : std::span(submaps_).last(std::min<std::size_t>(2, submaps_.size()))) {
-    for (const MapPoint& point : PointsToStore(submap.surfaces, points, chain_node, map_options_)) {
-      submap.surfaces.Insert(point, static_cast<ScanId>(id - submap.first));
-    }
-    submap.end = id + 1;
+  for (const MapPoint& point : PointsToStore(surfaces, points, chain_node, map_options_)) {
+    surfaces.Insert(point, id);
   }
+}
+
+SurfaceMap ScanChain::SurfacesOf(const RigidSubmap& submap, std::span<const ScanNode> nodes) const {
+  SurfaceMap surfaces(map_options_.surfaces);
+  for (NodeId id = submap.first; id < submap.end; ++id) {
+    Insert(id, ToPoints(nodes[id].scan), surfaces);
+  }
+  return surfaces;
 }
 
 UncertainPose2 ScanChain::Relative(NodeId from, NodeId to) const {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <deque>
 #include <span>
 #include <vector>
 
@@ -17,7 +18,6 @@ namespace qwsm {
 struct RigidSubmap {
   NodeId first = 0;
   NodeId end = 0;  ///< Behind the last one.
-  SurfaceMap surfaces;
 
   /// The scan in the middle, which stands for all.
   NodeId reference() const { return first + (end - first) / 2; }
@@ -37,16 +37,19 @@ class ScanChain {
   /// They overlap by half.
   std::span<const RigidSubmap> submaps() const { return submaps_; }
 
+  /// The surfaces that the scans of a submap show, in the frame of the chain. They are not kept:
+  /// of a long drive they would be several times the map.
+  /// @param nodes all that were added
+  SurfaceMap SurfacesOf(const RigidSubmap& submap, std::span<const ScanNode> nodes) const;
+
   /// The pose of a node as seen from an earlier one, as uncertain as the edges between them tell.
   /// Complexity: linear in the nodes between.
   UncertainPose2 Relative(NodeId from, NodeId to) const;
 
  private:
   UncertainPose2 Attach(const ScanNode& node, std::span<const ScanPoint> points) const;
-  MatchResult MatchAfterSlip(const SurfaceMap& reference,
-                             std::span<const ScanPoint> points,
-                             const UncertainPose2& predicted) const;
   void InsertIntoSubmaps(NodeId id, std::span<const ScanPoint> points);
+  void Insert(NodeId id, std::span<const ScanPoint> points, SurfaceMap& surfaces) const;
 
   ScanMapOptions map_options_;
   ScanLocatorOptions locator_;
@@ -54,7 +57,8 @@ class ScanChain {
   std::vector<Pose2> T_chain_node_;
   std::vector<PoseEdge> edges_;
   std::vector<RigidSubmap> submaps_;
-  Pose2 T_map_last_;  // Of the last node, as it was answered.
+  std::deque<SurfaceMap> last_surfaces_;  // Of the last two submaps, which still grow.
+  Pose2 T_map_last_;                      // Of the last node, as it was answered.
 };
 
 }  // namespace qwsm
