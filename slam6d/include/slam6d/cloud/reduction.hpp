@@ -14,8 +14,8 @@ namespace slam6d {
 /// What stands for the points of a cube.
 enum class ReductionChoice {
   kMean,           ///< Their mean: the noise is averaged.
-  kNearestToMean,  ///< The one nearest to it: a point that was measured.
-  kRandom,         ///< Some of them, drawn.
+  kNearestToMean,  ///< The point nearest to the mean: one that was measured.
+  kRandom,         ///< At most `points_per_voxel` of the points, drawn at random.
 };
 
 inline std::span<const std::pair<std::string_view, ReductionChoice>> Names(ReductionChoice) {
@@ -30,7 +30,7 @@ inline std::span<const std::pair<std::string_view, ReductionChoice>> Names(Reduc
 struct ReductionOptions {
   double voxel_m = 0.0;  ///< Edge of the cubes; 0 keeps every point.
   ReductionChoice keep = ReductionChoice::kMean;
-  int points_per_voxel = 1;  ///< Of random ones, at most.
+  int points_per_voxel = 1;  ///< Most points kept of a cube by kRandom.
   int seed = 1;
 };
 

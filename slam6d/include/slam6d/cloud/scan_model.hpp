@@ -14,17 +14,17 @@ namespace slam6d {
 /// A flat piece of surface: the points of one leaf of the kd-tree.
 struct Surfel {
   Eigen::Vector3d mean_m = Eigen::Vector3d::Zero();
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< Towards the scanner.
-  /// Of the normal: its small turns, seen as moves of its tip.
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< Points towards the scanner.
+  /// Covariance of the normal: its small turns, seen as moves of its tip.
   Eigen::Matrix3d normal_covariance = Eigen::Matrix3d::Zero();
   /// Variance of the mean along the normal, from the scatter of the points.
   double variance_m2 = 0.0;
 };
 
 struct SurfelOptions {
-  int min_points = 5;  ///< Of a surfel.
-  /// A surfel is flat: its variance across, and that of most others, is at most this share of the
-  /// next larger one.
+  int min_points = 5;  ///< Leaves with fewer points give no surfel.
+  /// A leaf gives a surfel if it is flat: its variance across, and that of most others, is at most
+  /// this share of the next larger one.
   double max_flatness = 0.1;
 };
 

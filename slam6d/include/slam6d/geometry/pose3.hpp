@@ -18,10 +18,10 @@ struct Pose3 {
   Pose3 Inverse() const;
 };
 
-/// T_a_c = T_a_b * T_b_c.
+/// Chains two motions: T_a_c = T_a_b * T_b_c.
 Pose3 operator*(const Pose3& T_a_b, const Pose3& T_b_c);
 
-/// p_a = T_a_b * p_b, in metres.
+/// Maps a point from frame b to frame a, in metres: p_a = T_a_b * p_b.
 Eigen::Vector3d operator*(const Pose3& T_a_b, const Eigen::Vector3d& p_b_m);
 
 /// A pose and how far it may be from the truth.
@@ -36,7 +36,7 @@ struct UncertainPose3 {
 /// The matrix with `Skew(a) * b == a.cross(b)`.
 Eigen::Matrix3d Skew(const Eigen::Vector3d& a);
 
-/// Turns vectors of (translation, rotation): R twice on the diagonal.
+/// The 6x6 matrix that turns vectors of (translation, rotation): R twice on the diagonal.
 Matrix6d BlockRotation(const Eigen::Matrix3d& R);
 
 /// The rotation by |v| about v (Rodrigues), and its inverse with |v| in [0, pi].

@@ -17,9 +17,9 @@ namespace slam6d {
 /// al. 2007, Eq. 3) and the correlation of the centred points (Eqs. 4 and 6).
 struct PairMoments {
   double count = 0.0;
-  Eigen::Vector3d center_ref_m = Eigen::Vector3d::Zero();  ///< c_m
-  Eigen::Vector3d center_cur_m = Eigen::Vector3d::Zero();  ///< c_d
-  Eigen::Matrix3d H_m2 = Eigen::Matrix3d::Zero();          ///< sum of d'_i m'_i^T
+  Eigen::Vector3d center_ref_m = Eigen::Vector3d::Zero();  ///< c_m in Eq. 3.
+  Eigen::Vector3d center_cur_m = Eigen::Vector3d::Zero();  ///< c_d in Eq. 3.
+  Eigen::Matrix3d H_m2 = Eigen::Matrix3d::Zero();          ///< H of Eq. 6: sum of d'_i m'_i^T.
 };
 
 /// The four direct solutions of Eq. 2 of Nüchter et al. (2007), as Lorusso, Eggert & Fisher (1995)

@@ -15,7 +15,7 @@
 
 namespace slam6d {
 
-/// What is minimised.
+/// Says what ICP minimises.
 enum class IcpMetric {
   kPointToPoint,  ///< Nüchter et al. (2007), Eq. 1, in closed form.
   kPointToPlane,  ///< Distance of the points from the reference's surfels (Chen & Medioni 1991).
@@ -35,25 +35,27 @@ inline std::span<const std::pair<std::string_view, IcpMetric>> Names(IcpMetric) 
 
 struct IcpOptions {
   IcpMetric metric = IcpMetric::kPlaneToPlane;
-  ClosedForm closed_form = ClosedForm::kSvd;  ///< Of point-to-point.
+  ClosedForm closed_form = ClosedForm::kSvd;  ///< The solution of point-to-point; all agree.
   SearchStart search = SearchStart::kCache;
   double max_distance_m = 0.5;  ///< Longer pairs do not count.
   int max_iterations = 100;
-  double translation_tolerance_m = 1e-5;  ///< Converged when a step is below both.
+  /// ICP has converged when a step is below this and `rotation_tolerance_rad`.
+  double translation_tolerance_m = 1e-5;
   double rotation_tolerance_rad = 1e-6;
   int min_pairs = 10;
-  /// Point-to-point: pairs longer than this times the root mean square of the last iteration's do
-  /// not count; 0 keeps them.
+  /// With point-to-point, pairs longer than this times the root mean square of the last iteration's
+  /// do not count; 0 keeps them.
   double max_rms_ratio = 0.0;
-  /// To planes: residuals well above it lose their weight; wider in the first iterations.
+  /// With surfels, residuals well above this lose their weight; it is wider in the first
+  /// iterations.
   double residual_scale_m = 0.02;
-  /// To planes: what surfels are off by beside their scatter.
+  /// With surfels, what these are off by beside their scatter.
   double surface_noise_m = 0.001;
-  /// To planes: what the guess may be off by; it tells what the pairs leave open, as along a
-  /// corridor.
+  /// With surfels, what the guess may be off by along each axis. It tells what the pairs leave
+  /// open, as along a corridor.
   double guess_sigma_m = 0.3;
   double guess_sigma_rad = 0.1;
-  int threads = 1;  ///< Changes no bit of the result.
+  int threads = 1;  ///< Working threads; they change no bit of the result.
 };
 
 template <class Visitor>
@@ -103,14 +105,15 @@ enum class IcpStatus {
   kDegenerate,  ///< The pairs leave some motion open.
 };
 
-/// Why, in words for a person.
+/// The status in words for a person.
 std::string_view Name(IcpStatus status);
 
 struct [[nodiscard]] IcpResult {
   IcpStatus status = IcpStatus::kTooFewPairs;
   Pose3 T_ref_cur;  ///< Best estimate so far, whatever the status.
-  /// Of (x, y, z, roll, pitch, yaw) as in UncertainPose3, assuming independent errors of the size
-  /// of the residuals: a lower bound. Zero unless converged or stopped by the iteration limit.
+  /// Covariance of (x, y, z, roll, pitch, yaw) as in UncertainPose3, assuming independent errors of
+  /// the size of the residuals: a lower bound. Zero unless converged or stopped by the iteration
+  /// limit.
   Matrix6d covariance = Matrix6d::Zero();
   int iterations = 0;
   std::size_t pairs = 0;
@@ -118,7 +121,7 @@ struct [[nodiscard]] IcpResult {
   SearchStatistics search{};
 };
 
-/// Pose after each iteration, the guess first.
+/// The pose after each iteration; the guess stands first.
 using IcpTrace = std::vector<Pose3>;
 
 /// Aligns `cur` with `ref`, beginning at a guess (Nüchter et al. 2007, section 3.3 and
@@ -135,8 +138,8 @@ struct IcpReference {
   Pose3 T_map_ref;
 };
 
-/// Aligns `cur` with all references at once: each of its points is paired in every one of them.
-/// `ref` stands for map in the result.
+/// Aligns `cur` with all references at once, beginning at a guess: each of its points is paired in
+/// every reference. In the result, `ref` is the frame map.
 IcpResult Align(std::span<const IcpReference> references,
                 const ScanModel& cur,
                 const Pose3& T_map_cur_guess,

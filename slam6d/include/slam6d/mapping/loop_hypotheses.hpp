@@ -10,14 +10,15 @@
 
 namespace slam6d {
 
-/// Which earlier scans may show the same place again (Nüchter et al. 2007, section 3.4).
+/// Says which earlier scans may show the same place again (Nüchter et al. 2007, section 3.4).
 struct LoopOptions {
   bool enabled = true;
-  int min_scans_between = 10;  ///< Nearer ones in the sequence are no loop.
+  int min_scans_between = 10;  ///< Scans nearer in the sequence are no loop.
   double max_distance_m = 15.0;
-  double max_range_share = 0.5;  ///< Nor farther than this share of the scanner's range.
-  int max_hypotheses = 3;        ///< The nearest are tried.
-  double min_overlap = 0.4;      ///< Of the cubes, for a loop to be believed.
+  /// Scans farther apart than this share of the scanner's range are no loop.
+  double max_range_share = 0.5;
+  int max_hypotheses = 3;    ///< So many of the nearest scans are tried.
+  double min_overlap = 0.4;  ///< A loop is believed if so many of the cubes overlap, as a share.
 };
 
 template <class Visitor>

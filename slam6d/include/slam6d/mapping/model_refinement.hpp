@@ -14,12 +14,13 @@ namespace slam6d {
 /// When and how scans are fitted to each other (Nüchter et al. 2007, section 3.5).
 struct RefinementOptions {
   bool enabled = true;
-  int min_pairs = 250;                    ///< p in section 3.5: scans with more pairs overlap.
-  double max_distance_m = 0.25;           ///< Of a pair; the poses are good by now.
-  int max_neighbors = 8;                  ///< The nearest of the scans that overlap.
-  double translation_tolerance_m = 1e-3;  ///< A scan that moves less than both moves no others.
+  int min_pairs = 250;           ///< Scans with more pairs overlap: p in section 3.5.
+  double max_distance_m = 0.25;  ///< Longer pairs do not count; the poses are good by now.
+  int max_neighbors = 8;  ///< A scan is fitted to so many of the nearest scans that overlap it.
+  /// A scan that moves less than both tolerances moves no others.
+  double translation_tolerance_m = 1e-3;
   double rotation_tolerance_rad = 1e-4;
-  int max_visits = 5;  ///< Of a scan.
+  int max_visits = 5;  ///< A scan is fitted at most so often.
 };
 
 template <class Visitor>
@@ -40,11 +41,11 @@ void Describe(Visitor& visit, RefinementOptions& o) {
 }
 
 struct RefinementProgress {
-  std::size_t fits = 0;     ///< Done.
+  std::size_t fits = 0;     ///< Fits done so far.
   std::size_t waiting = 0;  ///< Scans in the queue.
 };
 
-/// Told after each fit; ends the refinement by returning false.
+/// Is told after each fit; ends the refinement by returning false.
 using RefinementObserver = std::function<bool(const RefinementProgress&)>;
 
 struct RefinementResult {
@@ -53,10 +54,10 @@ struct RefinementResult {
   bool settled = false;  ///< The queue ran empty: no scan wants to move any more.
 };
 
-/// A scan of the model.
+/// A scan of the model that is refined.
 struct ModelScan {
-  IcpReference scan;                            ///< Without a model it stays out.
-  IcpMetric metric = IcpMetric::kPlaneToPlane;  ///< By which it is fitted to others.
+  IcpReference scan;                            ///< A scan without a model stays out.
+  IcpMetric metric = IcpMetric::kPlaneToPlane;  ///< Metric by which the scan is fitted to others.
 };
 
 /// Simultaneous matching (Nüchter et al. 2007, section 3.5, after Pulli 1999): each scan is fitted
@@ -71,7 +72,8 @@ RefinementResult RefineModel(std::span<const ModelScan> scans,
                              const RefinementOptions& options,
                              const RefinementObserver& observer = {});
 
-/// Whether more than `min_pairs` points of `cur` have a partner in `ref` within the distance.
+/// Whether more than `min_pairs` points of `cur` have a partner in `ref` within a distance in
+/// metres.
 bool OverlapsByPairs(const ScanModel& ref,
                      const ScanModel& cur,
                      const Pose3& T_ref_cur,

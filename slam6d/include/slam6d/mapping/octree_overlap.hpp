@@ -14,15 +14,15 @@
 
 namespace slam6d {
 
-/// The heuristic for an initial guess (Nüchter et al. 2007, section 3.2). What is searched lies
-/// within the ranges about the guess; the steps follow from the size of the cubes.
+/// Options of the heuristic for an initial guess (Nüchter et al. 2007, section 3.2). It searches
+/// within the ranges about the guess; its steps follow from the size of the cubes.
 struct OverlapOptions {
   double cube_m = 0.2;  ///< Edge of the smallest cubes.
   int levels = 3;       ///< The search begins with cubes twice as large for each level above one.
   double translation_range_m = 1.0;
   double rotation_range_rad = 10.0 * std::numbers::pi / 180.0;
-  int max_cubes = 800;        ///< Of the current scan's, as many are looked up for each motion.
-  double min_gain = 0.1;      ///< The guess is left only for an overlap larger by this share.
+  int max_cubes = 800;    ///< Most cubes of the current scan that are looked up for each motion.
+  double min_gain = 0.1;  ///< The guess is left only for an overlap larger by this share.
   double needed_below = 0.4;  ///< Nothing is searched where ICP alone reaches this overlap.
 };
 
@@ -74,11 +74,11 @@ class OverlapModel {
  public:
   OverlapModel(const PointCloud& cloud, const OverlapOptions& options);
 
-  /// From the smallest cubes up.
+  /// The occupied cubes of each level, the smallest first.
   const std::vector<CubeSet>& levels() const { return levels_; }
   /// The mean of the points of every smallest cube; neighbours stand near each other.
   const std::vector<Eigen::Vector3d>& means_m() const { return means_m_; }
-  /// Root mean square distance of those from the scanner.
+  /// Root mean square distance of the cubes' means from the scanner.
   double radius_m() const { return radius_m_; }
 
  private:
@@ -93,8 +93,8 @@ struct OverlapReference {
   Pose3 T_map_ref;
 };
 
-/// The share of the current scan's smallest cubes that lie in occupied ones of any reference; 0 for
-/// an empty scan.
+/// The share of the current scan's smallest cubes that lie in occupied cubes of any reference; 0
+/// for an empty scan.
 double Overlap(std::span<const OverlapReference> references,
                const OverlapModel& cur,
                const Pose3& T_map_cur,

@@ -9,18 +9,20 @@
 
 namespace slam6d {
 
-/// What a registration found out about two scans of a graph.
+/// The relative pose of two scans of a graph, found by registration.
 struct PoseConstraint {
   std::size_t from = 0;
   std::size_t to = 0;
   Pose3 T_from_to;
-  Matrix6d covariance = Matrix6d::Identity();  ///< As in UncertainPose3.
+  /// Covariance of the relative pose as in UncertainPose3.
+  Matrix6d covariance = Matrix6d::Identity();
 };
 
 /// Scans and what is known of their relative poses.
 struct PoseGraph {
   std::vector<Pose3> T_map_scan;
-  std::vector<PoseConstraint> constraints;  ///< The one that closed a loop last is the last.
+  /// The constraint that closed a loop last stands last.
+  std::vector<PoseConstraint> constraints;
 };
 
 /// Spreads the error of a loop over its scans (Nüchter et al. 2007, section 3.4). The first scan

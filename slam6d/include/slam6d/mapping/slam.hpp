@@ -21,13 +21,13 @@ namespace slam6d {
 
 struct SlamOptions {
   double min_range_m = 0.0;
-  double max_range_m = 0.0;  ///< Points farther off are misses; 0: there are none.
+  double max_range_m = 0.0;  ///< Points farther off are misses; 0: there are no misses.
   ReductionOptions reduction{};
   KdTreeOptions tree{};
   OverlapOptions guess{};
   IcpOptions icp{};
-  int references = 3;        ///< Scans before, with all of which a scan is registered at once.
-  double min_overlap = 0.2;  ///< Of the cubes, for a match to be believed.
+  int references = 3;        ///< A scan is registered with so many scans before it at once.
+  double min_overlap = 0.2;  ///< A match is believed if so many of the cubes overlap, as a share.
   LoopOptions loop{};
   RefinementOptions refinement{};
 };
@@ -54,12 +54,13 @@ void Describe(Visitor& visit, SlamOptions& o) {
   visit("refinement", o.refinement, {.help = "fit of all scans to each other at the end"});
 }
 
-/// How a scan got its pose.
+/// Says how a scan got its pose.
 enum class SlamStatus {
-  kFirst,         ///< It is where the map begins.
-  kMatched,       ///< Registered with the scans before.
-  kDeadReckoned,  ///< Could not be registered: odometry alone.
-  kUnusable,      ///< Too few points, or all the same: odometry alone, and no reference for others.
+  kFirst,         ///< The scan is where the map begins.
+  kMatched,       ///< The scan was registered with those before it.
+  kDeadReckoned,  ///< The scan could not be registered; it is placed by odometry alone.
+  /// The scan has too few points, or all the same: placed by odometry, and no reference for others.
+  kUnusable,
 };
 
 std::string_view Name(SlamStatus status);
@@ -68,11 +69,12 @@ std::string_view Name(SlamStatus status);
 struct SlamStep {
   SlamStatus status = SlamStatus::kUnusable;
   Pose3 T_map_scan;
-  /// Of that pose as in UncertainPose3, with all error since the first scan, the loops' taken out.
+  /// Covariance of the pose as in UncertainPose3, with all error since the first scan but what
+  /// loops have taken out.
   Matrix6d covariance = Matrix6d::Zero();
-  std::size_t points = 0;               ///< After the reduction.
-  IcpResult match{};                    ///< With the scans before; its `ref` is the map.
-  double overlap = 0.0;                 ///< With the scans before, after the match.
+  std::size_t points = 0;               ///< Points of the scan after its reduction.
+  IcpResult match{};                    ///< Match with the scans before; its `ref` is the map.
+  double overlap = 0.0;                 ///< Overlap with the scans before, after the match.
   std::vector<std::size_t> loops_to{};  ///< Earlier scans with which a loop was closed.
 };
 
@@ -87,14 +89,14 @@ Pose3 ExtrapolateOdometry(const Pose3& T_map_last,
 /// model.
 class Slam {
  public:
-  /// @param closer outlives this.
+  /// Starts an empty map. @param closer outlives this.
   Slam(const SlamOptions& options, const LoopCloser& closer);
 
   /// Adds a scan. The poses of earlier ones change where it closes a loop.
   /// @param scan in the scanner's frame. @param T_odom_scan its pose by odometry, or any estimate.
   SlamStep Add(const PointCloud& scan, const Pose3& T_odom_scan);
 
-  /// Fits all scans to each other, if that is wanted.
+  /// Fits all scans to each other, where the options want it.
   RefinementResult Refine(const RefinementObserver& observer = {});
 
   const std::vector<Pose3>& T_map_scan() const { return graph_.T_map_scan; }
@@ -103,13 +105,13 @@ class Slam {
 
  private:
   struct Entry {
-    double range_m;  ///< How far it sees.
+    double range_m;  ///< How far the scanner sees.
     ScanModel model;
     OverlapModel overlap;
-    IcpMetric metric;  ///< By which it was registered.
+    IcpMetric metric;  ///< Metric by which the scan was registered.
   };
   struct Registration {
-    IcpResult icp;  ///< Its `ref` is the map.
+    IcpResult icp;  ///< The registration; its `ref` is the map.
     double overlap = 0.0;
     bool trusted = false;
   };
@@ -136,7 +138,7 @@ class Slam {
   std::deque<std::optional<Entry>> entries_;  ///< Nothing for unusable scans.
   Pose3 T_odom_last_;
   PoseGraph graph_;
-  std::vector<Matrix6d> covariances_;  ///< Of the poses in the graph.
+  std::vector<Matrix6d> covariances_;  ///< Covariances of the poses in the graph.
 };
 
 }  // namespace slam6d

@@ -11,10 +11,10 @@
 
 namespace slam6d {
 
-/// Where the searches of later iterations begin.
+/// Says where the searches of later iterations begin.
 enum class SearchStart {
-  kCache,  ///< At the leaf of the neighbour before: Nüchter et al. (2007), section 4.1.
-  kRoot,   ///< As if every iteration were the first: the yardstick.
+  kCache,  ///< At the leaf of the last neighbour (Nüchter et al. 2007, section 4.1).
+  kRoot,   ///< At the root, as if every iteration were the first: the yardstick.
 };
 
 struct CachedSearchOptions {
@@ -33,7 +33,7 @@ struct CachedSearchOptions {
 /// force.
 class CachedSearch {
  public:
-  /// The tree must outlive the search.
+  /// Searches for `query_count` queries in a tree, which must outlive the search.
   CachedSearch(const KdTree& tree, std::size_t query_count, const CachedSearchOptions& options);
 
   /// Finds the neighbours of the queries [first, last). Different ranges may be searched by
@@ -45,15 +45,15 @@ class CachedSearch {
   /// Whether query i has a neighbour nearer than the maximum distance.
   bool found(std::size_t i) const { return distance2_m2_[i] < max_distance2_m2_; }
   double distance2_m2(std::size_t i) const { return distance2_m2_[i]; }
-  /// @pre found(i)
+  /// Place of query i's neighbour in the cloud. @pre found(i)
   std::size_t neighbor_index(std::size_t i) const {
     return tree_->layout().index_of_slot[slot_[i]];
   }
-  /// The neighbour's slot in the tree's layout. @pre found(i)
+  /// Slot of query i's neighbour in the tree's layout. @pre found(i)
   std::uint32_t neighbor_slot(std::size_t i) const { return slot_[i]; }
   Eigen::Vector3d neighbor_m(std::size_t i) const { return neighbor_[i]; }
 
-  /// All neighbours by coordinate; infinity where none is known.
+  /// The neighbours of all queries, stored by coordinate; infinity where none is known.
   const PointCloud& neighbors() const { return neighbor_; }
   const double* distances2_m2() const { return distance2_m2_.data(); }
   double max_distance2_m2() const { return max_distance2_m2_; }

@@ -23,8 +23,10 @@ struct Neighbor {
 /// What a number of searches cost.
 struct SearchStatistics {
   std::uint64_t queries = 0;
-  std::uint64_t leaves_visited = 0;      ///< Eight queries searched together visit a leaf once.
-  std::uint64_t proven_unchanged = 0;    ///< Answered by the cache without touching the tree.
+  /// Leaves visited; eight queries searched together visit a leaf once.
+  std::uint64_t leaves_visited = 0;
+  /// Queries answered by the cache without touching the tree.
+  std::uint64_t proven_unchanged = 0;
   std::uint64_t started_below_root = 0;  ///< Searches the cache let begin at a lower node.
 
   SearchStatistics& operator+=(const SearchStatistics& other);
@@ -51,7 +53,7 @@ void Describe(Visitor& visit, KdTreeOptions& o) {
 /// returned are those a comparison with every point gives, to the last bit.
 class KdTree {
  public:
-  /// O(n log n). Copies the points; the cloud may go.
+  /// Builds the tree in O(n log n). It copies the points; the cloud may go.
   explicit KdTree(const PointCloud& cloud, const KdTreeOptions& options = {});
 
   /// Number of different points.
@@ -60,7 +62,8 @@ class KdTree {
   SimdLevel simd() const { return simd_; }
   int bucket_size() const { return bucket_size_; }
 
-  /// The nearest point nearer than `max_distance_m`, if there is one; searched from the root.
+  /// The nearest point nearer than `max_distance_m`, if there is one; the search begins at the
+  /// root.
   std::optional<Neighbor> FindNearest(
       const Eigen::Vector3d& query_m,
       double max_distance_m = std::numeric_limits<double>::infinity(),

@@ -9,12 +9,13 @@
 
 namespace slam6d {
 
-/// Which instructions the searches use. Chosen while running; every level gives the same bits.
+/// Says which instructions the searches use. They are chosen while running; every level gives the
+/// same bits.
 enum class SimdLevel {
-  kPortable,  ///< What every machine the program is built for has.
+  kPortable,  ///< Instructions that every machine the program is built for has.
   kAvx2,
   kAvx512,
-  kBest,  ///< The best the machine has.
+  kBest,  ///< The best instructions the machine has.
 };
 
 inline std::span<const std::pair<std::string_view, SimdLevel>> Names(SimdLevel) {

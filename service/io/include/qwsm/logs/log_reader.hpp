@@ -17,8 +17,8 @@
 
 namespace qwsm::io {
 
-/// A log that cannot be opened, recognised or read on; or, when strict, its first malformed line.
-/// The text begins with "file:" or "file:line:" and says what is wrong and how to mend it.
+/// Tells that a log cannot be opened, recognised or read on; or, when strict, its first malformed
+/// line. The text begins with "file:" or "file:line:" and says what is wrong and how to mend it.
 class LogError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -27,18 +27,19 @@ class LogError : public std::runtime_error {
 /// How a log is read. What the log states and what can be inferred from it needs no option.
 struct LogOptions {
   bool strict = false;  ///< Throw at a malformed line instead of counting and skipping it.
-  std::string laser;    ///< Its name or message ("rear", "RLASER"), "all"; empty: the front one.
-  std::optional<Pose2> T_robot_laser;       ///< Instead of what the log says of the mounting.
-  std::optional<float> range_max_m;         ///< Instead of what the log says or shows.
-  std::optional<double> field_of_view_rad;  ///< Where lines do not state it, instead of the guess.
+  /// The laser's name or message ("rear", "RLASER"), or "all"; empty: the front one.
+  std::string laser;
+  std::optional<Pose2> T_robot_laser;       ///< Replaces what the log says of the mounting.
+  std::optional<float> range_max_m;         ///< Replaces what the log says or shows.
+  std::optional<double> field_of_view_rad;  ///< Replaces the guess where lines do not state it.
   std::function<void(const std::string&)>
-      on_fault;  ///< Gets each kind of fault once, as it appears.
+      on_fault;  ///< Is called with each kind of fault once, as it appears.
 };
 
 /// How much of a log has been read.
 struct LogProgress {
-  std::uint64_t bytes_read = 0;              ///< Of the file as it is, compressed or not.
-  std::optional<std::uint64_t> bytes_total;  ///< Unknown for a pipe.
+  std::uint64_t bytes_read = 0;              ///< Bytes of the file as it is, compressed or not.
+  std::optional<std::uint64_t> bytes_total;  ///< Size of the file; unknown for a pipe.
 };
 
 /// Reads a robot log message by message.
@@ -68,7 +69,8 @@ class LogReader {
 std::unique_ptr<LogReader> OpenLog(const std::filesystem::path& path,
                                    const LogOptions& options = {});
 
-/// The same from a stream, which must outlive the reader; `name` stands for it in messages.
+/// Opens a log of any of OpenLog's formats from a stream, which must outlive the reader; `name`
+/// stands for it in messages.
 std::unique_ptr<LogReader> OpenLog(std::istream& stream,
                                    std::string_view name,
                                    const LogOptions& options = {});

@@ -15,7 +15,8 @@ namespace qwsm::io {
 struct ScanReading {
   LaserScan scan;
   std::optional<Pose2> T_odom_robot;
-  std::string laser;  ///< Which one: "front", "rear", "laser3" (CARMEN), "laser:0" (Player).
+  /// Name of the laser: "front", "rear", "laser3" (CARMEN), "laser:0" (Player).
+  std::string laser;
 };
 
 /// The robot's own dead reckoning.

@@ -11,10 +11,11 @@ namespace qwsm::io {
 
 /// One kind of trouble with the lines of a log, however many lines have it.
 struct LogFault {
-  std::string what;              ///< "FLASER: a field is not a number; ...": cause and remedy.
-  std::size_t count = 0;         ///< Lines that have it.
-  std::size_t first_line = 0;    ///< The first of them, counted from 1.
-  bool line_was_skipped = true;  ///< Else the line was used, but for the faulty readings.
+  std::string what;            ///< Cause and remedy, as "FLASER: a field is not a number; ...".
+  std::size_t count = 0;       ///< Lines that have this fault.
+  std::size_t first_line = 0;  ///< First line that has this fault, counted from 1.
+  /// Whether the line was skipped; else it was used, but for the faulty readings.
+  bool line_was_skipped = true;
 };
 
 /// What was found in a log so far.
@@ -22,17 +23,20 @@ struct LogReport {
   std::string name;         ///< The file, or "standard input".
   std::string format;       ///< "CARMEN", "Player", "DP-SLAM" or "journal".
   std::string compression;  ///< "none", "gzip", "bzip2" or "xz".
-  bool has_stamps = true;   ///< Else they were made up: the format has none.
+  bool has_stamps = true;   ///< False where the format has no stamps and they were made up.
   std::size_t lines = 0;
-  std::size_t scans = 0;  ///< Delivered, like the next two.
+  std::size_t scans = 0;  ///< Scans delivered, like the next two counts.
   std::size_t odometry_readings = 0;
   std::size_t true_poses = 0;
-  std::size_t other_scans = 0;     ///< Of lasers that were not asked for, and repeated sweeps.
-  std::size_t other_messages = 0;  ///< Known, and of no use here: PARAM, SYNC, sonar, GPS, ...
-  std::map<std::string, std::size_t, std::less<>> unknown_messages;  ///< By name.
+  /// Scans not delivered: of lasers that were not asked for, or repeated sweeps.
+  std::size_t other_scans = 0;
+  /// Messages known, and of no use here: PARAM, SYNC, sonar, GPS, ...
+  std::size_t other_messages = 0;
+  /// Unknown messages, counted by name.
+  std::map<std::string, std::size_t, std::less<>> unknown_messages;
   std::vector<LogFault> faults;  ///< In the order of first sight.
 
-  /// Lines that could not be used.
+  /// Number of lines that could not be used.
   std::size_t malformed_lines() const {
     std::size_t sum = 0;
     for (const LogFault& fault : faults) sum += fault.line_was_skipped ? fault.count : 0;

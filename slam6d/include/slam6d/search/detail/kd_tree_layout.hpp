@@ -31,7 +31,7 @@ struct KdNode {
   double split_m = 0.0;           ///< The cut across `axis`; points on it belong to the left child.
   std::uint32_t axis = kLeaf;     ///< 0, 1, 2 = x, y, z.
   std::uint32_t first = 0;        ///< The left child, or the leaf's first block.
-  std::uint32_t point_count = 0;  ///< Of a leaf; they fill its blocks in order.
+  std::uint32_t point_count = 0;  ///< Points of a leaf; they fill its blocks in order.
   std::uint32_t parent = 0;       ///< The root is its own parent.
 };
 
@@ -40,14 +40,15 @@ struct KdNode {
 /// 0 is the root; slot s is place s % 8 of block s / 8.
 struct KdTreeLayout {
   static constexpr std::uint32_t kNoSlot = std::numeric_limits<std::uint32_t>::max();
-  /// No path from the root is longer; the searches' stacks rely on it.
+  /// Most nodes on a path from the root; the searches' stacks rely on it.
   static constexpr int kMaxDepth = 96;
 
   std::vector<KdNode> nodes;
   std::vector<Box> limits;  ///< Per node, the box of the points really in it.
-  std::vector<Box> cells;   ///< Per node, the part of space its cuts leave it; the root's is all.
+  /// Per node, the part of space its cuts leave it; the root's is all of space.
+  std::vector<Box> cells;
   std::vector<PointBlock> blocks;
-  std::vector<std::uint32_t> index_of_slot;  ///< The point's place in the cloud.
+  std::vector<std::uint32_t> index_of_slot;  ///< Per slot, its point's place in the cloud.
   std::vector<std::uint32_t> leaf_of_block;
   /// Places in the cloud of all finite points, equal ones too, leaf by leaf: points near each other
   /// stand near each other.
