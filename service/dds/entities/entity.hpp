@@ -8,7 +8,8 @@
 
 namespace qwsm::dds {
 
-/// What Cyclone DDS refused to do. The text names the entity or topic and says how to mend it.
+/// Tells what Cyclone DDS refused to do. The text names the entity or topic and says how to mend
+/// it.
 class DdsError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

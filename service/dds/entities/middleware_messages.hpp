@@ -10,8 +10,8 @@
 
 namespace qwsm::dds {
 
-/// While one lives, what the middleware has to say goes to a function instead of to stderr, and at
-/// most so often: a hostile peer can make it complain 10 000 times a second.
+/// While an object of this class lives, what the middleware has to say goes to a function instead
+/// of to stderr, and at most so often: a hostile peer can make it complain 10 000 times a second.
 class MiddlewareMessages {
  public:
   using Sink = std::function<void(const std::string& text)>;
@@ -28,7 +28,7 @@ class MiddlewareMessages {
   Sink sink_;
   int per_second_;
   std::mutex mutex_;
-  std::chrono::steady_clock::time_point second_;  // Begin of the one that is counted.
+  std::chrono::steady_clock::time_point second_;  // Begin of the second that is counted.
   int said_ = 0;
   std::size_t withheld_ = 0;
 };

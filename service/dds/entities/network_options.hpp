@@ -6,7 +6,7 @@
 
 namespace qwsm::dds {
 
-/// Which network, and which part of its traffic.
+/// Says which network is used, and which part of its traffic.
 struct NetworkOptions {
   int domain = -1;
   std::string interface;

@@ -19,7 +19,7 @@ using Guid = std::array<std::uint8_t, 16>;
 /// Configured by CYCLONEDDS_URI as any program with Cyclone DDS, then by the options, which win.
 class Participant {
  public:
-  /// @throws DdsError where the network cannot be used as told.
+  /// Joins the domain. @throws DdsError where the network cannot be used as told.
   explicit Participant(const NetworkOptions& options);
 
   Entity::Handle handle() const { return participant_.handle(); }
@@ -30,7 +30,7 @@ class Participant {
   Entity participant_;
 };
 
-/// The GUID of an entity.
+/// The GUID of an entity on the network.
 Guid GuidOf(Entity::Handle entity);
 
 }  // namespace qwsm::dds

@@ -11,22 +11,23 @@ namespace qwsm::dds {
 /// What a topic needs of the network. Writers offer much and readers ask for little, so that both
 /// match any ROS 2 node (docs/dds.md).
 enum class Profile {
-  kSensorIn,          ///< Scans, odometry and commands as they come: the newest counts.
-  kSensorInWhole,     ///< The same, of writers that repeat what is lost: clouds are large.
-  kSensorOut,         ///< The same, from the simulator or a log.
-  kAnswer,            ///< Poses, odometry and reports of every scan.
-  kAnswerIn,          ///< The same, where each one is wanted.
-  kLatched,           ///< The last sample, also for those who come later: maps, graph.
-  kLatchedIn,         ///< The same, read.
-  kTransforms,        ///< /tf.
-  kStaticTransforms,  ///< /tf_static: everybody's, also for those who come later.
+  kSensorIn,       ///< Reads scans, odometry and commands: the newest counts.
+  kSensorInWhole,  ///< Reads clouds of writers that repeat what is lost: clouds are large.
+  kSensorOut,      ///< Writes scans, odometry and commands, from the simulator or a log.
+  kAnswer,         ///< Writes poses, odometry and reports of every scan.
+  kAnswerIn,       ///< Reads poses, odometry and reports where each one is wanted.
+  kLatched,        ///< Writes maps and the graph: the last sample is kept for those who come later.
+  kLatchedIn,      ///< Reads maps and the graph, the last sample at once.
+  kTransforms,     ///< Writes /tf.
+  kStaticTransforms,  ///< Reads /tf_static: what everybody has said, also before the reader came.
   kStaticTransformsOut,
-  kSharedScans,  ///< Relevant scans: all there ever were, for services that come later.
+  /// Reads and writes relevant scans: all there ever were, for services that come later.
+  kSharedScans,
 };
 
 using Qos = std::unique_ptr<dds_qos, void (*)(dds_qos*)>;
 
-/// The table of all profiles, as a QoS of Cyclone DDS.
+/// The QoS of a profile for Cyclone DDS; one table holds all of them.
 Qos QosOf(Profile profile);
 
 }  // namespace qwsm::dds

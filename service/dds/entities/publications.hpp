@@ -14,20 +14,20 @@ namespace qwsm::dds {
 struct Publication {
   Guid writer{};
   bool is_alive = false;
-  // Known only of one that is alive:
+  // These are known only of a writer that is alive.
   Guid participant{};
-  std::string_view topic{};  ///< As DDS has it.
+  std::string_view topic{};  ///< The topic's name as DDS has it.
   std::string_view type{};
   std::string_view user_data{};
   bool is_reliable = false;
 };
 
-/// Finds out who publishes what.
+/// Finds out who publishes what in the domain.
 class Publications {
  public:
   explicit Publications(const Participant& participant);
 
-  /// What changed since the last call.
+  /// Calls `take` with every publication that has changed since the last call.
   void TakeAll(const std::function<void(const Publication&)>& take) const;
   Entity::Handle handle() const { return reader_.handle(); }
 

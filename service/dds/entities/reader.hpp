@@ -14,10 +14,12 @@
 
 namespace qwsm::dds {
 
-/// What readers of all types have in common.
+/// The part of a reader that does not depend on its type.
 class UntypedReader {
  public:
-  /// @param topic name as ROS has it, such as `/robot1/scan`. @throws DdsError.
+  /// Subscribes to a topic.
+  /// @param topic name as ROS has it, such as `/robot1/scan`.
+  /// @throws DdsError.
   UntypedReader(const Participant& participant,
                 const dds_topic_descriptor_t& descriptor,
                 const std::string& topic,
@@ -25,17 +27,18 @@ class UntypedReader {
 
   /// How many writers there are now that this reader hears.
   std::size_t writer_count() const;
-  /// How many there have been that are gone.
+  /// How many writers that this reader heard are gone.
   std::size_t lost_writer_count() const;
   /// The participants whose writers this reader hears now.
   std::set<Guid> Participants() const;
   Entity::Handle handle() const { return reader_.handle(); }
 
  protected:
-  /// Hands over every sample that has arrived, in order, and gives it back to the middleware
-  /// afterwards, whatever the callback does. It gets the writer's handle, too.
+  /// Hands over every sample that has arrived, in order, with its writer's handle, and gives it
+  /// back to the middleware afterwards, whatever the callback does.
+  /// @return how many samples there were.
   std::size_t TakeSamples(const std::function<void(const void*, std::uint64_t)>& take) const;
-  /// All zeros where the writer is gone.
+  /// The participant of a writer; all zeros where the writer is gone.
   Guid ParticipantOf(std::uint64_t writer) const;
 
  private:
@@ -56,7 +59,8 @@ class Reader : public UntypedReader {
     return TakeSamples(
         [&take](const void* sample, std::uint64_t) { take(*static_cast<const T*>(sample)); });
   }
-  /// Calls `take(const T&, const Guid&)` with the participant it comes from, too.
+  /// Calls `take(const T&, const Guid&)` with every sample that has arrived and the participant it
+  /// comes from; returns how many there were.
   template <class Take>
   std::size_t TakeAllWithSource(Take&& take) const {
     return TakeSamples([this, &take](const void* sample, std::uint64_t writer) {

@@ -9,7 +9,7 @@
 
 namespace qwsm::dds {
 
-/// The DDS topic of a ROS topic: of `/robot1/scan` it is `rt/robot1/scan`.
+/// Makes the DDS topic of a ROS topic: of `/robot1/scan` it is `rt/robot1/scan`.
 /// @throws DdsError, also where the name has other characters than letters, digits, _ and /.
 Entity MakeTopic(const Participant& participant,
                  const dds_topic_descriptor_t& descriptor,

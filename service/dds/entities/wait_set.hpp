@@ -14,13 +14,14 @@ class WaitSet {
  public:
   explicit WaitSet(const Participant& participant);
 
+  /// Lets the wait set wait for a reader too.
   /// @param reader outlives the wait set, or is removed before.
   void Add(Entity::Handle reader);
   void Remove(Entity::Handle reader);
 
-  /// Whether there is something to take; false where the time passed first.
+  /// Waits for samples or a call. @returns false where the time passed first.
   bool Wait(std::chrono::nanoseconds timeout);
-  /// Ends a wait in another thread, or the next one.
+  /// Ends a wait in another thread, or the next wait.
   void Wake();
 
  private:

@@ -11,10 +11,10 @@
 
 namespace qwsm::dds {
 
-/// What writers of all types have in common.
+/// The part of a writer that does not depend on its type.
 class UntypedWriter {
  public:
-  /// @param topic name as ROS has it, such as `/robot1/scan`.
+  /// Publishes on a topic, told by its name as ROS has it, such as `/robot1/scan`.
   /// @param user_data what whoever discovers the writer is told of it. @throws DdsError.
   UntypedWriter(const Participant& participant,
                 const dds_topic_descriptor_t& descriptor,
@@ -27,7 +27,8 @@ class UntypedWriter {
   Entity::Handle handle() const { return writer_.handle(); }
 
  protected:
-  /// False where it could not be handed over in time. Safe to call from several threads.
+  /// Hands a sample to the middleware; false where that was not possible in time. Safe to call from
+  /// several threads.
   bool WriteSample(const void* sample) const;
 
  private:
@@ -45,7 +46,8 @@ class Writer : public UntypedWriter {
          const std::string& user_data = {})
       : UntypedWriter(participant, *wire::kDescriptor<T>, topic, profile, user_data) {}
 
-  /// The sample is copied; what it points to may be gone afterwards.
+  /// Publishes a sample; false where that was not possible in time. The sample is copied; what it
+  /// points to may be gone afterwards.
   bool Write(const T& sample) const { return WriteSample(&sample); }
 };
 

@@ -13,7 +13,7 @@ namespace qwsm::dds {
 /// What somebody asks of a robot (geometry_msgs/Twist on cmd_vel).
 struct VelocityRequest {
   double forward_mps = 0.0;
-  double turn_rad_s = 0.0;  ///< Counter-clockwise.
+  double turn_rad_s = 0.0;  ///< Counter-clockwise rate, in rad/s.
 };
 
 /// Hears the commands to one robot.
@@ -22,8 +22,8 @@ class CommandReader {
   CommandReader(const Participant& participant, const RobotNames& names);
   ~CommandReader();
 
-  /// The latest command since the last call, if there is one; those that are not finite are passed
-  /// over.
+  /// The latest command since the last call, if there is one; commands that are not finite are
+  /// passed over.
   std::optional<VelocityRequest> Take();
 
  private:

@@ -14,7 +14,7 @@
 
 namespace qwsm::dds {
 
-/// What is reported on scans of a kind.
+/// The report on a scan of a kind: planar or spatial.
 template <class Kind>
 struct ReportOn;
 template <>
@@ -33,14 +33,15 @@ class BasicReportReader {
  public:
   using Report = typename ReportOn<Kind>::Type;
 
+  /// Subscribes to the reports on some robots.
   /// @param robots names as in RobotNames; where empty, all there are and that join later.
   /// @throws DdsError.
   BasicReportReader(const Participant& participant, const std::vector<std::string>& robots);
   ~BasicReportReader();
 
-  /// Whether some service reports.
+  /// Whether some service reports on these robots.
   bool has_writer() const;
-  /// All that arrived since the last call; waits for the first one if there is none.
+  /// All reports that arrived since the last call; waits for the first one if there is none.
   std::vector<Report> Take(std::chrono::nanoseconds timeout);
 
  private:

@@ -15,17 +15,19 @@ namespace qwsm::dds {
 /// Finds out which robots there are, by who publishes on a topic such as `/robot1/scan`.
 class RobotDiscovery {
  public:
-  static constexpr std::size_t kMaxRobots = 256;  ///< More are not a team but an attack.
+  static constexpr std::size_t kMaxRobots = 256;  ///< Most robots of a team; more are an attack.
 
   struct Changes {
     std::vector<std::string> joined;  ///< Names of robots, as in RobotNames.
-    std::vector<std::string> left;    ///< Nobody publishes for them any more.
+    std::vector<std::string> left;    ///< Names of robots for which nobody publishes any more.
   };
 
-  /// @param part last part of the topic's name. @param type its DDS type: others are passed over.
+  /// Looks for topics.
+  /// @param part last part of a topic's name.
+  /// @param type its DDS type: topics of other types are passed over.
   RobotDiscovery(const Participant& participant, std::string part, std::string type);
 
-  /// What changed since the last call.
+  /// Robots that have joined or left since the last call.
   Changes Take();
   /// Whether the publishers of a robot repeat what was lost, as far as they are known.
   bool IsReliable(const std::string& robot) const { return !unreliable_.contains(robot); }
@@ -37,9 +39,9 @@ class RobotDiscovery {
   std::string part_;
   std::string type_;
   Publications publications_;
-  std::map<Guid, std::string> robot_of_;      // By publisher.
-  std::map<std::string, int> publishers_of_;  // By robot.
-  std::set<std::string> unreliable_;          // Robots.
+  std::map<Guid, std::string> robot_of_;      // Robot, by publisher.
+  std::map<std::string, int> publishers_of_;  // Number of publishers, by robot.
+  std::set<std::string> unreliable_;  // Robots whose publishers do not repeat what was lost.
 };
 
 }  // namespace qwsm::dds

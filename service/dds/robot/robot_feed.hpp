@@ -12,14 +12,14 @@
 
 namespace qwsm::dds {
 
-/// What one robot says, for programs that are not the service.
+/// Hears what one robot says, for programs that are not the service.
 class RobotFeed {
  public:
-  /// @param participant and refusals outlive this.
+  /// Subscribes to a robot's topics. @param participant and refusals outlive this.
   RobotFeed(const Participant& participant, const RobotNames& names, Refusals& refusals);
   ~RobotFeed();
 
-  /// Waits until something has arrived, or for so long, and delivers it.
+  /// Waits until something has arrived, or for the timeout, and delivers it.
   void Deliver(std::chrono::nanoseconds timeout, team::RobotListener<team::Planar>& listener);
 
  private:

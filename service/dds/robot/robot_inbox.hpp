@@ -18,11 +18,13 @@
 
 namespace qwsm::dds {
 
-/// What one robot says: scans, odometry, and where its operator says it is.
+/// Hears what one robot says: scans, odometry, and where its operator says it is.
 template <class Kind>
 class BasicRobotInbox {
  public:
-  /// @param scans how they are listened to. @param refusals outlives this.
+  /// Subscribes to a robot's topics.
+  /// @param scans the profile its scans are read with.
+  /// @param refusals outlives this.
   BasicRobotInbox(const Participant& participant,
                   const RobotNames& names,
                   Refusals& refusals,
@@ -33,14 +35,15 @@ class BasicRobotInbox {
   /// Takes the scans that have arrived. To be called before transforms and odometry are taken:
   /// robots tell these before the scan, so that whose scan is here has them here, too.
   void HoldScans();
-  /// Delivers them, and all else that has arrived: odometry first, for scans are matched with it.
+  /// Delivers the scans that HoldScans() took and all else that has arrived: odometry first, for
+  /// scans are matched with it.
   void Deliver(const BasicStaticTransforms<Kind>& transforms, team::RobotListener<Kind>& listener);
 
  private:
-  /// Where a sensor sits.
+  /// Where a sensor sits on its robot, as far as that is told.
   struct Placement {
     typename Kind::Pose T_robot_sensor;
-    bool is_told = false;  // Else nobody says anything about it.
+    bool is_told = false;  // Else nobody says where the sensor sits.
   };
 
   void TakeOdometry(const wire::Odometry& sample, team::RobotListener<Kind>& listener);
@@ -72,10 +75,12 @@ class BasicRobotInbox {
   Reader<typename OnWire<Kind>::Scan> scans_;
   Reader<wire::PoseWithCovarianceStamped> initial_poses_;
   std::deque<UnplacedScan> unplaced_;
-  std::map<std::string, std::chrono::steady_clock::time_point> missing_since_;  // By frame.
-  bool has_publisher_ = false;                                                  // Of scans.
+  // Since when each frame's place is missing.
+  std::map<std::string, std::chrono::steady_clock::time_point> missing_since_;
+  bool has_publisher_ = false;       // Whether somebody publishes scans.
   std::set<std::string> overruled_;  // Frames of which strangers say something else.
-  std::map<std::string, typename Kind::Pose> mountings_;  // By frame, as its scans were sent first.
+  // By frame, the place its first scans were sent with.
+  std::map<std::string, typename Kind::Pose> mountings_;
 };
 
 using RobotInbox = BasicRobotInbox<team::Planar>;

@@ -23,7 +23,7 @@ class BasicRobotPublisher {
   using Pose = typename Kind::Pose;
   using Observation = typename Kind::Observation;
 
-  /// @throws DdsError.
+  /// Begins to publish a robot's topics. @throws DdsError.
   BasicRobotPublisher(const Participant& participant, RobotNames names, OdometryUse odometry);
   ~BasicRobotPublisher();
 
@@ -31,11 +31,13 @@ class BasicRobotPublisher {
   /// @returns false where nobody came in time.
   bool WaitForListener(const Pose& T_robot_sensor, std::chrono::nanoseconds timeout);
 
-  /// Odometry goes first, so that it is there when its scan arrives.
+  /// Publishes a scan and its odometry, which goes first, so that it is there when its scan
+  /// arrives.
   /// @returns false where a listener did not take it in time.
   bool Publish(const Observation& observation);
-  /// Whether somebody listens to the scans; to where the robot is told to be.
+  /// Whether somebody listens to the scans.
   bool has_listener() const;
+  /// Whether somebody listens to where the robot is told to be.
   bool has_pose_listener() const;
   /// Tells where the robot is, as an operator would (initialpose).
   void TellPose(Timestamp stamp, const typename Kind::UncertainPose& map_robot);
@@ -43,8 +45,9 @@ class BasicRobotPublisher {
 
   /// Waits until all that was published has arrived at every reliable listener.
   bool WaitForAcknowledgments(std::chrono::nanoseconds timeout);
-  /// Waits for that before this goes, and a moment longer: listeners that acknowledge nothing may
-  /// hear that their publisher is gone before they hear what it said last, which then is lost.
+  /// Waits for acknowledgments before this object goes, and a moment longer: listeners that
+  /// acknowledge nothing may hear that their publisher is gone before they hear what it said last,
+  /// which then is lost.
   void Finish(std::chrono::nanoseconds timeout);
 
   const RobotNames& names() const;

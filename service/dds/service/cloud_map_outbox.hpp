@@ -12,14 +12,14 @@
 
 namespace qwsm::dds {
 
-/// Tells operators what each robot's clouds have come to: its path, and all of them in one.
+/// Tells operators what each robot's clouds have come to: its path, and all clouds in one.
 class CloudMapOutbox final : public team::CloudSink, public RobotTopics {
  public:
-  /// @param participant and graph outlive this.
+  /// Publishes nothing before a robot is added. @param participant and graph outlive this.
   CloudMapOutbox(const Participant& participant, const RosGraph& graph)
       : participant_(participant), maps_(graph) {}
 
-  /// @throws DdsError.
+  /// Makes the topics of a robot. @throws DdsError.
   void AddRobot(const std::string& robot, const Claim& claim) override;
   void RemoveRobot(const std::string& robot) override;
 

@@ -12,11 +12,11 @@
 
 namespace qwsm::dds {
 
-/// By what right a service answers a robot. The smaller one wins: a service that was told to by
-/// name before those that found the robot, and of these the first.
+/// By what right a service answers a robot. The smaller claim wins: a service that was told to by
+/// name goes before those that found the robot, and of these the first one wins.
 struct Claim {
-  std::uint64_t since_ns = 0;  ///< When it was found, since 1970; 0: told by name.
-  Guid service{};              ///< Its participant.
+  std::uint64_t since_ns = 0;  ///< When the robot was found, since 1970; 0: it was told by name.
+  Guid service{};              ///< The service's participant.
 
   bool is_by_name() const { return since_ns == 0; }
   std::strong_ordering operator<=>(const Claim&) const = default;
@@ -26,16 +26,18 @@ struct Claim {
 /// nobody answers any more may be answered by whoever finds it.
 class OtherServices {
  public:
-  /// @param report_topic last part of their topic. @param report_type their DDS type.
+  /// Watches the writers of match reports.
+  /// @param report_topic last part of their topic.
+  /// @param report_type their DDS type.
   OtherServices(const Participant& participant,
                 std::string_view report_topic,
                 std::string report_type);
 
-  /// Notes who has come and gone since the last call.
+  /// Notes which services have come and gone since the last call.
   void Update();
-  /// Whether any of them answers the robot.
+  /// Whether another service answers the robot.
   bool Answer(std::string_view robot) const;
-  /// Whether one of them has a better claim on the robot.
+  /// Whether another service has a better claim on the robot.
   bool HaveBetterClaim(std::string_view robot, const Claim& claim) const;
   Entity::Handle handle() const { return publications_.handle(); }
 
@@ -51,10 +53,10 @@ class OtherServices {
   std::string report_topic_;
   std::string report_type_;
   Publications publications_;
-  std::map<Guid, Answerer> answerers_;  // By writer.
+  std::map<Guid, Answerer> answerers_;  // Services that answer, by writer.
 };
 
-/// How a claim is told: in the user data of the writer of match reports.
+/// A claim as text, which the user data of the writer of match reports carries.
 std::string ToUserData(const Claim& claim);
 
 }  // namespace qwsm::dds

@@ -18,12 +18,14 @@ class PosePublisher {
  public:
   using Pose = typename Kind::Pose;
 
+  /// Makes the writers of a robot's poses.
   /// @param transforms writer of /tf, which all robots share; outlives this.
   PosePublisher(const Participant& participant,
                 const RobotNames& names,
                 const Writer<wire::TFMessage>& transforms);
 
-  /// @param T_odom_robot at the same time, if there is odometry.
+  /// Publishes the pose at a time.
+  /// @param T_odom_robot odometry at the same time, if there is one.
   void Publish(Timestamp stamp,
                const typename Kind::UncertainPose& map_robot,
                const std::optional<Pose>& T_odom_robot) const;

@@ -11,20 +11,21 @@
 
 namespace qwsm::dds {
 
-/// What a service answers one robot.
+/// Publishes what a service answers one robot.
 /// @tparam Kind team::Planar or team::Spatial.
 template <class Kind>
 class RobotOutbox {
  public:
+  /// Makes the writers of a robot's answers.
   /// @param transforms writer of /tf, which all robots share; outlives this.
   RobotOutbox(const Participant& participant,
               const RobotNames& names,
               const Writer<wire::TFMessage>& transforms,
               const Claim& claim);
 
-  /// Pose, odometry and transform.
+  /// Publishes pose, odometry and transform of an answer.
   void Publish(const team::Answer<Kind>& answer) const;
-  /// The report, which goes last: who waits for it has everything.
+  /// Publishes the report, which goes last: who waits for it has everything.
   void Report(const team::Answer<Kind>& answer) const;
 
  private:

@@ -8,7 +8,7 @@
 
 namespace qwsm::dds {
 
-/// Topics that a service has for each of its robots.
+/// Topics that a service keeps for each of its robots.
 class RobotTopics {
  public:
   RobotTopics() = default;
@@ -18,7 +18,8 @@ class RobotTopics {
 
   /// Makes the topics of a robot, so that listeners find them before its first scan is answered.
   virtual void AddRobot(const std::string& robot, const Claim& claim) = 0;
-  /// Takes them away: another service answers the robot. What is still on its way is dropped.
+  /// Takes away the topics of a robot: another service answers it. What is still on its way is
+  /// dropped.
   virtual void RemoveRobot(const std::string& robot) = 0;
 };
 

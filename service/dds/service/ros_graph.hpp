@@ -11,7 +11,7 @@ namespace qwsm::dds {
 /// Makes the program visible as a node to `ros2 node list`, with the topics it reads and writes.
 class RosGraph {
  public:
-  /// @param participant outlives this.
+  /// Announces a node. @param participant outlives this.
   RosGraph(const Participant& participant, NetworkOptions options);
   ~RosGraph();
 

@@ -30,21 +30,22 @@ class ServiceInbox {
  public:
   /// Joins the robots that are named; where none is, whoever publishes scans that no other service
   /// answers, now or since that service is gone.
-  /// @param topics where each of the robots is told about. @param participant and all others
-  /// outlive this.
+  /// @param topics where each of the robots is told about.
+  /// @param participant and all others outlive this.
   ServiceInbox(const Participant& participant,
                const std::vector<std::string>& robots,
                team::SessionList<Session>& sessions,
                std::vector<RobotTopics*> topics,
                Refusals& refusals);
 
-  /// Waits until something has arrived, or for so long, and delivers it.
+  /// Waits until something has arrived, or for the timeout, and delivers it.
   void Deliver(std::chrono::nanoseconds timeout) {
     Wait(timeout);
     Deliver();
   }
 
-  /// The same in two steps, for who waits for more: see wait_set().
+  /// Waits until something has arrived, or for the timeout: the first half of Deliver(), for who
+  /// waits for more, see wait_set().
   void Wait(std::chrono::nanoseconds timeout) { wait_set_.Wait(timeout); }
   void Deliver();
   WaitSet& wait_set() { return wait_set_; }

@@ -18,7 +18,9 @@ namespace qwsm::dds {
 template <class Sink>
 class ServiceOutbox final : public Sink, public RobotTopics {
  public:
-  /// @param participant and all others outlive this. @throws DdsError.
+  /// Publishes answers as they come.
+  /// @param participant and all others outlive this.
+  /// @throws DdsError.
   ServiceOutbox(const Participant& participant, const RosGraph& graph, const Refusals& refusals);
 
   void AddRobot(const std::string& robot, const Claim& claim) override;

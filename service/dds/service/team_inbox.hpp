@@ -14,14 +14,14 @@ namespace qwsm::dds {
 /// Brings the service what robots and other services say. Used by one thread.
 class TeamInbox {
  public:
-  /// As ServiceInbox. @param participant and all others outlive this.
+  /// Joins the robots as ServiceInbox does. @param participant and all others outlive this.
   TeamInbox(const Participant& participant,
             const std::vector<std::string>& robots,
             team::TeamService& service,
             std::vector<RobotTopics*> topics,
             Refusals& refusals);
 
-  /// Waits until something has arrived, or for so long, and delivers it.
+  /// Waits until something has arrived, or for the timeout, and delivers it.
   void Deliver(std::chrono::nanoseconds timeout);
 
  private:

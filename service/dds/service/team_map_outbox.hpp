@@ -13,7 +13,9 @@ namespace qwsm::dds {
 /// Tells operators what the map is, and other services what is in it.
 class TeamMapOutbox final : public team::TeamSink {
  public:
-  /// @param participant and graph outlive this. @throws DdsError.
+  /// Makes the topics of the map.
+  /// @param participant and graph outlive this.
+  /// @throws DdsError.
   TeamMapOutbox(const Participant& participant, const RosGraph& graph);
 
   void TakeRelevantScan(const team::TeamScan& scan) override;

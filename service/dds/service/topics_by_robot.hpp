@@ -14,15 +14,15 @@
 
 namespace qwsm::dds {
 
-/// What there is on the network for each robot. Any thread may ask; what stands in the list never
-/// changes.
+/// Holds what there is on the network for each robot. Any thread may ask; what stands in the list
+/// never changes.
 template <class Topics>
 class TopicsByRobot {
  public:
-  /// @param graph shows what there is; outlives this.
+  /// Starts with no robots. @param graph shows what there is; outlives this.
   explicit TopicsByRobot(const RosGraph& graph) : graph_(graph) {}
 
-  /// The robot's topics; made of the arguments where there are none yet.
+  /// The robot's topics; they are made of the arguments where there are none yet.
   template <class... Arguments>
   std::shared_ptr<const Topics> Add(std::string_view robot, Arguments&&... arguments) {
     const std::lock_guard lock(mutex_);
@@ -37,7 +37,7 @@ class TopicsByRobot {
     by_robot_.erase(robot);
     graph_.Announce();
   }
-  /// Null where there are none.
+  /// The robot's topics; null where there are none.
   std::shared_ptr<const Topics> Find(std::string_view robot) const {
     const std::lock_guard lock(mutex_);
     const auto known = by_robot_.find(robot);

@@ -17,28 +17,29 @@
 /// data is refused before a byte of it is read.
 namespace qwsm::dds {
 
-/// Why a sample must not be converted; empty if it may. It needs fields x, y and z, each a number
-/// of 32 or 64 bits; others may stand beside them, in any layout.
+/// Says why a sample must not be converted; empty if it may. It needs fields x, y and z, each a
+/// number of 32 or 64 bits; others may stand beside them, in any layout.
 std::string_view ObjectionTo(const wire::PointCloud2& sample);
-/// Points that are not finite are left out, as drivers mark beams without an echo by them.
+/// The cloud of a sample. Points that are not finite are left out, as drivers mark beams without an
+/// echo by them.
 /// @pre ObjectionTo(sample).empty()
 team::CloudScan FromWire(const wire::PointCloud2& sample);
 
-/// Of how many bits a coordinate is.
+/// The number of bits of a coordinate on the wire; the values are codes of sensor_msgs/PointField.
 enum class CloudPrecision : std::uint8_t {
-  kSingle = 7,  ///< As viewers expect; codes of sensor_msgs/PointField.
-  kDouble = 8,  ///< Nothing is rounded.
+  kSingle = 7,  ///< 32 bits, as viewers expect.
+  kDouble = 8,  ///< 64 bits: nothing is rounded.
 };
 
 /// Points as a sample (x, y, z), which points into this object.
 class CloudSample {
  public:
-  /// @param frame outlives this.
+  /// Makes the sample of a cloud. @param frame outlives this.
   CloudSample(const slam6d::PointCloud& cloud,
               CloudPrecision precision,
               Timestamp stamp,
               const std::string& frame);
-  /// Points of the plane, at height 0.
+  /// Makes the sample of points of the plane, at height 0.
   CloudSample(std::span<const Eigen::Vector2d> points_m, Timestamp stamp, const std::string& frame);
   CloudSample(const CloudSample&) = delete;
   CloudSample& operator=(const CloudSample&) = delete;

@@ -25,7 +25,7 @@ struct Health {
   std::vector<std::pair<std::string, std::string>> values{};
 };
 
-/// One for the service, one for its journal, one for each robot, one for what was refused.
+/// The health of the service, of its journal, of each robot, and of what was refused.
 std::vector<Health> HealthOf(const team::TeamStatus& status,
                              std::span<const Refusals::Kind> refusals);
 

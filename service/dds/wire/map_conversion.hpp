@@ -13,7 +13,7 @@ namespace qwsm::dds {
 /// An occupancy map as a sample, which points into this object.
 class MapSample {
  public:
-  /// @param frame outlives this.
+  /// Makes the sample of a grid. @param frame outlives this.
   MapSample(const OccupancyGrid& grid, Timestamp stamp, const std::string& frame);
   MapSample(const MapSample&) = delete;
   MapSample& operator=(const MapSample&) = delete;
@@ -21,7 +21,7 @@ class MapSample {
   const wire::OccupancyGrid& sample() const { return sample_; }
 
  private:
-  std::vector<std::int8_t> cells_;  // -1 unknown, 0 free, 100 occupied.
+  std::vector<std::int8_t> cells_;  // Per cell: -1 unknown, 0 free, 100 occupied.
   wire::OccupancyGrid sample_{};
 };
 

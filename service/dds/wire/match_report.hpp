@@ -23,10 +23,10 @@ struct MatchReport {
   double overlap = 0.0;
   double mean_residual_m = 0.0;
   double position_trace_m2 = 0.0;
-  std::chrono::nanoseconds duration{};  ///< Of matching.
+  std::chrono::nanoseconds duration{};  ///< Time that matching took.
   std::chrono::nanoseconds latency{};   ///< From the scan's arrival to its pose.
-  std::uint64_t scans = 0;              ///< Of this robot so far.
-  std::uint64_t dropped = 0;            ///< Of these, left out: the queue was full.
+  std::uint64_t scans = 0;              ///< Scans of this robot so far.
+  std::uint64_t dropped = 0;  ///< Scans of this robot that were left out: the queue was full.
 };
 
 }  // namespace qwsm::dds

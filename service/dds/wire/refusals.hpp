@@ -12,7 +12,7 @@
 
 namespace qwsm::dds {
 
-/// Samples that could not be used: how many of each kind. The first of a kind is told at once.
+/// Counts samples that could not be used, by kind. The first of a kind is told at once.
 class Refusals {
  public:
   struct Kind {
@@ -21,13 +21,14 @@ class Refusals {
     std::uint64_t count = 0;
   };
 
+  /// Starts with no refusal.
   /// @param on_first told once per kind, such as `/scan: a sample was refused: its stamp is no
   /// time`.
   explicit Refusals(std::function<void(const std::string&)> on_first)
       : on_first_(std::move(on_first)) {}
 
   void Add(const std::string& topic, std::string_view why);
-  /// Safe to ask from another thread.
+  /// All kinds with their counts. Safe to ask from another thread.
   std::vector<Kind> All() const;
 
  private:

@@ -22,25 +22,25 @@ struct RegistrationReport {
   slam6d::UncertainPose3 map_robot;
   slam6d::SlamStatus status = slam6d::SlamStatus::kFirst;
   std::string reason;
-  std::uint32_t points = 0;  ///< After the reduction.
+  std::uint32_t points = 0;  ///< Points of the scan after the reduction.
   std::uint32_t pairs = 0;
   std::uint32_t iterations = 0;
   double overlap = 0.0;
   double rms_residual_m = 0.0;
-  std::vector<std::uint32_t> loops_to{};  ///< Earlier scans.
-  std::chrono::nanoseconds duration{};    ///< Of the registration.
+  std::vector<std::uint32_t> loops_to{};  ///< Earlier scans with which a loop was closed.
+  std::chrono::nanoseconds duration{};    ///< Time that the registration took.
   std::chrono::nanoseconds latency{};     ///< From the scan's arrival to its pose.
-  std::uint64_t scans = 0;                ///< Of this robot so far.
-  std::uint64_t dropped = 0;              ///< Of these, left out: the queue was full.
+  std::uint64_t scans = 0;                ///< Scans of this robot so far.
+  std::uint64_t dropped = 0;  ///< Scans of this robot that were left out: the queue was full.
 };
 
-/// What an answer says to others.
+/// The report that tells others what an answer says.
 RegistrationReport ReportOf(const team::CloudAnswer& answer);
 
-/// A sample that points into the report and the name of the frame: write it while both live.
+/// Makes a sample that points into the report and the name of the frame: write it while both live.
 wire::RegistrationReport ToWire(const RegistrationReport& report, const std::string& map_frame);
 
-/// Nothing where the sample makes no sense.
+/// The report of a sample; nothing where the sample makes no sense.
 std::optional<RegistrationReport> FromWire(const wire::RegistrationReport& sample);
 
 }  // namespace qwsm::dds

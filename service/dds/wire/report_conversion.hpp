@@ -11,13 +11,13 @@
 
 namespace qwsm::dds {
 
-/// What an answer says to others.
+/// The report that tells others what an answer says.
 MatchReport ReportOf(const team::RobotAnswer& answer);
 
-/// A sample that points into the report and the name of the frame: write it while both live.
+/// Makes a sample that points into the report and the name of the frame: write it while both live.
 wire::MatchReport ToWire(const MatchReport& report, const std::string& map_frame);
 
-/// Nothing where the sample makes no sense.
+/// The report of a sample; nothing where the sample makes no sense.
 std::optional<MatchReport> FromWire(const wire::MatchReport& sample);
 
 }  // namespace qwsm::dds

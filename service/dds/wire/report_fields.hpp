@@ -10,8 +10,8 @@
 
 namespace qwsm::dds {
 
-/// Fills the fields that reports on scans of every kind have. @param sample borrows from the
-/// report and the name of the frame.
+/// Fills the fields that reports on scans of every kind have.
+/// @param sample borrows from the report and the name of the frame.
 template <class Report, class Sample>
 void AddCommonFields(const Report& report, const std::string& map_frame, Sample& sample) {
   sample.header = HeaderOf(report.stamp, map_frame);
@@ -27,7 +27,8 @@ void AddCommonFields(const Report& report, const std::string& map_frame, Sample&
   sample.dropped = report.dropped;
 }
 
-/// A report with these fields; nothing where its stamp is none, or its status is beyond the last.
+/// Makes a report with the fields of every kind; nothing where its stamp is none, or its status is
+/// beyond the last.
 template <class Report, class Sample, class Status>
 std::optional<Report> CommonFieldsOf(const Sample& sample, Status last_status) {
   const std::optional<Timestamp> stamp = FromWire(sample.header.stamp);

@@ -15,6 +15,7 @@ namespace qwsm::dds {
 /// the /tf that all share; one without a namespace has `/scan` and `odom`.
 class RobotNames {
  public:
+  /// Derives the names of one robot.
   /// @param name `robot1`, or empty for a robot without a namespace; slashes around it are cut.
   explicit RobotNames(std::string_view name);
 
@@ -30,7 +31,7 @@ class RobotNames {
   std::string name_;
 };
 
-/// Names of topics, after the namespace.
+/// Last parts of the names of topics, after the namespace.
 inline constexpr std::string_view kScanTopic = "scan";
 inline constexpr std::string_view kCloudTopic = "points";
 inline constexpr std::string_view kOdometryTopic = "odom";
@@ -43,7 +44,8 @@ inline constexpr std::string_view kReportTopic = "match_report";
 inline constexpr std::string_view kRegistrationTopic = "registration_report";
 inline constexpr std::string_view kPathTopic = "path";
 inline constexpr std::string_view kCloudMapTopic = "cloud_map";
-inline constexpr std::string_view kMapTopic = "map";  ///< The team's, where it has no namespace.
+/// The map of the team where it has no namespace.
+inline constexpr std::string_view kMapTopic = "map";
 
 /// Topics the whole team shares.
 inline constexpr const char* kTransformsTopic = "/tf";
@@ -59,12 +61,12 @@ inline constexpr const char* kPointCloudType = "sensor_msgs::msg::dds_::PointClo
 inline constexpr const char* kRegistrationReportType = "qwsm_msgs::msg::dds_::RegistrationReport_";
 inline constexpr const char* kMatchReportType = "qwsm_msgs::msg::dds_::MatchReport_";
 
-/// What is longer is no name of a robot, service or frame, but an attack.
+/// Longest name of a robot, service or frame; what is longer is no name but an attack.
 inline constexpr std::size_t kMaxNameLength = 256;
 
-/// Frames.
+/// Names of frames; a robot's own are prefixed by its name.
 inline constexpr const char* kMapFrame = "map";
-inline constexpr const char* kWorldFrame = "world";  ///< The simulator's.
+inline constexpr const char* kWorldFrame = "world";  ///< The simulator's frame.
 inline constexpr std::string_view kOdometryFrame = "odom";
 inline constexpr std::string_view kRobotFrame = "base_link";
 inline constexpr std::string_view kLaserFrame = "laser";

@@ -15,7 +15,7 @@
 
 namespace qwsm::dds {
 
-/// What /tf_static says: where frames sit in their parent frames, and who says so.
+/// Holds what /tf_static says: where frames sit in their parent frames, and who says so.
 /// @tparam Kind of the poses: in the plane, from which tilted frames cannot be reached, or in
 /// space.
 template <class Kind>
@@ -25,14 +25,15 @@ class BasicStaticTransforms {
 
   using Speakers = std::function<std::set<Guid>()>;
 
+  /// Starts with no transforms.
   /// @param speakers the participants that publish them at the moment.
   explicit BasicStaticTransforms(Speakers speakers = {}) : speakers_(std::move(speakers)) {}
 
-  /// Takes all that makes sense; transforms that do not are passed over.
+  /// Takes all transforms of a message that make sense; the others are passed over.
   /// @param source the participant that says so.
   void Take(const wire::TFMessage& message, const Guid& source);
 
-  /// Whether one of those who publish transforms, and whose word counts, has not spoken of a frame.
+  /// Whether somebody who publishes transforms, and whose word counts, has not spoken of a frame.
   bool IsAwaited(const std::string& frame, const std::set<Guid>& own) const;
 
   /// Whether there are frames of which more than one participant tells.
@@ -40,7 +41,7 @@ class BasicStaticTransforms {
 
   /// Where a frame sits on another, over any number of steps; nothing where that is not known, or
   /// not in the plane. Of several who tell of one frame the last one counts.
-  /// @param own who counts before all others.
+  /// @param own participants who count before all others.
   std::optional<Pose> Find(const std::string& ancestor,
                            const std::string& frame,
                            const std::set<Guid>& own = {}) const;
@@ -57,7 +58,7 @@ class BasicStaticTransforms {
   void Take(const std::string& child, Link link);
 
   Speakers speakers_;
-  std::map<std::string, std::vector<Link>> links_;  // By child; the newest last.
+  std::map<std::string, std::vector<Link>> links_;  // Links by child frame; the newest is last.
   std::size_t statements_ = 0;
 };
 

@@ -11,7 +11,7 @@ namespace qwsm::dds {
 /// A message of one transform, to be written while the names of its frames live.
 class TransformSample {
  public:
-  /// @param pose of the child in the parent.
+  /// Makes the message. @param pose of the child in the parent.
   TransformSample(Timestamp stamp,
                   const std::string& parent,
                   const std::string& child,

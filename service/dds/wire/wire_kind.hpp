@@ -21,8 +21,8 @@ inline bool IsSame(const slam6d::Pose3& a, const slam6d::Pose3& b) {
   return a.rotation == b.rotation && a.translation_m == b.translation_m;
 }
 
-/// How what a robot says, and is told, looks on the wire: all that the readers and writers of scans
-/// and of clouds do not have in common.
+/// Says how what a robot says, and is told, looks on the wire: all that the readers and writers of
+/// scans and of clouds do not have in common.
 template <class Kind>
 struct OnWire;
 
@@ -35,11 +35,12 @@ struct OnWire<team::Planar> {
   static constexpr const char* kScanType = kLaserScanType;
   static constexpr const char* kReportType = kMatchReportType;
 
-  /// How scans are listened to. @param is_reliable whether their publisher repeats lost ones.
+  /// The profile scans are read with.
+  /// @param is_reliable whether their publisher repeats lost ones.
   static Profile ScansIn(bool) { return Profile::kSensorIn; }
   static Pose2 PoseOf(const wire::Pose& pose) { return FromWire(pose); }
   static bool IsRotation(const wire::Quaternion& q) { return std::isfinite(UprightnessOf(q)); }
-  /// Less than 2.6 degrees of tilt.
+  /// Whether a mounting may be used: it is tilted by less than 2.6 degrees (arccos 0.999).
   static bool IsUsable(const wire::Quaternion& mounting) { return UprightnessOf(mounting) > 0.999; }
   static Eigen::Matrix3d CovarianceOf(const double (&of_six)[36]) {
     return PlanarCovariance(of_six);
@@ -49,7 +50,7 @@ struct OnWire<team::Planar> {
   static Pose2& Mounting(LaserScan& scan) { return scan.geometry.T_robot_laser; }
   static const Pose2& Mounting(const LaserScan& scan) { return scan.geometry.T_robot_laser; }
 
-  /// A scan as a sample, which points into both.
+  /// A scan as a sample, which points into the scan and the name of the frame.
   class Sample {
    public:
     Sample(const LaserScan& scan, const std::string& frame) : sample_(ToWire(scan, frame)) {}
@@ -69,8 +70,8 @@ struct OnWire<team::Spatial> {
   static constexpr const char* kScanType = kPointCloudType;
   static constexpr const char* kReportType = kRegistrationReportType;
 
-  /// A cloud is a thousand packets: where the publisher repeats lost ones it is asked to, and one
-  /// that does not is heard all the same.
+  /// The profile clouds are read with. A cloud is a thousand packets: where the publisher repeats
+  /// lost ones it is asked to, and one that does not is heard all the same.
   static Profile ScansIn(bool is_reliable) {
     return is_reliable ? Profile::kSensorInWhole : Profile::kSensorIn;
   }
@@ -87,7 +88,7 @@ struct OnWire<team::Spatial> {
   static slam6d::Pose3& Mounting(team::CloudScan& scan) { return scan.T_robot_sensor; }
   static const slam6d::Pose3& Mounting(const team::CloudScan& scan) { return scan.T_robot_sensor; }
 
-  /// A scan as a sample, in double precision: nothing of it is lost.
+  /// A cloud as a sample, in double precision: nothing of it is lost.
   class Sample {
    public:
     Sample(const team::CloudScan& scan, const std::string& frame)

@@ -29,14 +29,14 @@ class Journal {
  public:
   struct Names {
     std::filesystem::path file;
-    std::string kind;      ///< Of contents.
-    std::string identity;  ///< If the journal is new.
+    std::string kind;      ///< Kind of the contents.
+    std::string identity;  ///< Identity that a new journal gets.
   };
 
   /// Opens the journal, or begins one. One that cannot be written now is tried again later.
   /// @throws io::JournalError where it is no journal, in use, or so damaged that it says nothing.
   explicit Journal(Names names);
-  /// Stops.
+  /// Stops as Stop() does.
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
@@ -44,10 +44,11 @@ class Journal {
   /// Whose journal it is.
   const std::string& identity() const { return names_.identity; }
 
-  /// What a file that was damaged has not got any more.
+  /// What a damaged file has lost.
   struct Loss {
     std::size_t entries = 0;
-    std::filesystem::path damaged_copy;  ///< Where the file was put, if it had to be made anew.
+    /// Where the damaged file was put, if it had to be made anew.
+    std::filesystem::path damaged_copy;
   };
   /// Gives every entry that was in the file when it was opened to `take`, in order, and begins to
   /// store. To be called once.
@@ -59,9 +60,9 @@ class Journal {
   /// Calls `tell` once all that was appended before is settled. What is told keeps its order.
   void Tell(std::function<void()> tell);
 
-  /// Stores what waits, unless the disk cannot be written, tells it, and then nothing more.
+  /// Stores what waits, unless the disk cannot be written, and tells it; works no more afterwards.
   void Stop();
-  /// Waits until all is stored, or nothing can be, and told.
+  /// Waits until all entries are stored, or none can be, and told.
   void WaitUntilSettled();
   JournalStatus Status() const;
 
@@ -84,17 +85,17 @@ class Journal {
   mutable std::mutex mutex_;  // Guards what follows.
   std::condition_variable_any changed_;
   std::vector<Order> orders_;
-  bool is_settling_ = false;  // Orders that were taken from the list.
+  bool is_settling_ = false;  // Whether orders that were taken from the list are still at work.
   std::string trouble_;
   std::uint64_t stored_ = 0;
   std::uint64_t waiting_ = 0;
 
-  // Of the thread, once it runs.
+  // The thread alone uses these, once it runs.
   std::optional<io::JournalFile> file_;  // None where it cannot be.
   std::vector<io::JournalEntry> unstored_;
-  Clock::time_point next_try_{};  // Of a disk that cannot be written.
+  Clock::time_point next_try_{};  // When a disk that cannot be written is tried again.
 
-  std::jthread thread_;  // Last: it uses all of the above.
+  std::jthread thread_;  // Last: it uses all members above.
 };
 
 }  // namespace qwsm::team

@@ -18,30 +18,31 @@ namespace qwsm::team {
 /// its memory goes on under its name, and one without does not take the name of another.
 class ServiceJournal {
  public:
-  /// Where the scans are kept; an empty file: nowhere.
+  /// Where the scans are kept; with an empty file they are not.
   struct Place {
     std::filesystem::path file;
-    std::string_view kind;  ///< Of their contents.
+    std::string_view kind;  ///< Kind of the journal's contents.
   };
 
-  /// @param tell takes what a person should know. @throws io::JournalError where it cannot be
-  /// opened or is no journal.
+  /// Opens the journal, if there is to be one.
+  /// @param tell takes what a person should know.
+  /// @throws io::JournalError where it cannot be opened or is no journal.
   ServiceJournal(const std::string& service, const Place& place, TellEvent tell);
 
   const std::string& identity() const { return identity_; }
-  /// Whether scans are kept.
+  /// Whether there is a journal that keeps scans.
   explicit operator bool() const { return journal_ != nullptr; }
 
   /// Gives every entry that was kept to `take`, in order; one that `take` throws io::BinaryError
   /// about is damaged, and left out as those are that the file itself knows to be. To be called
-  /// once, before all below.
+  /// once, before the functions below.
   void Restore(const std::function<void(const io::JournalEntry&)>& take);
 
-  /// Keeps an entry; see Journal. @pre there is a journal.
+  /// Keeps an entry, see Journal::Append(). @pre there is a journal.
   void Append(io::JournalEntry entry, std::function<void()> settled) {
     journal_->Append(std::move(entry), std::move(settled));
   }
-  /// Calls `tell` once all that was appended before is safe: at once where nothing is kept.
+  /// Calls `tell` once all that was appended before is safe; at once where nothing is kept.
   void TellWhenSafe(std::function<void()> tell);
 
   /// Stores what waits, and tells of what cannot be stored.
@@ -54,7 +55,7 @@ class ServiceJournal {
 
   const TellEvent tell_;
   std::string identity_;
-  std::unique_ptr<Journal> journal_;  // Null: there is none.
+  std::unique_ptr<Journal> journal_;  // Null where there is no journal.
 };
 
 }  // namespace qwsm::team

@@ -20,7 +20,7 @@ class MapPainter {
   explicit MapPainter(const OccupancyGridOptions& options)
       : cell_m_(options.cell_m), painter_(options) {}
 
-  /// Draws what is new in the map. Given up when asked to stop.
+  /// Draws what is new in the map; gives up when asked to stop.
   void Paint(const TeamMap& map, const std::stop_token& stop);
   /// The map as drawn so far, if it can be.
   std::optional<OccupancyGrid> Grid();
@@ -29,7 +29,7 @@ class MapPainter {
 
   /// Stamp of the newest scan that was drawn.
   Timestamp newest() const { return newest_; }
-  /// Why there was no grid the last time; empty where there was.
+  /// Why Grid() gave nothing the last time; empty where it gave a grid.
   const std::string& trouble() const { return trouble_; }
 
  private:
@@ -37,7 +37,7 @@ class MapPainter {
 
   double cell_m_;
   OccupancyPainter painter_;
-  std::size_t painted_ = 0;  // Scans.
+  std::size_t painted_ = 0;  // Scans drawn so far.
   bool has_news_ = false;
   Timestamp newest_{};
   std::string trouble_;

@@ -9,10 +9,10 @@
 
 namespace qwsm::team {
 
-/// Who matches against what.
+/// Says which robots match against which map.
 enum class MapSharing {
-  kTeam,       ///< All robots against one map.
-  kEachRobot,  ///< Each against its own.
+  kTeam,       ///< All robots match against one map.
+  kEachRobot,  ///< Each robot matches against its own map.
 };
 
 inline std::span<const std::pair<std::string_view, MapSharing>> Names(MapSharing) {

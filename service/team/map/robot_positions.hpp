@@ -21,12 +21,12 @@ namespace qwsm::team {
 class RobotPositions {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  /// A position is of use for so long: then the robot may be anywhere, or has stopped and stands
-  /// still for long enough to be one more thing to be guided by.
+  /// A position counts as fresh for so long: later the robot may be anywhere, or has stopped and
+  /// stands still for long enough to be one more thing to be guided by.
   static constexpr std::chrono::nanoseconds kFresh = std::chrono::seconds(1);
 
   void Report(std::string_view robot, const Eigen::Vector2d& p_map_m, Time now);
-  /// The fresh positions of all other robots.
+  /// The fresh positions of all robots but the given one.
   std::vector<Eigen::Vector2d> OthersThan(std::string_view robot, Time now) const;
 
  private:

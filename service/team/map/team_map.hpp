@@ -46,16 +46,17 @@ class TeamMap {
   std::shared_ptr<const MapAddition> Insert(const TeamScan& scan,
                                             std::span<const ScanPoint> points);
 
-  /// Where those who are matched against this map are at the moment.
+  /// Where the robots that are matched against this map are at the moment.
   RobotPositions& robots() { return robots_; }
 
   /// Whether the caller, who does not know where its robot is, may be the one to begin the map
-  /// there and so define its frame. True once.
+  /// there and so define its frame. True only for the first call.
   bool Begin() { return !has_begun_.exchange(true); }
 
-  /// The last relevant scan of the robot: where it was and what its odometry said. No ranges.
+  /// The last relevant scan of the robot: where it was and what its odometry said. Its ranges are
+  /// left out.
   std::optional<TeamScan> LastOf(std::string_view robot) const;
-  /// The largest sequence number that the service gave a scan of the robot; 0 if none.
+  /// The largest sequence number that the service gave a scan of the robot; 0 if it gave none.
   std::uint64_t LastSequence(std::string_view service, std::string_view robot) const;
 
  private:

@@ -14,7 +14,8 @@
 
 namespace qwsm::team {
 
-/// The one map of the team, or one for each robot. All functions may be called from any thread.
+/// The maps of a team: one for all robots, or one for each. All functions may be called from any
+/// thread.
 class TeamMaps {
  public:
   struct NamedMap {

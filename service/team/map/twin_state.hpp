@@ -50,7 +50,7 @@ class TwinState {
     for (;;) {
       const Twin& open = twins_[open_.load()];
       std::shared_lock lock(*open.mutex, std::try_to_lock);
-      // Else it was exchanged, and is already being changed, since its number was read.
+      // Otherwise it was exchanged, and is already being changed, since its number was read.
       if (lock) return View(std::move(lock), open.state);
     }
   }
@@ -82,7 +82,8 @@ class TwinState {
   std::array<Twin, 2> twins_;
   std::atomic<std::size_t> open_ = 0;
   std::mutex writer_;
-  std::shared_ptr<const Change> latest_;  // Not yet made to the twin that is hidden now.
+  // The change not yet made to the twin that is hidden now.
+  std::shared_ptr<const Change> latest_;
 };
 
 }  // namespace qwsm::team

@@ -9,13 +9,13 @@
 
 namespace qwsm::team {
 
-/// What the registration of one 3D scan came to.
+/// The outcome of the registration of one 3D scan.
 struct CloudStep {
-  Timestamp stamp{};                 ///< Of the scan.
+  Timestamp stamp{};                 ///< Stamp of the scan.
   slam6d::UncertainPose3 map_robot;  ///< Where the scan says the robot is.
   std::shared_ptr<const CloudScan> scan;
-  slam6d::Pose3 T_odom_sensor;    ///< The estimate that the registration began with.
-  slam6d::SlamStep registration;  ///< Of the sensor's pose.
+  slam6d::Pose3 T_odom_sensor;    ///< Estimate that the registration began with.
+  slam6d::SlamStep registration;  ///< The registration of the sensor's pose.
 };
 
 }  // namespace qwsm::team

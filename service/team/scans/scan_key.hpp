@@ -11,17 +11,18 @@
 
 namespace qwsm::team {
 
-/// What tells one relevant scan from all others, wherever it was heard of.
+/// Tells one relevant scan from all others, wherever it was heard of.
 struct ScanKey {
-  std::string service;         ///< That matched it; see TeamService::identity().
-  std::string robot;           ///< That took it, by its namespace.
-  std::uint64_t sequence = 0;  ///< Grows with the service's relevant scans of that robot.
+  std::string service;  ///< Service that matched the scan; see TeamService::identity().
+  std::string robot;    ///< Robot that took the scan, by its namespace.
+  /// Number that grows with the service's relevant scans of that robot.
+  std::uint64_t sequence = 0;
 
   friend auto operator<=>(const ScanKey&, const ScanKey&) = default;
 };
 
-/// What the sequence numbers of a run begin with: its time, in microseconds, as no robot makes that
-/// many scans. A service that was killed while it could not write its journal does not know which
+/// Sequence numbers of a run begin with its time in microseconds, as no robot makes that many
+/// scans: a service that was killed while it could not write its journal does not know which
 /// numbers it gave.
 inline std::uint64_t SequenceOfNow() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();

@@ -11,7 +11,8 @@
 
 namespace qwsm::team {
 
-/// What sessions, inboxes and publishers are made for: laser scans of a plane...
+/// Types for laser scans of a plane; sessions, inboxes and publishers are made for it or for
+/// Spatial. A Step has the stamp of its scan and the pose map_robot.
 struct Planar {
   using Scan = LaserScan;
   using Pose = Pose2;
@@ -20,8 +21,8 @@ struct Planar {
   using Step = MappingStep;
 };
 
-/// ...or clouds of points in space. What a step of either kind has: the stamp of its scan and the
-/// pose map_robot.
+/// Types for clouds of points in space; sessions, inboxes and publishers are made for it or for
+/// Planar. A Step has the stamp of its scan and the pose map_robot.
 struct Spatial {
   using Scan = CloudScan;
   using Pose = slam6d::Pose3;

@@ -16,10 +16,10 @@ struct TeamScan {
   ScanKey key;
   LaserScan scan;
   UncertainPose2 map_robot;
-  std::optional<Pose2> T_odom_robot;  ///< For the robot to go on from after a restart.
+  std::optional<Pose2> T_odom_robot;  ///< Odometry for the robot to go on from after a restart.
 };
 
-/// Why a scan must not be taken into the map; empty if it may.
+/// Says why a scan must not be taken into the map; empty if it may.
 std::string_view ObjectionTo(const TeamScan& scan);
 
 }  // namespace qwsm::team

@@ -8,8 +8,10 @@
 
 namespace qwsm::team {
 
-/// Leaves every n-th beam, or point, of a scan, with the least n by which no more than `most` are
-/// left. @return n: 1 where nothing was left out. @pre most > 0
+/// Keeps every n-th beam, or point, of a scan, with the least n by which no more than `most` are
+/// left.
+/// @return n: 1 where nothing was left out.
+/// @pre most > 0
 std::size_t Thin(LaserScan& scan, std::size_t most);
 std::size_t Thin(CloudScan& scan, std::size_t most);
 

@@ -7,7 +7,7 @@
 
 namespace qwsm::team {
 
-/// A service for robots with 3D scanners.
+/// Options of a service for robots with 3D scanners.
 struct CloudTeamOptions : ServiceOptions {
   CloudTeamOptions()
       : ServiceOptions{

@@ -27,33 +27,34 @@ struct CloudServiceOptions {
 /// All functions may be called from any thread, but not from the sinks.
 class CloudService {
  public:
+  /// Opens the journal; the models begin with the scans in it.
   /// @param closer outlives this.
-  /// @param journal where scans are kept; the models begin with those in it. Empty: nowhere.
+  /// @param journal where scans are kept; empty: nowhere.
   /// @throws io::JournalError where it cannot be opened or is no journal.
   CloudService(const CloudServiceOptions& options,
                const slam6d::LoopCloser& closer,
                SinkList<CloudSink> sinks,
                const std::filesystem::path& journal = {});
-  /// Stops.
+  /// Stops as Stop() does.
   ~CloudService();
   CloudService(const CloudService&) = delete;
   CloudService& operator=(const CloudService&) = delete;
 
-  /// Starts to work: first on what is in the journal. What arrives before waits.
+  /// Starts to work: first on the scans of the journal. What arrives before waits.
   void Start();
   /// Finishes the registrations at work and works no more. What waits in queues is left out.
   void Stop() { host_.Stop(); }
-  /// Waits until every scan that was taken is answered or dropped, and all is on disk that can be.
+  /// Waits until every scan that was taken is answered or dropped, and all that can be is on disk.
   void WaitUntilIdle() { host_.WaitUntilIdle(); }
 
   /// The name of the service in the keys of its scans.
   const std::string& identity() const { return host_.identity(); }
-  /// Its robots, by name: they take what robots say.
+  /// The robots of the service, by name: they take what robots say.
   SessionList<CloudSession>& robots() { return host_.sessions(); }
 
   TeamStatus Status() const { return host_.Status(StatusOfModels()); }
 
-  /// Fits all scans of every robot to each other. @pre it is stopped.
+  /// Fits all scans of every robot to each other. @pre the service has stopped.
   std::vector<std::pair<std::string, slam6d::RefinementResult>> Refine();
 
  private:
@@ -66,7 +67,7 @@ class CloudService {
   const CloudServiceOptions options_;
   const SinkList<CloudSink> sinks_;
   const CloudContext context_;
-  SessionHost<CloudSession> host_;  // Last: its threads use all of the above.
+  SessionHost<CloudSession> host_;  // Last: its threads use all members above.
 };
 
 }  // namespace qwsm::team

@@ -20,7 +20,7 @@
 
 namespace qwsm::team {
 
-/// What a session for clouds is given by the service that keeps it.
+/// What a service gives a session for clouds that it keeps.
 struct CloudContext {
   const slam6d::LoopCloser& closer;
   const SinkList<CloudSink>& sinks;
@@ -46,12 +46,13 @@ class CloudSession final : public Lane {
                const CloudContext& context);
 
   const std::string& name() const { return intake_.name(); }
-  /// Takes its messages.
+  /// The intake that takes the robot's messages.
   SessionIntake<Spatial>& intake() { return intake_; }
 
-  /// A scan of the journal, to be registered before those that come. @pre no worker runs yet.
+  /// Takes a scan of the journal, to be registered before those that come.
+  /// @pre no worker runs yet.
   void Restore(KeptCloud kept);
-  /// Where the robot is now; counts until its first scan.
+  /// Tells where the robot is now; counts until its first scan.
   void PlaceAt(const slam6d::UncertainPose3& map_robot);
 
   std::optional<Time> ReadyAt() const override;
@@ -61,13 +62,13 @@ class CloudSession final : public Lane {
   std::optional<CloudMap> NewMap();
   /// Fits all scans to each other. @pre no worker runs.
   slam6d::RefinementResult Refine() { return slam_.Refine(); }
-  /// Scans of the model, and points of all of them, thinned.
+  /// Number of scans of the model, and of their points, thinned.
   MapStatus ModelStatus() const;
 
  private:
   using Work = SessionIntake<Spatial>::Work;
 
-  /// What is kept of a scan for the merged cloud.
+  /// The part of a scan that is kept for the merged cloud.
   struct Stop {
     Timestamp stamp{};
     slam6d::Pose3 T_robot_sensor;
@@ -87,10 +88,11 @@ class CloudSession final : public Lane {
   const RobotEvents events_;
   SessionIntake<Spatial> intake_;
 
-  // Of the worker alone.
+  // The worker alone uses these.
   slam6d::Slam slam_;
-  bool is_claim_told_ = false;                // That its scanner is said to sit elsewhere.
-  slam6d::Pose3 T_odom_sensor_last_;          // As it was given to slam_.
+  // Whether it was told that somebody claims another place of the scanner.
+  bool is_claim_told_ = false;
+  slam6d::Pose3 T_odom_sensor_last_;          // Odometry as it was given to slam_ last.
   std::optional<slam6d::Pose3> T_slam_odom_;  // Where odometry began anew, or the start was told.
   std::uint64_t sequence_ = SequenceOfNow();
 

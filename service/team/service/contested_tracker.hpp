@@ -20,25 +20,26 @@ class ContestedTracker {
   /// What a scan has brought to light.
   enum class News {
     kNone,
-    kPlaceContradicted,  ///< It is back where it was tracked, not where it was told.
-    kMountingContested,  ///< Somebody says that its laser sits elsewhere: its scans will tell.
-    kMountingRefuted,    ///< It does not.
-    kMountingChanged,    ///< It does.
+    kPlaceContradicted,  ///< The robot is back where it was tracked, not where it was told to be.
+    /// Somebody says that the robot's laser sits elsewhere: its scans will tell.
+    kMountingContested,
+    kMountingRefuted,  ///< The laser does not sit where it was claimed to.
+    kMountingChanged,  ///< The laser sits where it was claimed to.
   };
 
   struct Tracked {
     MappingStep step;
-    std::vector<TeamScan> relevant;  ///< To extend the map with; they have no keys yet.
+    std::vector<TeamScan> relevant;  ///< Scans to extend the map with; they have no keys yet.
     News news = News::kNone;
   };
 
   explicit ContestedTracker(const MapperOptions& options) : tracker_(options) {}
 
-  /// Where the robot is, beyond dispute.
+  /// Tells where the robot is, beyond dispute.
   void PlaceAt(const UncertainPose2& map_robot, const std::optional<Pose2>& T_odom_robot = {});
-  /// Somebody says where it is, while it is tracked.
+  /// Takes up somebody's word on where the robot is, while it is tracked.
   void PlaceAsTold(const UncertainPose2& map_robot);
-  /// See RobotTracker.
+  /// Expects that odometry may have begun anew; see RobotTracker.
   void SuspectOdometryReset();
 
   /// Settles where the laser of a scan sits. @param claimed where somebody says that it does, other
@@ -54,7 +55,7 @@ class ContestedTracker {
   const UncertainPose2& map_robot() const { return tracker_.map_robot(); }
 
  private:
-  /// A claim that was settled.
+  /// A claim on the laser's place that was settled.
   struct Mounting {
     Pose2 T_robot_laser;
     Pose2 claimed;
@@ -69,9 +70,10 @@ class ContestedTracker {
   News Settle(const Observation& observation, bool is_rival_right, Tracked& tracked);
 
   RobotTracker tracker_;
-  double explained_share_ = 0.0;  // Of the last scan, by the map.
+  double explained_share_ = 0.0;  // Share of the last scan that the map explains.
   std::optional<TrackingTrial> trial_;
-  std::optional<Pose2> claimed_;  // The laser's place that the trial is about, if not the robot's.
+  // The laser's place that the trial is about; nothing where it is about the robot's.
+  std::optional<Pose2> claimed_;
   std::vector<Mounting> settled_;
 };
 

@@ -14,8 +14,9 @@ class PeriodicTask {
  public:
   using Task = std::function<void(const std::stop_token&)>;
 
+  /// Starts the thread.
   /// @param is_background the thread gives way to all others.
-  /// @param task gets what tells it to hurry up, for there is to be an end.
+  /// @param task is called with what tells it to hurry up, for there is to be an end.
   PeriodicTask(std::chrono::duration<double> period, bool is_background, Task task);
 
  private:

@@ -19,20 +19,21 @@
 
 namespace qwsm::team {
 
-/// What a session is given by the service that keeps it.
+/// What a service gives a session that it keeps.
 struct SessionContext {
-  std::string service;  ///< For the keys of its relevant scans.
+  std::string service;  ///< Service's name in the keys of the robot's relevant scans.
   TeamMap& map;
   const SinkList<TeamSink>& sinks;
   std::optional<UncertainPose2> start;  ///< Where the robot starts if nothing better is known.
-  double teammate_radius_m = 0.0;       ///< See TeamOptions.
+  /// Size that a teammate has for the others, in metres; see TeamOptions.
+  double teammate_radius_m = 0.0;
   /// Puts a relevant scan into the map, the journal and the network.
   std::function<void(const TeamScan&, std::span<const ScanPoint>)> extend;
   /// Tells of an answer once what it says is safe.
   std::function<void(const RobotAnswer&)> report;
 };
 
-/// One robot: takes its messages from any thread, answers its scans one by one in a worker.
+/// One robot: takes its messages from any thread and answers its scans one by one in a worker.
 ///
 /// Where it starts: as told; else where it was last, if the map has scans of it; else as
 /// configured; else, where the map is empty, at the origin of its odometry; else where its scan
@@ -48,10 +49,10 @@ class RobotSession final : public Lane {
                SessionContext context);
 
   const std::string& name() const { return intake_.name(); }
-  /// Takes its messages.
+  /// The intake that takes the robot's messages.
   SessionIntake<Planar>& intake() { return intake_; }
 
-  /// Somebody says where the robot is now.
+  /// Takes up somebody's word on where the robot is now.
   void PlaceAt(const UncertainPose2& map_robot);
 
   std::optional<Time> ReadyAt() const override { return intake_.ReadyAt(); }
@@ -78,7 +79,7 @@ class RobotSession final : public Lane {
   mutable std::mutex mutex_;  // Guards what follows.
   std::optional<UncertainPose2> initial_pose_;
 
-  // Of the worker alone.
+  // The worker alone uses these.
   ContestedTracker tracker_;
   bool is_placed_ = false;
   std::optional<Pose2> T_odom_last_;

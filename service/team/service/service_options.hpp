@@ -13,7 +13,7 @@
 
 namespace qwsm::team {
 
-/// What can be configured of a service, whatever its robots' sensors are.
+/// Options of a service, whatever its robots' sensors are.
 struct ServiceOptions {
   std::string service = "qwsm";
   std::vector<RobotStartOptions> robots{};
@@ -50,7 +50,7 @@ void Validate(const ServiceOptions& o, Report& report) {
   }
 }
 
-/// Where the robot is configured to start; null where it is not.
+/// Where the robot is configured to start; null where it is not configured.
 inline const RobotStartOptions* FindStart(const ServiceOptions& options, std::string_view robot) {
   const auto found = std::ranges::find(options.robots, robot, &RobotStartOptions::name);
   return found == options.robots.end() ? nullptr : &*found;

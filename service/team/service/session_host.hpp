@@ -15,22 +15,23 @@
 
 namespace qwsm::team {
 
-/// What runs a service, whatever its robots' sensors are: their sessions, the journal of their
-/// scans, and the threads that tell how the service is and what its maps are.
+/// Runs a service, whatever its robots' sensors are: their sessions, the journal of their scans,
+/// and the threads that tell how the service is and what its maps are.
 template <class Session>
 class SessionHost {
  public:
   using Sessions = SessionList<Session>;
 
-  /// What it tells again and again while it works.
+  /// What a service tells again and again while it works.
   struct News {
     std::function<void()> tell_status;
-    PeriodicTask::Task tell_maps;  ///< In the background.
+    PeriodicTask::Task tell_maps;  ///< Tells the maps, in the background.
     std::chrono::duration<double> map_period{};
   };
 
-  /// @param options outlive this. @throws io::JournalError where the journal cannot be opened or is
-  /// none.
+  /// Opens the journal.
+  /// @param options outlive this.
+  /// @throws io::JournalError where it cannot be opened or is no journal.
   SessionHost(const ServiceOptions& options,
               const ServiceJournal::Place& place,
               TellEvent tell,
@@ -44,7 +45,7 @@ class SessionHost {
   const Sessions& sessions() const { return sessions_; }
   ServiceJournal& journal() { return journal_; }
 
-  /// Gives all that the journal has to `take`, and expects the configured robots from then on.
+  /// Gives all entries of the journal to `take`, and expects the configured robots from then on.
   void Restore(const std::function<void(const io::JournalEntry&)>& take) {
     journal_.Restore(take);
     for (const RobotStartOptions& robot : options_.robots) sessions_.Of(robot.name);
@@ -67,13 +68,13 @@ class SessionHost {
     sessions_.Stop();
     journal_.Stop();
   }
-  /// Waits until every scan that was taken is answered or dropped, and all is on disk that can be.
+  /// Waits until every scan that was taken is answered or dropped, and all that can be is on disk.
   void WaitUntilIdle() {
     sessions_.WaitUntilIdle();
     journal_.WaitUntilSettled();
   }
 
-  /// @param map which only the service knows.
+  /// How the service is. @param map which only the service knows.
   TeamStatus Status(const MapStatus& map) const {
     return {.service = identity(),
             .uptime = std::chrono::steady_clock::now() - begun_,

@@ -7,7 +7,7 @@
 
 namespace qwsm::team {
 
-/// A service for a team of robots with laser scanners.
+/// Options of a service for a team of robots with laser scanners.
 struct TeamOptions : ServiceOptions {
   MapSharing map = MapSharing::kTeam;
   double teammate_radius_m = 0.7;

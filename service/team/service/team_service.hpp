@@ -40,12 +40,13 @@ struct TeamServiceOptions {
 /// All functions may be called from any thread, but not from the sinks.
 class TeamService {
  public:
-  /// @param journal where relevant scans are kept; the map begins with those in it. Empty: nowhere.
+  /// Opens the journal; the map begins with the scans in it.
+  /// @param journal where relevant scans are kept; empty: nowhere.
   /// @throws io::JournalError where it cannot be opened or is no journal.
   TeamService(const TeamServiceOptions& options,
               SinkList<TeamSink> sinks,
               const std::filesystem::path& journal = {});
-  /// Stops.
+  /// Stops as Stop() does.
   ~TeamService();
   TeamService(const TeamService&) = delete;
   TeamService& operator=(const TeamService&) = delete;
@@ -56,27 +57,28 @@ class TeamService {
   /// Finishes the matches at work, saves what is to be saved, and works no more. What waits in
   /// queues is left out.
   void Stop() { host_.Stop(); }
-  /// Waits until every scan that was taken is answered or dropped, and all is on disk that can be.
+  /// Waits until every scan that was taken is answered or dropped, and all that can be is on disk.
   void WaitUntilIdle() { host_.WaitUntilIdle(); }
 
   /// The name of the service in the keys of its relevant scans.
   const std::string& identity() const { return host_.identity(); }
-  /// Its robots, by name: they take what robots say.
+  /// The robots of the service, by name: they take what robots say.
   SessionList<RobotSession>& robots() { return host_.sessions(); }
 
   /// Takes in relevant scans of other services, several at once where they are there: they are
   /// inserted by stamp, so that services that start late get the same map from the same scans.
   /// What is known already, or came from this service, is passed over.
   void TakeIn(std::vector<TeamScan> scans);
-  /// Another service is gone: this one offers what it took in, for those that come later. So what
-  /// one service has is never lost to the team.
+  /// Offers what this service took in of another one that is gone, for those that come later. So
+  /// what one service has is never lost to the team.
   void OfferTakenIn();
 
   TeamStatus Status() const { return host_.Status(StatusOfMaps()); }
   /// The map a robot is matched against; the team's where all share one.
   std::shared_ptr<const TeamMap> MapOf(std::string_view robot) { return maps_.Of(robot); }
-  /// That map, drawn at the cost of what was not drawn while the service ran; nothing where it is
-  /// empty or too large. @pre the service has stopped.
+  /// The map a robot is matched against, drawn at the cost of what was not drawn while the service
+  /// ran; nothing where it is empty or too large.
+  /// @pre the service has stopped.
   std::optional<OccupancyGrid> DrawMapOf(std::string_view robot);
 
  private:
@@ -97,18 +99,18 @@ class TeamService {
   const SinkList<TeamSink> sinks_;
   TeamMaps maps_;
   std::mutex extension_;             // Keeps the journal in the order of the map.
-  std::vector<TeamScan> offered_;    // From the journal, until the start.
-  std::vector<TeamScan> of_others_;  // Taken in, and offered by those whose they are.
+  std::vector<TeamScan> offered_;    // Scans from the journal, until the start.
+  std::vector<TeamScan> of_others_;  // Scans taken in from other services, which offer them.
   std::atomic<std::uint64_t> taken_in_ = 0;
   std::atomic<std::uint64_t> duplicates_ = 0;
   std::atomic<std::uint64_t> refused_ = 0;
 
-  // Of the task that paints, while it runs.
+  // The task that paints alone uses these, while it runs.
   std::map<const TeamMap*, MapPainter> painters_;
   std::chrono::steady_clock::time_point maps_told_{};
   std::chrono::steady_clock::time_point maps_repeated_{};
 
-  SessionHost<RobotSession> host_;  // Last: its threads use all of the above.
+  SessionHost<RobotSession> host_;  // Last: its threads use all members above.
 };
 
 }  // namespace qwsm::team

@@ -28,16 +28,18 @@ class TrackingTrial {
     std::span<const ScanPoint> points;
   };
 
+  /// Begins a trial of a rival.
   /// @param overlap of the robot's last match, before anything was said.
   TrackingTrial(RobotTracker rival, double overlap) : rival_(std::move(rival)), overlap_(overlap) {}
 
-  /// The odometry may have begun anew, see RobotTracker.
+  /// Expects that odometry may have begun anew; see RobotTracker.
   void SuspectOdometryReset() { rival_.SuspectOdometryReset(); }
-  /// The other tracker begins anew. What spoke for the rival still does.
+  /// Says that the tracker beside the rival begins anew. What spoke for the rival still does.
   void BeginAnew();
 
-  /// Hears the next scan. @param of_rival as the rival sees it. @param step what the other made of
-  /// it.
+  /// Weighs the next scan.
+  /// @param of_rival the scan as the rival sees it.
+  /// @param step what the other tracker made of it.
   Verdict Hear(const ScanMap& map,
                const Account& of_rival,
                const Observation& observation,
@@ -47,7 +49,7 @@ class TrackingTrial {
   /// What the rival made of the last scan.
   const MappingStep& rival_step() const { return rival_step_; }
 
-  /// The relevant scans since the trial began, by which the map is to be extended after it. They
+  /// The relevant scans since the trial began, by which the map is to be extended after it; they
   /// have no keys yet.
   const std::vector<TeamScan>& held() const { return held_; }
   const std::vector<TeamScan>& held_by_rival() const { return held_by_rival_; }
@@ -59,7 +61,8 @@ class TrackingTrial {
   RobotTracker rival_;
   double overlap_;
   MappingStep rival_step_;
-  double evidence_points_ = 0.0;  // For the rival; negative: for the other.
+  // Evidence for the rival, in points; negative: for the other tracker.
+  double evidence_points_ = 0.0;
   std::vector<TeamScan> held_;
   std::vector<TeamScan> held_by_rival_;
 };

@@ -20,9 +20,10 @@ class RobotListener {
   RobotListener& operator=(const RobotListener&) = delete;
   virtual ~RobotListener() = default;
 
-  /// @return false if the scan was refused.
+  /// Takes a scan. @return false if it was refused.
   virtual bool TakeScan(std::string_view robot, typename Kind::Scan scan) = 0;
-  /// The same, where somebody has begun to say that its sensor sits elsewhere on the robot.
+  /// Takes a scan where somebody has begun to say that its sensor sits elsewhere on the robot.
+  /// @return false if it was refused.
   virtual bool TakeContestedScan(std::string_view robot,
                                  typename Kind::Scan scan,
                                  const typename Kind::Pose& /*T_robot_sensor_claimed*/) {
@@ -31,9 +32,10 @@ class RobotListener {
   virtual void TakeOdometry(std::string_view robot,
                             Timestamp stamp,
                             const typename Kind::Pose& T_odom_robot) = 0;
-  /// Whether somebody publishes its odometry, told again and again: only then do scans wait for it.
+  /// Tells, again and again, whether somebody publishes the robot's odometry: only then do scans
+  /// wait for it.
   virtual void ExpectOdometry(std::string_view robot, bool expected) = 0;
-  /// Somebody says where the robot is in the map.
+  /// Takes somebody's word on where the robot is in the map.
   virtual void PlaceAt(std::string_view robot, const typename Kind::UncertainPose& map_robot) = 0;
 };
 

@@ -15,7 +15,7 @@ namespace qwsm::team {
 template <class Scan>
 class ScanQueue {
  public:
-  /// @pre capacity > 0
+  /// Makes an empty queue. @pre capacity > 0
   explicit ScanQueue(std::size_t capacity) : capacity_(capacity) { assert(capacity > 0); }
 
   void Push(Scan scan) {
@@ -25,13 +25,13 @@ class ScanQueue {
     }
     scans_.push_back(std::move(scan));
   }
-  /// @pre !empty()
+  /// Takes the oldest scan out. @pre !empty()
   Scan Pop() {
     Scan scan = std::move(scans_.front());
     scans_.pop_front();
     return scan;
   }
-  /// The oldest. @pre !empty()
+  /// The oldest scan. @pre !empty()
   const Scan& front() const { return scans_.front(); }
   bool empty() const { return scans_.empty(); }
   std::size_t size() const { return scans_.size(); }

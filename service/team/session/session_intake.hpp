@@ -20,9 +20,8 @@
 
 namespace qwsm::team {
 
-/// What becomes of one robot's messages before its scans are worked on, and the account of it:
-/// taken from any thread, refused, kept in order, joined with odometry, dropped where there are too
-/// many.
+/// Keeps account of one robot's messages before its scans are worked on: taken from any thread,
+/// refused, kept in order, joined with odometry, dropped where there are too many.
 /// @tparam Kind Planar or Spatial.
 template <class Kind>
 class SessionIntake {
@@ -36,13 +35,14 @@ class SessionIntake {
     Lane::Time arrived{};
     std::optional<Pose> T_odom_robot;
     std::optional<Pose> T_robot_sensor_claimed;  ///< See RobotListener::TakeContestedScan().
-    bool is_interrupted = false;    ///< The robot, or its clock, was away since the last scan.
-    bool was_elsewhere = false;     ///< Another service knows better where it is.
-    bool odometry_jumped = false;   ///< It moved faster than any robot: it began anew.
-    bool odometry_goes_on = false;  ///< The scan before had odometry, too.
+    bool is_interrupted = false;  ///< The robot, or its clock, was away since the last scan.
+    bool was_elsewhere = false;   ///< Whether another service knows better where the robot is.
+    /// Whether odometry moved faster than any robot: it began anew.
+    bool odometry_jumped = false;
+    bool odometry_goes_on = false;  ///< Whether the scan before had odometry, too.
   };
 
-  /// How a scan was answered.
+  /// The outcome of one scan.
   struct Outcome {
     Timestamp stamp{};
     UncertainPose2 map_robot{};
@@ -57,35 +57,36 @@ class SessionIntake {
 
   const std::string& name() const { return events_.robot(); }
 
-  /// The robot's publisher is there, again.
+  /// Notes that the robot's publisher is there, perhaps again.
   void Join();
-  /// It is gone: the robot will come back where it left.
+  /// Notes that the robot's publisher is gone: it will come back where it left.
   void Lose();
-  /// Another service answers it from now on, until it joins again.
+  /// Notes that another service answers the robot from now on, until it joins again.
   void HandOver();
 
-  /// Whoever sends scans has joined. @return false if the scan was refused. One that is taken may
-  /// still be dropped for newer ones.
+  /// Takes a scan; whoever sends scans has joined. One that is taken may still be dropped for newer
+  /// ones.
+  /// @return false if the scan was refused.
   bool Enqueue(Scan scan, const std::optional<Pose>& T_robot_sensor_claimed = {});
   void TakeOdometry(Timestamp stamp, const Pose& T_odom_robot);
-  /// Whether scans are to wait for odometry. They are, from the first reading on.
+  /// Says whether scans are to wait for odometry. They wait from the first reading on.
   void ExpectOdometry(bool expected);
 
-  /// A run before this one took a scan of that stamp, with that odometry: it goes on from there.
+  /// Goes on from a scan that a run before this one took, with its stamp and odometry.
   void GoOnFrom(Timestamp stamp, const std::optional<Pose>& T_odom_robot);
 
-  /// From when on there is work; nothing where there is none.
+  /// When the next scan can be worked on; nothing where none waits.
   std::optional<Lane::Time> ReadyAt() const;
   /// The oldest scan that waits and can be used. To be called by one thread at a time.
   std::optional<Work> Take();
 
-  /// Nobody knows where the robot is: its scan was left unanswered.
+  /// Notes that nobody knows where the robot is: its scan was left unanswered.
   void NoteUnplaced();
-  /// Its scans contradict where it was told to be.
+  /// Notes that the robot's scans contradict where it was told to be.
   void NoteContradictedPose();
-  /// They contradict where its sensor was said to sit.
+  /// Notes that the robot's scans contradict where its sensor was said to sit.
   void NoteContradictedMounting();
-  /// @return the robot's counts with this answer.
+  /// Notes an answer. @return the robot's counts with it.
   SessionCounts NoteAnswer(const Outcome& outcome);
 
   RobotStatus Status() const;
@@ -112,12 +113,12 @@ class SessionIntake {
   StampGuard guard_;
   OdometryBuffer<Pose> odometry_;
   bool expects_odometry_ = false;
-  bool hears_odometry_ = false;              // Since the robot joined.
-  std::optional<Lane::Time> first_arrived_;  // Of its scans, since then.
+  bool hears_odometry_ = false;              // Whether there was odometry since the robot joined.
+  std::optional<Lane::Time> first_arrived_;  // Arrival of the first scan since the robot joined.
   ScanQueue<Arrival> queue_;
   bool is_interrupted_ = false;
   bool was_elsewhere_ = false;
-  std::optional<Pose> T_odom_last_;  // Of the scan taken last.
+  std::optional<Pose> T_odom_last_;  // Odometry of the scan taken last.
   Timestamp last_stamp_{};
   SessionCounts counts_;
   LatencyHistogram working_;

@@ -34,14 +34,14 @@ class SessionList final : public RobotListener<typename Session::Kind> {
 
   explicit SessionList(Make make) : make_(std::move(make)) {}
 
-  /// Starts to work. @param threads 0: as many as the computer has cores.
+  /// Starts to work. @param threads number of workers; 0: as many as the computer has cores.
   void Start(int threads) {
     const std::lock_guard lock(mutex_);
     const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     workers_ = std::make_unique<WorkerPool>(threads > 0 ? threads : cores);
     for (const auto& [robot, session] : sessions_) workers_->Add(session);
   }
-  /// Finishes what is at work. What waits is left out.
+  /// Finishes the pieces at work; what waits is left out.
   void Stop() {
     if (workers_) workers_->Stop();
   }
@@ -59,20 +59,21 @@ class SessionList final : public RobotListener<typename Session::Kind> {
     return sessions_[session->name()] = session;
   }
 
-  /// A robot's publisher is there.
+  /// Notes that a robot's publisher is there.
   void Join(std::string_view robot) {
     if (const auto session = Of(robot)) session->intake().Join();
   }
-  /// It is gone. One that is not known cannot be lost.
+  /// Notes that a robot's publisher is gone. A robot that is not known cannot be lost.
   void Lose(std::string_view robot) {
     if (const auto session = Find(robot)) session->intake().Lose();
   }
-  /// Another service answers it from now on.
+  /// Notes that another service answers the robot from now on.
   void HandOver(std::string_view robot) {
     if (const auto session = Find(robot)) session->intake().HandOver();
   }
 
-  /// @return false if the scan was refused: malformed, of a wrong time or a duplicate. See its
+  /// Takes a robot's scan.
+  /// @return false if it was refused: malformed, of a wrong time or a duplicate; see the robot's
   /// counts.
   bool TakeScan(std::string_view robot, typename Kind::Scan scan) override {
     return Enqueue(robot, std::move(scan), std::nullopt);
@@ -133,7 +134,7 @@ class SessionList final : public RobotListener<typename Session::Kind> {
   }
 
   Make make_;
-  mutable std::mutex mutex_;  // Of the list; sessions look after themselves.
+  mutable std::mutex mutex_;  // Guards the list; sessions look after themselves.
   std::map<std::string, std::shared_ptr<Session>, std::less<>> sessions_;
   std::unique_ptr<WorkerPool> workers_;
 };

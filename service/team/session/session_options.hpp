@@ -26,7 +26,7 @@ void Describe(Visitor& visit, RobotStartOptions& o) {
   visit("sigma_rad", o.sigma_rad, {.help = "how far off the heading may be", .min = 0, .max = 3.2});
 }
 
-/// How one robot is listened to.
+/// Options of how one robot is listened to.
 struct SessionOptions {
   int queue_scans = 4;
   int max_readings = 5000;

@@ -10,11 +10,12 @@ namespace qwsm::team {
 
 /// What a stamp says about the message that carries it.
 enum class StampVerdict {
-  kInOrder,     ///< Newer than all before.
-  kLate,        ///< Older than the newest, by no more than a network delays: it was overtaken.
-  kDuplicate,   ///< Of a message that has come already.
-  kWrongTime,   ///< From the future, or older than any delay explains.
-  kClockReset,  ///< In order again, by a clock that was set.
+  kInOrder,  ///< The stamp is newer than all before.
+  /// The stamp is older than the newest by no more than a network delays: it was overtaken.
+  kLate,
+  kDuplicate,   ///< The stamp is that of a message that has come already.
+  kWrongTime,   ///< The stamp is from the future, or older than any delay explains.
+  kClockReset,  ///< The stamp is in order again, by a clock that was set.
 };
 
 /// Watches the stamps of one sender. What is of a wrong time is to be refused; but when several
@@ -25,13 +26,13 @@ enum class StampVerdict {
 /// past. From the future is what is newer than both this machine's time and all before.
 class StampGuard {
  public:
-  using Clock = std::chrono::nanoseconds (*)();  ///< Time since 1970.
+  using Clock = std::chrono::nanoseconds (*)();  ///< Gives the time since 1970.
 
   static constexpr std::chrono::nanoseconds kMaxDelay = std::chrono::seconds(1);
-  /// By how much clocks may differ, and messages of a wrong time that follow each other be apart.
+  /// Most by which clocks may differ, and messages of a wrong time that follow each other be apart.
   static constexpr std::chrono::nanoseconds kMaxAhead = std::chrono::hours(1);
   static constexpr int kConfirmations = 3;
-  static constexpr std::size_t kRemembered = 64;  ///< Stamps, to know duplicates by.
+  static constexpr std::size_t kRemembered = 64;  ///< Stamps remembered, to know duplicates by.
 
   explicit StampGuard(Clock now = SystemTime) : now_(now) {}
 
@@ -44,7 +45,7 @@ class StampGuard {
   void Remember(std::chrono::nanoseconds stamp);
 
   Clock now_;
-  std::set<std::chrono::nanoseconds> recent_;  // The newest ones.
+  std::set<std::chrono::nanoseconds> recent_;  // The newest stamps.
   std::chrono::nanoseconds last_wrong_{};
   int wrong_in_order_ = 0;
 };

@@ -23,7 +23,7 @@ class Lane {
   Lane& operator=(const Lane&) = delete;
   virtual ~Lane() = default;
 
-  /// From when on the next piece can be done; nothing where there is none. Any thread may ask.
+  /// When the next piece can be done; nothing where there is none. Any thread may ask.
   virtual std::optional<Time> ReadyAt() const = 0;
   /// Does the next piece, if there is still one. Called by one thread at a time. Must not throw.
   virtual void RunOne() = 0;
@@ -35,16 +35,16 @@ class Lane {
 /// time fair queueing, Goyal et al. 1996).
 class WorkerPool {
  public:
-  /// @pre threads > 0
+  /// Starts the threads. @pre threads > 0
   explicit WorkerPool(int threads);
-  /// Stops.
+  /// Stops as Stop() does.
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  /// The lane is kept until the pool goes.
+  /// Adds a lane, which is kept until the pool goes.
   void Add(std::shared_ptr<Lane> lane);
-  /// There may be something new to do.
+  /// Says that there may be something new to do.
   void Wake();
   /// Waits until no lane has anything to do, now or later.
   void WaitUntilIdle();
@@ -56,11 +56,12 @@ class WorkerPool {
   struct Entry {
     std::shared_ptr<Lane> lane;
     bool is_running = false;
-    bool has_work = false;  // As it was looked at last.
-    Duration used{};        // Of the workers' time. What it left unused while idle counts, too.
+    bool has_work = false;  // Whether the lane had work when it was looked at last.
+    // Workers' time the lane has had; what it left unused while idle counts, too.
+    Duration used{};
   };
   struct Choice {
-    Entry* entry = nullptr;  // The one to run, once it is time.
+    Entry* entry = nullptr;  // The lane to run, once it is time.
     Lane::Time ready_at{};
   };
 
@@ -74,7 +75,7 @@ class WorkerPool {
   std::condition_variable_any changed_;
   std::vector<std::unique_ptr<Entry>> entries_;
   Duration fair_share_{};  // What the entry that ran last had used: who is back begins with that.
-  std::vector<std::jthread> threads_;  // Last: they use all of the above.
+  std::vector<std::jthread> threads_;  // Last: they use all members above.
 };
 
 }  // namespace qwsm::team

@@ -9,7 +9,7 @@
 
 namespace qwsm::team {
 
-/// What a robot's scans have come to.
+/// What a robot's scans have come to: its path, and its model as one cloud.
 struct CloudMap {
   struct Stop {
     Timestamp stamp{};
@@ -18,13 +18,14 @@ struct CloudMap {
 
   std::string_view robot;
   std::vector<Stop> path;    ///< Where each scan was taken, as known by now.
-  slam6d::PointCloud cloud;  ///< All of them, thinned.
+  slam6d::PointCloud cloud;  ///< All clouds in one, thinned.
 };
 
 /// Takes what the service for clouds has to tell.
 class CloudSink : public ServiceSink<Spatial> {
  public:
-  /// A scan of the journal is in its robot's model once more. It was answered in its time.
+  /// Takes a scan of the journal that is in its robot's model once more. It was answered in its
+  /// time.
   virtual void TakeRestored(const CloudAnswer&) {}
   virtual void TakeMap(const CloudMap&) {}
 };

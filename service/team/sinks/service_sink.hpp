@@ -20,11 +20,12 @@ template <class Kind>
 struct Answer {
   std::string robot;
   typename Kind::Step step;
-  std::optional<typename Kind::Pose> T_odom_robot{};  ///< At the scan's stamp.
+  std::optional<typename Kind::Pose> T_odom_robot{};  ///< Odometry at the scan's stamp.
   std::chrono::nanoseconds matching{};                ///< Time the match took.
   std::chrono::nanoseconds latency{};                 ///< From the scan's arrival to now.
-  std::uint64_t scans = 0;                            ///< Of this robot so far.
-  std::uint64_t dropped = 0;                          ///< Of these, because the queue was full.
+  std::uint64_t scans = 0;                            ///< Scans of this robot so far.
+  /// Scans of this robot that were dropped because the queue was full.
+  std::uint64_t dropped = 0;
 };
 
 using RobotAnswer = Answer<Planar>;
@@ -32,7 +33,7 @@ using CloudAnswer = Answer<Spatial>;
 
 /// Something worth a line in the log: a robot joined, a clock was set back, the disk is full.
 struct TeamEvent {
-  std::optional<std::string_view> robot;  ///< Nothing where it is about none.
+  std::optional<std::string_view> robot;  ///< Nothing where the event is about no robot.
   bool is_warning = false;
   std::string_view text;
 };
@@ -52,10 +53,11 @@ class ServiceSink {
   ServiceSink& operator=(const ServiceSink&) = delete;
   virtual ~ServiceSink() = default;
 
-  /// A pose, as soon as it is known.
+  /// Takes a scan's answer, as soon as its pose is known.
   virtual void TakeAnswer(const Answer<Kind>&) {}
-  /// The same again, once all that the service knew by then is safely in the journal, if there is
-  /// one that can be written: that a scan extended the map is told of no scan that may be lost.
+  /// Takes a scan's answer again, once all that the service knew by then is safely in the journal,
+  /// if there is one that can be written: that a scan extended the map is told of no scan that may
+  /// be lost.
   virtual void TakeReport(const Answer<Kind>&) {}
   virtual void TakeStatus(const TeamStatus&) {}
   virtual void TakeEvent(const TeamEvent&) {}

@@ -8,15 +8,16 @@
 
 namespace qwsm::team {
 
-/// Those who listen to a service, told one after the other.
+/// Tells those who listen to a service, one after the other.
 /// @tparam Sink TeamSink or CloudSink.
 template <class Sink>
 class SinkList {
  public:
-  /// @param sinks outlive this.
+  /// Makes the list. @param sinks outlive this.
   SinkList(std::vector<Sink*> sinks) : sinks_(std::move(sinks)) {}
   SinkList(Sink& sink) : sinks_{&sink} {}
 
+  /// Tells every sink.
   /// @param take which of the sinks' functions takes it, such as &TeamSink::TakeAnswer.
   template <class Base, class Told>
   void Tell(void (Base::*take)(const Told&), const std::type_identity_t<Told>& told) const {

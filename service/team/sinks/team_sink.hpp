@@ -22,18 +22,18 @@ struct NewPoints {
 /// A drawn map.
 struct MapPicture {
   std::string_view robot;  ///< Whose map it is; empty for the team's.
-  Timestamp stamp{};       ///< Of the newest scan in it.
+  Timestamp stamp{};       ///< Stamp of the newest scan in the map.
   const OccupancyGrid& grid;
 };
 
 /// Takes what the service for a team has to tell.
 class TeamSink : public ServiceSink<Planar> {
  public:
-  /// A relevant scan of a robot of this service, for the other services: safely in the journal if
-  /// there is one that can be written. At the start, all of the journal; of other services, what
-  /// was taken in of them when one is gone.
+  /// Takes a relevant scan of a robot of this service, for the other services: safely in the
+  /// journal if there is one that can be written. At the start, all of the journal; of other
+  /// services, what was taken in of them when one is gone.
   virtual void TakeRelevantScan(const TeamScan&) {}
-  /// What it added to the map; as safe.
+  /// Takes what a relevant scan added to the map, as safe in the journal as that scan.
   virtual void TakeNewPoints(const NewPoints&) {}
   virtual void TakeMap(const MapPicture&) {}
 };

@@ -10,7 +10,7 @@
 
 namespace sim {
 
-/// A 2D laser scanner that nods, as on Kurt3D (Nüchter et al. 2007, section 2).
+/// A 2D laser scanner that nods, as on Kurt3D (Nüchter et al. 2007, section 2.2).
 struct PitchingLaserOptions {
   int beams = 181;  ///< Of a sweep, over its width.
   double width_rad = std::numbers::pi;
