@@ -14,16 +14,16 @@
 
 namespace qwsm::apps {
 
-/// What the program tells its caller; the same for all commands.
+/// Exit codes of the program; all commands have the same.
 enum class ExitCode {
   kDone = 0,
-  kFailed = 1,  ///< It ran, but the result is not what was asked for.
-  kUsage = 2,   ///< Wrong arguments, configuration or input.
-  kIo = 3,      ///< Results could not be written.
+  kFailed = 1,  ///< The command ran, but the result is not what was asked for.
+  kUsage = 2,   ///< The arguments, the configuration or the input are wrong.
+  kIo = 3,      ///< The results could not be written.
   kInterrupted = 130,
 };
 
-/// Arguments that are each right but make no sense together.
+/// Tells of arguments that are each right but make no sense together.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -35,7 +35,7 @@ struct Command {
   std::function<ExitCode()> run;
 };
 
-/// How much is said, and in what form.
+/// Says how much is told on stderr, and in what form.
 struct Verbosity {
   bool quiet = false;
   bool verbose = false;
@@ -46,19 +46,19 @@ struct Verbosity {
 /// spares the others much of CLI11.
 CLI::App* AddParser(CLI::App& program, const std::string& name, const std::string& help);
 
-/// Adds --config and --set.
+/// Adds the arguments --config and --set.
 void AddConfiguration(CLI::App& parser, config::OptionSources& sources);
 
-/// Adds --quiet, --verbose and, where it has a meaning, --json.
+/// Adds the arguments --quiet, --verbose and, where it has a meaning, --json.
 void AddVerbosity(CLI::App& parser, Verbosity& verbosity, const std::string& json_help);
 
 /// The matcher of a name given after --matcher. @throws UsageError.
 MatcherKind MatcherNamed(const std::string& name);
 
-/// How logs are read; their faults become messages.
+/// Options for reading logs; their faults become messages.
 io::LogOptions LogOptionsOf(const options::LogOptions& options);
 
-// One per command, each in a file of its own.
+// These add one command each, and stand in a file each.
 Command AddMapCommand(CLI::App& program);
 Command AddLocalizeCommand(CLI::App& program);
 Command AddCompareCommand(CLI::App& program);

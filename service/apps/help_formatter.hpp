@@ -7,8 +7,8 @@
 
 namespace qwsm::apps {
 
-/// Help as one reads it: what it is for, examples (the footer of the parser), usage, then the
-/// options.
+/// Formats help as one reads it: what a command is for, examples (the footer of the parser), usage,
+/// then the options.
 class HelpFormatter final : public CLI::Formatter {
  public:
   HelpFormatter();

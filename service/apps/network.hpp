@@ -7,7 +7,7 @@
 
 namespace qwsm::apps {
 
-/// Of the program qwsm.
+/// The network session of the program qwsm.
 using NetworkSession = BasicNetworkSession<options::ProgramOptions>;
 
 }  // namespace qwsm::apps

@@ -23,7 +23,7 @@ void AddNetworkArguments(CLI::App& parser,
                          NetworkArguments& arguments,
                          const std::string& json_help);
 
-/// The options of a program; from here on what the middleware has to say becomes messages.
+/// Holds the options of a program; while it lives, what the middleware has to say becomes messages.
 template <class Options>
 class BasicNetworkSession {
  public:

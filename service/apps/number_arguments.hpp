@@ -9,8 +9,7 @@ namespace qwsm::apps {
 /// Longest time that a command is given, in seconds: some thirty years.
 inline constexpr double kLongest_s = 1e9;
 
-/// For the check() of an option that takes a number: one between the two, which neither nan nor inf
-/// are.
+/// The check() of an option that takes a number between two others; neither nan nor inf passes.
 CLI::Validator NumberBetween(double least, double most);
 
 }  // namespace qwsm::apps

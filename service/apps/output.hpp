@@ -13,7 +13,7 @@ namespace qwsm::apps {
 /// result that nobody has got is none.
 void PrintText(std::string_view text);
 
-/// The same, formatted.
+/// Formats text and writes it to standard output, as PrintText() does.
 template <class... Values>
 void Print(fmt::format_string<Values...> format, Values&&... values) {
   PrintText(fmt::format(format, std::forward<Values>(values)...));

@@ -16,7 +16,7 @@ struct Arguments {
   const char* const* values;
 };
 
-/// A program without commands yet, with the help, version and errors that all of ours have.
+/// Makes a program without commands, with the help, version and errors that all of ours have.
 std::unique_ptr<CLI::App> MakeProgram(const std::string& help, const std::string& name);
 
 /// Parses the arguments and runs the command they name. Whatever goes wrong becomes a message on

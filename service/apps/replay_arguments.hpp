@@ -25,11 +25,12 @@ struct ReplayArguments {
 
 void AddReplayArguments(CLI::App& parser, ReplayArguments& arguments);
 
-/// @throws UsageError where --rate makes no sense.
+/// Options of a replay from its arguments. @throws UsageError where --rate makes no sense.
 pipeline::ReplayOptions ReplayOptionsOf(const ReplayArguments& arguments,
                                         const Verbosity& verbosity);
 
-/// Replays all of a source. @param server who could listen, such as `qwsm serve`.
+/// Replays all of a source on the network.
+/// @param server who could listen, such as `qwsm serve`.
 /// @pre the source has a scan.
 template <class Kind, class Source>
 ExitCode Replay(Source& source,

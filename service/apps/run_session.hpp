@@ -19,7 +19,8 @@ namespace qwsm::apps {
 /// Arguments of all commands that run a mapper over logs.
 struct RunArguments {
   std::vector<std::filesystem::path> logs;
-  std::vector<std::filesystem::path> other_inputs;  ///< Which results must not be among, either.
+  /// Files and folders that must not be among the results, besides the logs.
+  std::vector<std::filesystem::path> other_inputs;
   std::optional<std::filesystem::path> output;
   config::OptionSources sources;
   Verbosity verbosity;
@@ -27,6 +28,7 @@ struct RunArguments {
   bool dry_run = false;
 };
 
+/// Adds the arguments of a run over logs.
 /// @param json_help what --json does.
 /// @returns the argument LOG, which is required.
 CLI::Option* AddRunArguments(
@@ -34,7 +36,7 @@ CLI::Option* AddRunArguments(
     RunArguments& arguments,
     const std::string& json_help = "one JSON object per scan on standard output");
 
-/// The same without the logs.
+/// Adds the arguments of a run but the logs.
 void AddResultArguments(CLI::App& parser, RunArguments& arguments, const std::string& json_help);
 
 /// Opens the logs. @throws std::runtime_error where one is no log, or there is no scan in them.
@@ -47,7 +49,7 @@ ExitCode TellPlan(const std::string& what, const RunArguments& arguments);
 /// One run of a command: its folder is ready, its messages and configuration are recorded there.
 class RunSession {
  public:
-  /// @throws io::WriteError where the folder cannot be had.
+  /// Makes the folder of the results. @throws io::WriteError where it cannot be had.
   RunSession(const RunArguments& arguments, const options::ProgramOptions& options);
 
   const pipeline::ResultsFolder& folder() const { return folder_; }
@@ -58,7 +60,8 @@ class RunSession {
                              Mapper& mapper,
                              std::vector<pipeline::StepSink*> sinks) const;
 
-  /// The same with several mappers, which take turns; their sinks are all there is for answers.
+  /// Runs all scans through several mappers, which take turns, with progress and messages as asked
+  /// for; their sinks are all there is for answers.
   pipeline::ReplayResult Run(const std::string& task,
                              pipeline::ScanSource& source,
                              std::vector<pipeline::MappingRun> runs) const;
@@ -71,7 +74,7 @@ class RunSession {
   pipeline::ResultsFolder folder_;
 };
 
-/// The exit code a replay that ended so leads to; says why it failed.
+/// The exit code of a replay that ended so; says why it failed.
 ExitCode Conclude(const pipeline::ReplayResult& result);
 
 }  // namespace qwsm::apps

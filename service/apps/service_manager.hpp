@@ -8,7 +8,7 @@
 
 namespace qwsm::apps {
 
-/// systemd, where it has started the program (sd_notify); else nobody.
+/// Talks to systemd, where it has started the program (sd_notify); else to nobody.
 class ServiceManager {
  public:
   ServiceManager();

@@ -31,7 +31,7 @@ struct ServeArguments {
   NetworkArguments network;
 };
 
-/// What `serve` of a program says of itself, and does.
+/// Says what `serve` of a program tells of itself, and does.
 struct ServeCommand {
   std::string help;
   std::string examples;
@@ -40,13 +40,14 @@ struct ServeCommand {
 
 Command AddServeCommand(CLI::App& program, const ServeCommand& serve);
 
-/// Lets messages be as wanted, and begins the folder of the results, with messages and
-/// configuration in it; nothing where none is wanted.
-/// @param configuration as YAML. @throws io::WriteError.
+/// Begins messages as wanted, and the folder of the results, with messages and configuration in it;
+/// nothing where no results are wanted.
+/// @param configuration as YAML.
+/// @throws io::WriteError.
 std::optional<pipeline::ResultsFolder> BeginResults(const ServeArguments& arguments,
                                                     const std::string& configuration);
 
-/// What became of the robots' scans, a line for each robot, on standard output.
+/// Tells on standard output what became of the robots' scans, a line for each robot.
 void Summarize(const team::TeamStatus& status);
 
 /// A service, the topics it listens to, and what is left of it in the end.
@@ -56,7 +57,7 @@ template <class Service, class Inbox, class Results>
 struct Serving {
   Service& service;
   Inbox& inbox;
-  Results* results;  ///< Null: none are wanted.
+  Results* results;  ///< Null where no results are wanted.
 };
 
 /// Serves until the interruption, then stops and finishes the results.
@@ -68,7 +69,7 @@ void Serve(const Serving<Service, Inbox, Results>& serving,
   manager.TellReady("serving");
   spdlog::info("serving as {}", serving.service.identity());
   while (!interruption.requested()) {
-    serving.inbox.Deliver(std::chrono::milliseconds(20));  // A signal does not end this.
+    serving.inbox.Deliver(std::chrono::milliseconds(20));  // A signal does not end this call.
     manager.TellAlive("serving");
   }
   manager.TellStopping();
@@ -76,7 +77,7 @@ void Serve(const Serving<Service, Inbox, Results>& serving,
   if (serving.results != nullptr) serving.results->Finish(serving.service);
 }
 
-/// The whole of `serve`.
+/// Does the whole of `serve`.
 /// @tparam Server made of the arguments, a program's options and the folder of the results; it has
 /// Run() and Status().
 template <class Server, class Options>

@@ -6,7 +6,7 @@
 
 namespace qwsm::apps {
 
-/// Such as `0.1.0 (1a2b3c4)`: the release and the commit it was built from, where that is known.
+/// The release and the commit it was built from, where that is known, such as `0.1.0 (1a2b3c4)`.
 std::string_view Version();
 
 }  // namespace qwsm::apps

@@ -15,10 +15,11 @@
 
 namespace qwsm::config {
 
-/// What Describe() says about a field. Bounds are inclusive and in the unit of the struct.
+/// What Describe() says of a field. Bounds are inclusive and in the unit of the struct.
 struct FieldInfo {
   std::string_view help;
-  std::string_view formerly{};  ///< Name in earlier releases, which is refused with the new one.
+  /// Name in earlier releases; it is refused with the new one named.
+  std::string_view formerly{};
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
 };
@@ -76,7 +77,8 @@ class FieldCollector {
   OptionGroup Take() { return std::move(group_); }
 
  private:
-  /// `Names(Enum)` beside the enumeration gives a range of (name, enumerator) pairs.
+  /// Gives a range of (name, enumerator) pairs from `Names(Enum)`, which stands beside the
+  /// enumeration.
   template <class Enum>
   static ChoiceField ChoiceOf(Enum& value) {
     ChoiceField choice;

@@ -8,8 +8,8 @@
 
 namespace qwsm::config {
 
-/// All options with their values as YAML, help, unit and bounds as comments. Reading it gives the
-/// same options back, bit by bit.
+/// All options with their values as YAML, with help, unit and bounds as comments. Reading it gives
+/// the same options back, bit by bit.
 std::string DumpYaml(const OptionGroup& group);
 
 /// A table for people: option, default, unit, bounds, help.

@@ -17,17 +17,17 @@ namespace qwsm::config {
 /// is wrong. Nothing is thrown before Finish().
 class Loader {
  public:
-  /// @pre `root` outlives the loader.
+  /// Fills a group. @pre `root` outlives the loader.
   explicit Loader(OptionGroup& root) : root_(root) {}
 
-  /// A YAML file; one that begins with `base: other.yaml` is laid over that one, whose name is
-  /// relative to the file that includes it.
+  /// Reads a YAML file; one that begins with `base: other.yaml` is laid over that one, whose name
+  /// is relative to the file that includes it.
   void ReadFile(const std::filesystem::path& file);
 
-  /// The same from memory; `name` stands for the file in messages.
+  /// Reads YAML from memory; `name` stands for the file in messages.
   void ReadText(const std::string& text, const std::filesystem::path& name);
 
-  /// `mapper.noise.range_m=0.01`, as given after --set.
+  /// Takes a setting as given after --set, such as `mapper.noise.range_m=0.01`.
   void Set(const std::string& setting);
 
   /// Runs the cross-field checks. @throws ConfigError naming all problems met, if any.
@@ -53,10 +53,12 @@ class Loader {
   void Report(const Location& at, const std::string& key, const std::string& what);
 
   OptionGroup& root_;
-  std::vector<std::filesystem::path> open_files_;  ///< The one being read is the last.
-  std::vector<std::string> sources_;               ///< In the order in which they were opened.
+  /// Files being read; the innermost is the last.
+  std::vector<std::filesystem::path> open_files_;
+  /// Names of the files, in the order in which they were opened.
+  std::vector<std::string> sources_;
   std::vector<Problem> problems_;
-  /// Where each key got its value last, and where each list and each item of one begins.
+  /// Where each key got its value last, and where each list and each of its items begins.
   std::map<std::string, Location> given_;
 };
 

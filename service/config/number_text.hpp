@@ -8,8 +8,8 @@
 
 namespace qwsm::config {
 
-/// The number a text spells, or nothing unless all of it is one. Independent of the locale;
-/// "inf", "nan" and numbers beyond a double's range are nothing.
+/// The number that a text spells, or nothing unless all of the text is one. Independent of the
+/// locale; "inf", "nan" and numbers beyond a double's range are nothing.
 std::optional<double> ParseNumber(std::string_view text);
 std::optional<int> ParseWholeNumber(std::string_view text);
 

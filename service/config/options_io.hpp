@@ -19,7 +19,7 @@ struct OptionSources {
   std::vector<std::string> settings;  ///< `key=value`, as given after --set.
 };
 
-/// Options from their sources. @throws ConfigError naming every problem at once.
+/// Loads options from their sources. @throws ConfigError naming every problem at once.
 template <class Options>
 Options LoadOptions(const OptionSources& sources, Options options = {}) {
   OptionGroup group = GroupOf(options);

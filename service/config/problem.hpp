@@ -11,22 +11,24 @@ namespace qwsm::config {
 /// Where something was said: a place in a file, or an argument such as `--set mapper.noise=1`.
 struct Location {
   std::string source;
-  int line = 0;    ///< From 1; 0 where the source has no lines.
-  int column = 0;  ///< From 1, in bytes.
+  int line = 0;    ///< Counted from 1; 0 where the source has no lines.
+  int column = 0;  ///< Counted from 1, in bytes.
 };
 
 /// One thing wrong with a configuration.
 struct Problem {
   Location location;
-  std::string key;  ///< Dotted, such as `mapper.matcher.max_iterations`; empty for a syntax error.
+  /// Dotted name, such as `mapper.matcher.max_iterations`; empty for a syntax error.
+  std::string key;
   std::string what;
 };
 
-/// `file:line:column: key: what is wrong`, the form editors jump to.
+/// The problem as `file:line:column: key: what is wrong`, the form editors jump to.
 std::string ToString(const Problem& problem);
 
-/// A configuration that was refused. what() has one line per problem, none of which were silently
-/// repaired; they are in the order in which a reader meets them: file by file, line by line.
+/// Tells that a configuration was refused. what() has one line per problem, none of which were
+/// silently repaired; they are in the order in which a reader meets them: file by file, line by
+/// line.
 class ConfigError : public std::runtime_error {
  public:
   explicit ConfigError(std::vector<Problem> problems);

@@ -7,9 +7,9 @@
 
 namespace qwsm::config {
 
-/// The file of a scenario, given by its path or, for one that is shipped, by its name: `park`.
-/// Shipped ones are looked for beside the program (../share/qwsm/scenarios) and, for a program in
-/// its build folder, in the source tree. What looks like a path is returned as it is.
+/// Path of a scenario's file, given by path or, for a shipped one, by name: `park`. Shipped files
+/// are looked for beside the program (../share/qwsm/scenarios) and, for a program in its build
+/// folder, in the source tree. What looks like a path is returned as it is.
 /// @throws ConfigError if a name is neither; it tells the names there are.
 std::filesystem::path FindScenario(const std::string& path_or_name);
 

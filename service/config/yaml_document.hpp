@@ -14,11 +14,12 @@ struct YamlEntry;
 struct YamlNode {
   enum class Kind { kNothing, kPlain, kQuoted, kSequence, kMap };
   Kind kind = Kind::kNothing;
-  int line = 1;                    ///< From 1.
-  int column = 1;                  ///< From 1.
-  std::string text;                ///< Of a scalar.
-  std::vector<YamlEntry> entries;  ///< Of a map, in the order of the file, duplicates included.
-  std::vector<YamlNode> items;     ///< Of a sequence.
+  int line = 1;      ///< Counted from 1.
+  int column = 1;    ///< Counted from 1.
+  std::string text;  ///< The text of a scalar.
+  /// Entries of a map, in the order of the file, duplicates included.
+  std::vector<YamlEntry> entries;
+  std::vector<YamlNode> items;  ///< Items of a sequence.
 };
 
 struct YamlEntry {
@@ -26,7 +27,7 @@ struct YamlEntry {
   YamlNode value;
 };
 
-/// What is wrong with the syntax, and where.
+/// Tells what is wrong with the syntax, and where.
 class YamlError : public std::runtime_error {
  public:
   YamlError(const std::string& what, int line, int column)

@@ -12,7 +12,8 @@
 
 namespace qwsm::options {
 
-/// How logs are read. What a log states, or lets infer, needs no option: 0 leaves it at that.
+/// Options for reading logs. What a log states, or lets infer, needs no option: 0 leaves it at
+/// that.
 struct LogOptions {
   bool strict = false;
   double range_max_m = 0.0;
@@ -32,7 +33,7 @@ void Describe(Visitor& visit, LogOptions& o) {
          .max = 2.0 * std::numbers::pi});
 }
 
-/// Correcting the map where loops are closed.
+/// Options for correcting the map where loops are closed.
 struct GraphOptions {
   bool enabled = true;
 };
@@ -44,7 +45,7 @@ void Describe(Visitor& visit, GraphOptions& o) {
         {.help = "correct path and map once loops are closed; false: incremental, as the papers"});
 }
 
-/// Everything that can be configured of the program `qwsm`.
+/// All options of the program `qwsm`.
 struct ProgramOptions {
   LogOptions log;
   MapperOptions mapper;

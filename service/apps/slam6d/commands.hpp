@@ -10,7 +10,7 @@ using qwsm::apps::AddParser;
 using qwsm::apps::Command;
 using qwsm::apps::ExitCode;
 
-// One per command of the program slam6d, each in a file of its own.
+// These add one command each to the program slam6d, and stand in a file each.
 Command AddRegisterCommand(CLI::App& program);
 Command AddSimCommand(CLI::App& program);
 Command AddServeCommand(CLI::App& program);

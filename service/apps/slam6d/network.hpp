@@ -10,7 +10,7 @@ namespace slam6d::apps {
 using qwsm::apps::AddNetworkArguments;
 using qwsm::apps::NetworkArguments;
 
-/// Of the program slam6d.
+/// The network session of the program slam6d.
 using NetworkSession = qwsm::apps::BasicNetworkSession<options::ProgramOptions>;
 
 }  // namespace slam6d::apps

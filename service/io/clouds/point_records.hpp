@@ -21,18 +21,19 @@ std::size_t SizeOf(NumberType type);
 /// Where one record holds x, y and z.
 struct RecordLayout {
   struct Field {
-    std::size_t offset = 0;  ///< In bytes, of a binary record.
-    std::size_t column = 0;  ///< Counted from 0, of a record that is a line of text.
+    std::size_t offset = 0;  ///< Place in a binary record, in bytes.
+    std::size_t column = 0;  ///< Place in a record that is a line of text, counted from 0.
     NumberType type = NumberType::kFloat32;
   };
   std::array<std::optional<Field>, 3> xyz;
-  std::size_t bytes = 0;  ///< Of a binary record.
+  std::size_t bytes = 0;  ///< Length of a binary record.
   std::size_t columns = 0;
 
   /// Appends a field of `count` numbers; those called x, y and z are remembered.
   void Add(std::string_view name, NumberType type, std::size_t count = 1);
+  /// Checks that x, y and z are there.
   /// @throws std::runtime_error naming the file where a coordinate is missing, or where there are
-  ///         absurdly many columns.
+  /// absurdly many columns.
   void Check(const std::filesystem::path& file) const;
 };
 
@@ -40,17 +41,17 @@ struct RecordLayout {
 struct RecordFile {
   std::filesystem::path path;
   std::string bytes;     ///< All of the file, unpacked.
-  std::size_t at = 0;    ///< What is left begins here.
+  std::size_t at = 0;    ///< Where the rest of the file begins.
   std::size_t line = 0;  ///< Lines taken so far.
 
-  /// @throws std::runtime_error naming the file when it cannot be read.
+  /// Reads a file. @throws std::runtime_error naming it when it cannot be read.
   explicit RecordFile(const std::filesystem::path& file);
 
   /// The next line of text; nothing at the end.
   std::optional<std::string_view> NextLine();
-  /// "file:line: what".
+  /// Text of a problem here: "file:line: what".
   std::string Problem(const std::string& what) const;
-  /// @throws std::runtime_error of the Problem().
+  /// Throws the Problem() as std::runtime_error.
   [[noreturn]] void Fail(const std::string& what) const;
 };
 

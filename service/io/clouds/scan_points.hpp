@@ -12,11 +12,11 @@ namespace slam6d::io {
 
 /// The points of one file and what was wrong with it.
 struct ScanPoints {
-  PointCloud cloud;               ///< In the scanner's frame, right-handed, metres.
+  PointCloud cloud;               ///< Points in the scanner's frame, right-handed, in metres.
   std::size_t skipped_lines = 0;  ///< Lines, or points, that hold no three finite numbers.
-  std::string first_problem;      ///< "file:line: what is wrong", of the first of them.
+  std::string first_problem;      ///< The first of them, as "file:line: what is wrong".
 
-  /// Counts one more, and keeps the first.
+  /// Counts one skipped line more, and keeps the first problem.
   void Skip(const std::string& problem);
 };
 

@@ -19,7 +19,8 @@ using NumberedPoses = std::map<double, Pose3>;
 /// @throws qwsm::io::WriteError where it cannot be written.
 void WriteTum3(const std::filesystem::path& file, const std::vector<Pose3>& T_map_scan);
 
-/// The same with stamps, in seconds. @pre as many as poses.
+/// Writes a TUM trajectory with stamps, in seconds, instead of numbers.
+/// @pre as many stamps as poses.
 void WriteTum3(const std::filesystem::path& file,
                const std::vector<Pose3>& T_map_scan,
                const std::vector<qwsm::Timestamp>& stamps);

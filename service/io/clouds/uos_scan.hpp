@@ -11,7 +11,7 @@
 
 namespace slam6d::io {
 
-/// 3DTK's own unit.
+/// Length of 3DTK's own unit, in metres.
 inline constexpr double kMetresPerUosUnit = 0.01;
 
 /// Reads the points of a 3DTK/UOS `scanNNN.3d`: x (right), y (up), z (forward) in centimetres per

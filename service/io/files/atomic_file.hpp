@@ -10,7 +10,7 @@
 
 namespace qwsm::io {
 
-/// A file that could not be written: the text names it and gives the system's reason.
+/// Tells of a file that could not be written: the text names it and gives the system's reason.
 class WriteError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -20,7 +20,7 @@ class WriteError : public std::runtime_error {
 /// neighbour with a name of its own, which is removed if there is no commit.
 class AtomicFile {
  public:
-  /// @throws WriteError where it cannot be created.
+  /// Begins the file. @throws WriteError where it cannot be created.
   explicit AtomicFile(std::filesystem::path path);
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
@@ -31,8 +31,9 @@ class AtomicFile {
   /// Where to write for a library that wants a path instead of the stream.
   const std::filesystem::path& temporary_path() const { return temporary_path_; }
 
-  /// Long runs ask now and then, rather than find the disk full at the end.
-  /// @throws WriteError if a write failed so far.
+  /// Throws if a write has failed so far: long runs ask now and then, rather than find the disk
+  /// full at the end.
+  /// @throws WriteError
   void ThrowIfFailed() const;
 
   /// Puts the file in its place. @throws WriteError if any byte did not get there.

@@ -18,7 +18,7 @@ class BinaryWriter {
   void Add(std::int64_t value);
   void Add(float value);
   void Add(double value);
-  /// Its length, then its bytes.
+  /// Adds a text: its length, then its bytes.
   void Add(std::string_view text);
 
   const std::string& bytes() const { return bytes_; }
@@ -30,13 +30,14 @@ class BinaryWriter {
 /// CRC-32 of the bytes, as of zlib.
 std::uint32_t Checksum(std::string_view bytes);
 
-/// There are fewer bytes than what they claim to hold.
+/// Tells that there are fewer bytes than what they claim to hold.
 class BinaryError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Takes them out again. @throws BinaryError at the end of the bytes, everywhere below.
+/// Takes out the numbers that BinaryWriter put in. All functions throw BinaryError at the end of
+/// the bytes.
 class BinaryReader {
  public:
   explicit BinaryReader(std::string_view bytes) : bytes_(bytes) {}
@@ -47,7 +48,7 @@ class BinaryReader {
   float Float();
   double Double();
   std::string_view Text();
-  /// A number of things of at least `bytes_each`, which are there: safe to allocate for.
+  /// Takes a number of things of at least `bytes_each`, which are there: safe to allocate for.
   std::size_t Count(std::size_t bytes_each);
 
   std::size_t remaining() const { return bytes_.size() - at_; }

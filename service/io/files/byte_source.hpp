@@ -27,7 +27,7 @@ class ByteSource {
   /// "none", "gzip", "bzip2" or "xz".
   const std::string& compression() const;
 
-  /// Bytes taken from the stream: of the compressed form.
+  /// Bytes taken from the stream, of the compressed form.
   std::uint64_t bytes_read() const;
 
  private:

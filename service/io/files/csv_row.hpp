@@ -14,10 +14,10 @@ class CsvRow {
  public:
   void Add(double value);
   void Add(Timestamp stamp);
-  /// @pre no comma or quote in it: our own words.
+  /// Adds a word of our own. @pre it has no comma or quote.
   void Add(std::string_view word);
 
-  /// The line, with its end. @pre something was added.
+  /// Gives the line, with its end. @pre something was added.
   const std::string& Finish();
 
  private:

@@ -12,7 +12,7 @@
 
 namespace qwsm::io {
 
-/// What is wrong with a line of text.
+/// Says what is wrong with a line of text.
 enum class FieldFault {
   kEndsEarly,
   kNotANumber,
@@ -26,10 +26,11 @@ enum class FieldFault {
   kTooLong,
   kNotText,
   kNoMessage,
-  kOddReadings,  ///< The only one that leaves the line usable.
+  /// Readings that are negative or not finite; the only fault that leaves the line usable.
+  kOddReadings,
 };
 
-/// The cause and its remedy, to follow "FLASER: ".
+/// Explains the cause and its remedy, to follow "FLASER: ".
 std::string_view Explain(FieldFault fault);
 
 /// Whether a word is of printable ASCII.
@@ -80,11 +81,11 @@ class FieldReader {
   bool odd_readings_ = false;
 };
 
-/// Decimal seconds, without rounding through a double; nothing where that is no time since an
-/// epoch.
+/// The stamp that a text of decimal seconds spells, without rounding through a double; nothing
+/// where that is no time since an epoch.
 std::optional<Timestamp> ParseStamp(std::string_view seconds);
 
-/// A number and nothing else; a leading plus is allowed.
+/// The number that a text spells, and nothing else; a leading plus is allowed.
 std::optional<double> ParseNumber(std::string_view text);
 
 }  // namespace qwsm::io

@@ -17,7 +17,7 @@ class FileLock {
   ~FileLock();
 
   bool is_held() const { return is_held_; }
-  /// Whether it is another process that holds it; else the file cannot be created.
+  /// Whether another process holds the lock; else the file cannot be created.
   bool is_held_elsewhere() const { return descriptor_ >= 0 && !is_held_; }
 
  private:

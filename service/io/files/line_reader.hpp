@@ -17,9 +17,10 @@ inline constexpr std::size_t kMaxLineBytes = std::size_t{4} << 20U;
 
 /// One line of text, valid until the next one is read.
 struct Line {
-  std::size_t number = 0;  ///< Counted from 1.
+  std::size_t number = 0;  ///< Number of the line, counted from 1.
   std::string_view text;   ///< Without line end, carriage return and byte order mark.
-  bool too_long = false;   ///< Then `text` may be only its beginning.
+  /// Whether the line is longer than kMaxLineBytes; then `text` may be only its beginning.
+  bool too_long = false;
 };
 
 /// Cuts the bytes of a source into lines, in bounded memory.
@@ -41,11 +42,11 @@ class LineReader {
 
   ByteSource source_;
   std::vector<char> buffer_;
-  std::size_t begin_ = 0;     // Of what is not yet given out.
-  std::size_t end_ = 0;       // Of what was read.
-  std::size_t searched_ = 0;  // No line end before here.
+  std::size_t begin_ = 0;     // Begin of what is not yet given out.
+  std::size_t end_ = 0;       // End of what was read.
+  std::size_t searched_ = 0;  // There is no line end before here.
   std::size_t line_number_ = 0;
-  bool in_long_line_ = false;  // Everything up to the next line end is dropped.
+  bool in_long_line_ = false;  // Whether everything up to the next line end is dropped.
 };
 
 }  // namespace qwsm::io

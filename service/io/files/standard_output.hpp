@@ -6,8 +6,8 @@
 
 namespace qwsm::io {
 
-/// Standard output that did not take what was written, with the system's reason: to be thrown right
-/// after the write that failed.
+/// Error of standard output that did not take what was written, with the system's reason: to be
+/// thrown right after the write that failed.
 WriteError StandardOutputError();
 
 }  // namespace qwsm::io

@@ -15,14 +15,14 @@
 
 namespace qwsm::io {
 
-/// A file that is no journal that can be used. The text names it and says why, and how to mend it:
-/// foreign, newer, damaged, or in use.
+/// Tells of a file that is no journal that can be used. The text names it and says why, and how to
+/// mend it: foreign, newer, damaged, or in use.
 class JournalError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Relevant scans on disk, in the order in which the map was extended with them.
+/// Keeps relevant scans on disk, in the order in which the map was extended with them.
 ///
 /// An SQLite database with a write-ahead log, every entry a transaction. Tables:
 ///   meta(key, value): kind, the kind of contents, and identity, whose journal it is;
@@ -49,7 +49,7 @@ class JournalFile {
   ~JournalFile();
 
   const std::string& identity() const;
-  /// Entries that it has; of a damaged one, that it says it has.
+  /// Number of entries; of a damaged journal, the number it says it has.
   std::size_t size() const;
 
   /// Adds entries, each as a transaction. When this returns they are on the disk, whatever then
@@ -58,12 +58,12 @@ class JournalFile {
   /// @throws WriteError where there is no room or no leave to write; none, some or all are added.
   void Append(std::span<const JournalEntry> entries);
 
-  /// The next entry, from the first on. Damaged ones are passed over.
+  /// Gives the next entry, from the first on. Damaged ones are passed over.
   /// @throws JournalError where none can be read.
   std::optional<JournalEntry> Next();
-  /// Entries known to be lost so far.
+  /// Number of entries known to be lost so far.
   std::size_t damaged() const;
-  /// Where the file was put that was too damaged to be continued; empty if it was not.
+  /// Where a file was put that was too damaged to be continued; empty if there was none.
   const std::filesystem::path& damaged_copy() const;
 
  private:

@@ -19,25 +19,25 @@ namespace qwsm::io {
 /// what the damage has not touched is found, too, before it and behind it.
 class JournalTable {
  public:
-  /// @throws SqliteError, also everywhere below.
+  /// Makes the table. @throws SqliteError, as all functions of the class do.
   static void Create(SqliteDatabase& database);
-  /// @param database must outlive it, and have the table.
+  /// Uses a table. @param database must outlive it, and have the table.
   explicit JournalTable(SqliteDatabase& database) : database_(database) {}
 
-  /// How far entries may reach.
+  /// How far entries may reach in a table.
   struct Extent {
-    /// Entries that the table says it has; none where that cannot be read.
+    /// Number of entries that the table says it has; nothing where that cannot be read.
     std::optional<std::int64_t> claimed;
-    /// Where to end looking. No more than the bytes of the file can hold.
+    /// Position where looking ends. No more than the bytes of the file can hold.
     std::int64_t last_position = 0;
   };
   Extent Measure();
 
   /// Adds an entry behind the last one, unless it is there already.
   void Insert(const JournalEntry& entry);
-  /// None where there is none, or where it is damaged.
+  /// The entry at a position; nothing where there is none, or where it is damaged.
   std::optional<JournalEntry> Find(std::int64_t position);
-  /// To be called when an insertion has failed.
+  /// Lets go of an insertion that has failed.
   void GiveUpInsertion() { insert_.reset(); }
 
  private:

@@ -11,22 +11,23 @@
 
 namespace qwsm::io {
 
-/// Relevant scans as bytes, in map files and journals. Their ids are not among them.
+/// Adds a relevant scan to bytes, in map files and journals; its ids are not among them.
 void AddScan(BinaryWriter& writer, const RelevantScan& relevant);
-/// @throws BinaryError where there is no scan, or one that may not be matched.
+/// Reads a relevant scan.
+/// @throws BinaryError where there is none, or one that may not be matched.
 RelevantScan ReadScan(BinaryReader& reader);
 
 /// What a journal keeps of a relevant scan.
 struct JournaledScan {
   RelevantScan relevant;
-  std::optional<Pose2> T_odom_robot;  ///< For the robot to go on from.
+  std::optional<Pose2> T_odom_robot;  ///< Odometry for the robot to go on from.
 };
 
-/// Kind of the journals that keep them; see JournalFile.
+/// Kind of the journals that keep these; see JournalFile.
 inline constexpr std::string_view kScanJournal = "relevant scans of planar lasers, version 1";
 
 std::string EncodeScan(const JournaledScan& scan);
-/// @throws BinaryError
+/// Reads a relevant scan of a journal from bytes. @throws BinaryError where there is none.
 JournaledScan DecodeScan(std::string_view bytes);
 
 }  // namespace qwsm::io

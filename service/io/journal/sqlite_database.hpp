@@ -14,7 +14,7 @@ struct sqlite3_stmt;
 
 namespace qwsm::io {
 
-/// What SQLite has to complain about; see sqlite3.h for the codes.
+/// Tells what SQLite complains about; see sqlite3.h for the codes.
 class SqliteError : public std::runtime_error {
  public:
   SqliteError(int code, const std::string& text) : std::runtime_error(text), code_(code) {}
@@ -25,16 +25,16 @@ class SqliteError : public std::runtime_error {
 };
 
 /// A prepared statement. Parameters are counted from 1, columns from 0, as SQLite does.
-/// @throws SqliteError, everywhere.
+/// All functions throw SqliteError.
 class SqliteStatement {
  public:
   void Bind(int parameter, std::int64_t value);
   void Bind(int parameter, std::string_view text);
   void BindBlob(int parameter, std::string_view bytes);
 
-  /// Runs to the next row. @return false at the end.
+  /// Runs the statement to the next row. @return false at the end.
   bool Step();
-  /// Makes it ready to be run again.
+  /// Makes the statement ready to be run again.
   void Reset();
 
   std::int64_t Integer(int column) const;
@@ -58,10 +58,10 @@ class SqliteDatabase {
  public:
   enum class Access {
     kReadOnly,
-    kReadWrite,  ///< Creates it where there is none.
+    kReadWrite,  ///< Opens to read and write; creates the database where there is none.
   };
 
-  /// @throws SqliteError, everywhere.
+  /// Opens a database. @throws SqliteError, as all functions of the class do.
   SqliteDatabase(const std::filesystem::path& file, Access access);
 
   /// Runs statements that give no rows.

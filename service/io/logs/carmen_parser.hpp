@@ -15,12 +15,13 @@ namespace qwsm::io {
 /// (header and reader of CARMEN's logger; carmen.sourceforge.net/logger_playback.html).
 class CarmenParser final : public LogParser {
  public:
-  /// How the line of a sweep is laid out.
+  /// Says how the line of a sweep is laid out.
   struct SweepLayout {
     std::string_view message;
     std::string_view laser;
-    bool configured;  ///< Begins with the scanner's configuration, and has remissions.
-    bool posed;       ///< Has the poses of laser and robot.
+    /// Whether the line begins with the scanner's configuration, and has remissions.
+    bool configured;
+    bool posed;  ///< Whether the line has the poses of laser and robot.
   };
 
   explicit CarmenParser(std::optional<double> field_of_view_rad)
@@ -36,7 +37,7 @@ class CarmenParser final : public LogParser {
   /// Where the log's parameters say a laser sits.
   struct Mounting {
     std::string_view laser;
-    std::string_view parameter;  ///< Its name without the axis.
+    std::string_view parameter;  ///< Name of the parameter without the axis.
     Pose2 T_robot_laser;
     bool known = false;
   };

@@ -10,7 +10,7 @@
 
 namespace qwsm::io {
 
-/// How scans are written.
+/// Says how scans are written.
 enum class CarmenDialect {
   kRobotLaser,  ///< ROBOTLASER: states the bearings and the maximum range.
   kFlaser,      ///< FLASER, for older programs: right for 180 degrees only.
@@ -39,7 +39,7 @@ class CarmenWriter {
   std::ostream* stream_;
   CarmenDialect dialect_;
   std::optional<Timestamp> first_stamp_;
-  std::map<int, Pose2> T_robot_laser_;  // As written, by the laser's number.
+  std::map<int, Pose2> T_robot_laser_;  // Mountings as they were written, by the laser's number.
   std::string line_;
 };
 

@@ -30,8 +30,8 @@ class DpslamParser final : public LogParser {
   Timestamp Stamp() const;
 
   std::optional<double> field_of_view_rad_;
-  std::int64_t pairs_ = 0;             // Begun so far.
-  std::optional<Pose2> T_odom_robot_;  // Of the pair whose sweep is to come.
+  std::int64_t pairs_ = 0;             // Pairs begun so far.
+  std::optional<Pose2> T_odom_robot_;  // Odometry of the pair whose sweep is to come.
 };
 
 }  // namespace qwsm::io

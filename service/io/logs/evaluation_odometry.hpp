@@ -7,13 +7,13 @@
 
 namespace qwsm::io {
 
-/// The poses of a trajectory, carried by the log's odometry to every reading between them and
-/// behind the last one (see CarryByOdometry), as the relations of a benchmark often name moments
-/// between scans. Not sorted by time.
+/// Carries the poses of a trajectory by the log's odometry to every reading between them and behind
+/// the last one (see CarryByOdometry), as the relations of a benchmark often name moments between
+/// scans. The result is not sorted by time.
 ///
 /// @param log at its beginning; it is read to its end
 /// @param trajectory poses at scans of the log, in its order, stamps equal to 0.1 ms; scans without
-///        a pose count as odometry
+/// a pose count as odometry
 /// @throws std::runtime_error where a pose belongs to no scan of the log
 Trajectory CarryToOdometry(LogReader& log, const Trajectory& trajectory);
 

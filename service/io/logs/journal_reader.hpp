@@ -16,12 +16,12 @@ namespace qwsm::io {
 /// that the scans of several robots can be read as one drive.
 class JournalReader final : public LogReader {
  public:
-  /// @throws LogError where it is no journal of planar scans.
+  /// Opens a journal. @throws LogError where it is no journal of planar scans.
   explicit JournalReader(const std::filesystem::path& file);
 
   std::optional<LogRecord> Next() override;
   const LogReport& report() const override { return report_; }
-  /// In entries, not in bytes.
+  /// Progress in entries, not in bytes.
   LogProgress progress() const override;
 
  private:

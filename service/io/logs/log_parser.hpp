@@ -18,20 +18,20 @@ namespace qwsm::io {
 /// Open are a `range_max_m` of 0, the mounting unless `mounting_known`, the odometry if absent.
 struct Sweep {
   ScanReading reading;
-  std::string_view message;           ///< "FLASER", a literal.
-  bool mounting_known = false;        ///< Stated by the log apart from the line.
-  std::optional<Pose2> T_odom_laser;  ///< Stated by the line.
-  bool odd_readings = false;          ///< Some are negative or not finite.
+  std::string_view message;           ///< Name of the message, a literal such as "FLASER".
+  bool mounting_known = false;        ///< Whether the log states the mounting apart from the line.
+  std::optional<Pose2> T_odom_laser;  ///< Pose of the laser stated by the line, if it has one.
+  bool odd_readings = false;          ///< Whether some readings are negative or not finite.
 };
 
 struct Comment {};
-/// A message of no use here.
+/// A message that is of no use here.
 struct OtherMessage {};
 struct UnknownMessage {
   std::string_view name;
 };
 struct MalformedLine {
-  std::string_view message;  ///< Its name, a literal.
+  std::string_view message;  ///< Name of the message, a literal.
   FieldFault fault{};
 };
 
@@ -55,7 +55,7 @@ class LogParser {
   virtual std::string_view format() const = 0;
   /// Whether the format has time stamps; else the parser makes them up.
   virtual bool has_stamps() const { return true; }
-  /// Views in the result are valid as long as `line`.
+  /// Parses a line; views in the result are valid as long as `line`.
   virtual ParsedLine Parse(std::string_view line) = 0;
 };
 

@@ -16,7 +16,7 @@ namespace qwsm::io {
 class OdometryFiller {
  public:
   void Push(LogRecord record);
-  /// No more records will come: what waits for odometry waits in vain.
+  /// Says that no more records will come: what waits for odometry waits in vain.
   void Finish();
   /// The next record that is complete, if any.
   std::optional<LogRecord> Take();
@@ -26,7 +26,7 @@ class OdometryFiller {
   bool MustWait(Timestamp stamp) const;
 
   std::deque<LogRecord> held_;
-  std::deque<OdometryReading> odometry_;  // The latest ones.
+  std::deque<OdometryReading> odometry_;  // The latest readings.
   std::size_t held_readings_ = 0;
   bool finished_ = false;
 };

@@ -41,7 +41,7 @@ class PlayerParser final : public LogParser {
   bool IsOtherRobot(const Header& header);
 
   std::string robot_;  // Host and port, or host and robot, of the first message.
-  std::map<std::size_t, Pose2> T_robot_laser_;  // By index of the device.
+  std::map<std::size_t, Pose2> T_robot_laser_;  // Mountings, by index of the device.
   std::optional<std::size_t> position_index_;
 };
 

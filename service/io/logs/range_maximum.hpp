@@ -33,9 +33,9 @@ class RangeMaximumEstimator {
   bool IsNewPlace(const std::optional<Pose2>& T_odom_robot);
   bool IsSpike(std::size_t top, std::uint64_t above) const;
 
-  std::vector<std::uint32_t> counts_;    // By range.
-  std::vector<float> largest_m_;         // Reading in each bin.
-  std::optional<Pose2> T_odom_sampled_;  // Where the last counted sweep was taken.
+  std::vector<std::uint32_t> counts_;    // Number of readings, by range.
+  std::vector<float> largest_m_;         // Largest reading in each bin.
+  std::optional<Pose2> T_odom_sampled_;  // Odometry where the last counted sweep was taken.
   std::size_t sweeps_at_place_ = 0;
   std::size_t places_ = 0;
 };

@@ -37,11 +37,11 @@ class SweepCompleter {
 
  private:
   struct Laser {
-    std::map<std::string_view, std::size_t> sweeps;  // By message.
+    std::map<std::string_view, std::size_t> sweeps;  // Number of sweeps, by message.
     RangeMaximumEstimator range_maximum;
     MountingEstimator mounting;
     bool decided = false;
-    std::string_view message;  // The one that is delivered, if any.
+    std::string_view message;  // The message that is delivered, if any.
     float range_max_m = 0.0F;
     std::optional<Pose2> T_robot_laser;
     std::size_t observed = 0;

@@ -59,8 +59,9 @@ class TextLogReader final : public LogReader {
   std::size_t readings_ahead_ = 0;
   bool looking_ahead_ = true;
   bool ended_ = false;
-  std::optional<std::string> failure_;  // To be thrown when all before it is delivered.
-  std::optional<Pose2> T_odom_robot_;   // The latest.
+  // Failure to be thrown when everything before it is delivered.
+  std::optional<std::string> failure_;
+  std::optional<Pose2> T_odom_robot_;  // The latest odometry.
 };
 
 }  // namespace qwsm::io

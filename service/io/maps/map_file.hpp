@@ -11,8 +11,8 @@
 
 namespace qwsm::io {
 
-/// A file that holds no map that can be used. The text names the file and says why: foreign, newer,
-/// truncated or damaged.
+/// Tells of a file that holds no map that can be used. The text names the file and says why:
+/// foreign, newer, truncated or damaged.
 class MapFileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -30,8 +30,10 @@ void SaveMap(const std::filesystem::path& path, const ScanMap& map);
 /// ones. O(points log points). @throws MapFileError
 ScanMap LoadMap(const std::filesystem::path& path);
 
-/// The same in memory; `name` stands for the file in messages.
+/// The bytes that SaveMap() writes.
 std::string EncodeMap(const ScanMap& map);
+/// Rebuilds the map from the bytes of EncodeMap(); `name` stands for the file in messages.
+/// @throws MapFileError
 ScanMap DecodeMap(std::string_view bytes, std::string_view name);
 
 }  // namespace qwsm::io

@@ -26,7 +26,7 @@ struct OptionFieldInfo {
   double max = std::numeric_limits<double>::infinity();
 };
 
-/// Collects the values an options struct has, by its Describe().
+/// Collects the values that an options struct has, by its Describe().
 class OptionCollector {
  public:
   template <class Value>
@@ -90,7 +90,7 @@ class OptionRestorer {
   }
 
  private:
-  /// Of the value of that name, and of all values of a group of that name.
+  /// Renames a value, and all values of a group, of that name.
   void Rename(const std::string& from, const std::string& to) {
     for (auto found = values_.lower_bound(from);
          found != values_.end() && found->first.starts_with(from);) {
@@ -110,7 +110,7 @@ class OptionRestorer {
     const auto found = values_.find(key);
     if (found == values_.end()) return;
     const auto* number = std::get_if<double>(&found->second);
-    // Written so that NaN fails.
+    // Written so that NaN fails the test.
     if (number == nullptr || !(*number >= bounds.min && *number <= bounds.max)) {
       throw BinaryError("the option " + key + " is out of bounds");
     }

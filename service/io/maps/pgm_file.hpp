@@ -8,7 +8,7 @@
 
 namespace qwsm::io {
 
-/// A grey picture: 0 is black, 255 white. Row by row from the top.
+/// A grey picture, row by row from the top: 0 is black, 255 white.
 struct GreyImage {
   int width_px = 0;
   int height_px = 0;

@@ -14,7 +14,7 @@ namespace qwsm::io {
 /// @throws WriteError.
 void WriteRosMap(const std::filesystem::path& path, const OccupancyGrid& grid);
 
-/// Reads such a map, also from other programs' files, as map_server does in its mode `trinary`.
+/// Reads a map of ROS's map_server, also from other programs' files, as its mode `trinary` does.
 /// @throws std::runtime_error naming the file, and the line or key, where it is no such map.
 OccupancyGrid ReadRosMap(const std::filesystem::path& path);
 

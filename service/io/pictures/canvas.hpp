@@ -12,7 +12,7 @@
 
 namespace qwsm::io {
 
-/// Shares of red, green and blue, and how opaque; each in [0, 1].
+/// A colour: shares of red, green and blue, and how opaque; each in [0, 1].
 struct Color {
   double red = 0.0;
   double green = 0.0;
@@ -20,7 +20,7 @@ struct Color {
   double alpha = 1.0;
 };
 
-/// A colour as designers write it: FromBytes(0, 40, 120).
+/// The colour that designers write as three bytes: FromBytes(0, 40, 120).
 constexpr Color FromBytes(int red, int green, int blue, double alpha = 1.0) {
   return {red / 255.0, green / 255.0, blue / 255.0, alpha};
 }
@@ -39,7 +39,7 @@ constexpr std::uint32_t ToPixel(const Color& color) {
 }
 
 struct Rectangle {
-  Eigen::Vector2d corner_px;  ///< Upper left.
+  Eigen::Vector2d corner_px;  ///< Upper left corner.
   Eigen::Vector2d size_px;
 };
 
@@ -56,13 +56,14 @@ struct TextStyle {
   double size_px = 14.0;
   TextAlignment alignment = TextAlignment::kLeft;
   bool bold = false;
-  bool upwards = false;  ///< Turned by a quarter to the left, as along an axis.
+  /// Whether the text is turned by a quarter to the left, as along an axis.
+  bool upwards = false;
 };
 
 /// A picture to draw on, in pixels: x to the right, y down, the origin in the upper-left corner.
 class Canvas {
  public:
-  /// A white picture.
+  /// Makes a white picture.
   Canvas(int width_px, int height_px);
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
@@ -73,19 +74,19 @@ class Canvas {
 
   void Fill(const Rectangle& rectangle, const Color& color);
   void FillPolygon(std::span<const Eigen::Vector2d> corners_px, const Color& color);
-  /// One point is a dot.
+  /// Draws a line through points; a single point is a dot.
   void Stroke(std::span<const Eigen::Vector2d> points_px, const LineStyle& style);
   void StrokeLine(const Eigen::Vector2d& from_px,
                   const Eigen::Vector2d& to_px,
                   const LineStyle& style);
-  /// Its upper-left corner at `corner_px`, one pixel for one.
+  /// Draws an image with its upper-left corner at `corner_px`, one pixel for one.
   void Draw(PixelImage image, const Eigen::Vector2d& corner_px);
 
-  /// `anchor_px` is on the text's middle line, where the alignment says.
+  /// Writes text whose middle line has `anchor_px` where the alignment says.
   void Write(const std::string& text, const Eigen::Vector2d& anchor_px, const TextStyle& style);
   double TextWidth(const std::string& text, const TextStyle& style) const;
 
-  /// What follows is drawn within the rectangle only, until Unclip().
+  /// Draws what follows within the rectangle only, until Unclip().
   void Clip(const Rectangle& rectangle);
   void Unclip();
 
@@ -94,7 +95,7 @@ class Canvas {
   void Save(const std::filesystem::path& path) const;
 
  private:
-  struct Recording;  // Cairo's.
+  struct Recording;  // The recording surface of Cairo.
   int width_px_;
   int height_px_;
   std::unique_ptr<Recording> recording_;

@@ -11,7 +11,7 @@
 
 namespace slam6d::io {
 
-/// From where a model is looked at.
+/// Says from where a model is looked at.
 enum class CloudView {
   kTop,   ///< x to the right, y up.
   kSide,  ///< x to the right, z up.

@@ -19,10 +19,10 @@ struct LegendItem {
   std::function<void(Canvas& canvas, const Eigen::Vector2d& left_px)> draw_sample;
 };
 
-/// A stretch of the line as it was drawn.
+/// A legend item with a stretch of the line as it was drawn.
 LegendItem LineItem(const std::string& label, const LineStyle& style);
 
-/// Words only.
+/// A legend item of words only.
 LegendItem TextItem(const std::string& label);
 
 /// Legend items side by side, in as many lines as they need.
@@ -37,7 +37,7 @@ class Legend {
  private:
   struct Placed {
     LegendItem item;
-    Eigen::Vector2d left_px;  // Relative to the corner, on the middle line.
+    Eigen::Vector2d left_px;  // Place relative to the corner, on the middle line.
   };
   std::vector<Placed> placed_;
   int lines_ = 0;

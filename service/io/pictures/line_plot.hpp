@@ -15,7 +15,8 @@ namespace qwsm::io {
 struct PlotSeries {
   std::string label;
   Color color;
-  bool filled = false;  ///< Down to the lower end of the plot.
+  /// Whether the area under the line is filled, down to the lower end of the plot.
+  bool filled = false;
   std::vector<Eigen::Vector2d> points;
 };
 

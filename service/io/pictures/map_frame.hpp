@@ -31,7 +31,7 @@ class MapFrame {
 
   MapView view_;
   Canvas canvas_;
-  Eigen::Vector2d corner_px_;  // Of the map.
+  Eigen::Vector2d corner_px_;  // Corner of the map.
 };
 
 }  // namespace qwsm::io

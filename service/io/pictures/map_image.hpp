@@ -34,7 +34,7 @@ class MapView {
             low_map_m_.y() + (height_px_ - pixel_px.y()) / px_per_m_};
   }
 
-  /// Distance of the lines of the grid that is drawn: nice, and not too dense.
+  /// Distance of the lines of the grid that is drawn: nice, and not too dense; in metres.
   double grid_step_m() const;
 
  private:
@@ -44,9 +44,9 @@ class MapView {
   int height_px_ = 0;
 };
 
-/// The grid as the RoboCup Rescue League draws maps: what is unknown a light checkerboard, free
-/// space white with a faint grid, walls dark blue. A pixel of several cells is as its most telling
-/// one: occupied, else free.
+/// Draws the grid as the RoboCup Rescue League draws maps: what is unknown a light checkerboard,
+/// free space white with a faint grid, walls dark blue. A pixel of several cells is as its most
+/// telling one: occupied, else free.
 PixelImage RenderMap(const OccupancyGrid& grid, const MapView& view);
 
 }  // namespace qwsm::io

@@ -12,7 +12,7 @@ struct PixelRows {
   int width_px = 0;
   int height_px = 0;
   const unsigned char* first = nullptr;
-  std::ptrdiff_t stride_bytes = 0;  ///< From a row to the next.
+  std::ptrdiff_t stride_bytes = 0;  ///< Distance from a row to the next.
 };
 
 /// Writes a PNG. In maps and plots most pixels are as the one above: each row is written as its

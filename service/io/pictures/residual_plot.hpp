@@ -11,8 +11,8 @@ namespace qwsm::io {
 
 /// How far matched points stayed apart, scan by scan.
 struct ResidualSeries {
-  std::string name;                 ///< Of the matcher.
-  std::vector<double> residual_mm;  ///< Per scan; NaN where there was no match.
+  std::string name;                 ///< Name of the matcher.
+  std::vector<double> residual_mm;  ///< Residual of each scan; NaN where there was no match.
 };
 
 /// Draws Figure 4 of Visser et al. (2009): the residual correspondence distance over the number of

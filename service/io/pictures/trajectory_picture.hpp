@@ -29,8 +29,8 @@ struct LoopLine {
 /// What is drawn over a map. All paths are in the frame `map`.
 struct MapOverlay {
   std::vector<PathPose> path;
-  Trajectory truth;       ///< Empty where it is not known.
-  Trajectory odometry;    ///< Empty where it is of no interest.
+  Trajectory truth;       ///< The true path; empty where it is not known.
+  Trajectory odometry;    ///< The path by odometry; empty where it is of no interest.
   Trajectory answered{};  ///< The path before it was corrected; empty where it was not.
   std::vector<LoopLine> loops{};
 };

@@ -9,7 +9,7 @@
 
 namespace slam6d::options {
 
-/// Everything that can be configured of the program `slam6d`.
+/// All options of the program `slam6d`.
 struct ProgramOptions : RegistrationOptions {
   qwsm::dds::NetworkOptions network{.interface = {}, .tag = {}, .node = "slam6d"};
   qwsm::team::CloudTeamOptions team{};

@@ -8,15 +8,15 @@
 
 namespace slam6d::options {
 
-/// Everything that can be configured of `slam6d register`.
+/// All options of `slam6d register`.
 struct RegistrationOptions {
   io::PointFileOptions files{};
-  /// A scan whose points are so many times as far off as those of the others, or as near, is in
-  /// other units.
+  /// A scan is taken to be in other units if its points are so many times as far off as those of
+  /// the others, or as near.
   double max_range_ratio = 20.0;
   SlamOptions slam{};
   graph::LoopDistribution loop_error = graph::LoopDistribution::kLeastSquares;
-  ReductionOptions model{};  ///< Of the merged cloud.
+  ReductionOptions model{};  ///< Reduction of the merged cloud.
 };
 
 template <class Visitor>

@@ -7,7 +7,7 @@
 
 namespace slam6d::options {
 
-/// How a scenario of the plane is seen by a 3D scanner.
+/// Options of how a scenario of the plane is seen by a 3D scanner.
 struct SimulationOptions {
   sim::SolidOptions world{};
   sim::PitchingLaserOptions laser{};

@@ -9,16 +9,17 @@
 
 namespace qwsm::pipeline {
 
-// @pre, of all here: there is a contestant.
+// All functions here require a contestant.
 
-/// One line per scan, with the status, residual, trace and time of every matcher.
+/// A table with a line per scan: status, residual, trace and time of every matcher.
 std::string ComparisonCsv(const std::list<Contestant>& contestants);
 
-/// The figures of every matcher, and the first one's beside those of each other. Names are only
-/// ever added.
+/// JSON with the figures of every matcher, and the first one's beside those of each other. Names
+/// are only ever added.
 std::string ComparisonJson(const std::list<Contestant>& contestants);
 
-/// The same in two tables for people.
+/// Two tables for people with the figures of every matcher, and the first one's beside those of
+/// each other.
 std::string ComparisonText(const std::list<Contestant>& contestants);
 
 }  // namespace qwsm::pipeline

@@ -15,7 +15,7 @@
 
 namespace qwsm::pipeline {
 
-/// What trajectories are compared with.
+/// Says what trajectories are compared with.
 struct EvaluationOptions {
   std::optional<std::filesystem::path> relations;
   std::optional<std::filesystem::path>
@@ -37,9 +37,11 @@ struct Evaluation {
 /// Compares trajectories with what is known to be true.
 class Evaluator {
  public:
+  /// Reads what trajectories are compared with.
   /// @throws std::runtime_error where a file cannot be read.
   explicit Evaluator(EvaluationOptions options);
 
+  /// Compares one trajectory.
   /// @param file a TUM trajectory, or a folder of results that holds one.
   /// @throws std::runtime_error where it cannot be read or has nothing in common with the truth.
   Evaluation Evaluate(const std::filesystem::path& file) const;
@@ -55,7 +57,7 @@ class Evaluator {
 /// A line per trajectory and metric, with units: metres and degrees.
 std::string EvaluationTable(std::span<const Evaluation> evaluations);
 
-/// The same as JSON, every name ending in its unit.
+/// The evaluations as JSON; every name ends in its unit.
 std::string EvaluationJson(std::span<const Evaluation> evaluations);
 
 }  // namespace qwsm::pipeline

@@ -11,15 +11,16 @@
 
 namespace qwsm::pipeline {
 
-/// One matcher on the data of one seed, as the paper's section 4.1 judges it, and by the truth.
+/// One matcher on the data of one seed, as section 4.1 of Visser et al. (2009) judges it, and by
+/// the truth.
 struct ExperimentRun {
   int seed = 0;
   MatcherKind matcher = MatcherKind::kQWsm;
   std::size_t scans = 0;
-  std::size_t failures = 0;       ///< Scans that were dead-reckoned.
-  double residual_mm = 0.0;       ///< Mean over the scans it matched.
-  double trace_m2 = 0.0;          ///< The same; see PositionTrace_m2().
-  MatcherComparison to_baseline;  ///< Over the scans that both matched.
+  std::size_t failures = 0;  ///< Scans that were dead-reckoned.
+  double residual_mm = 0.0;  ///< Mean residual over the scans that the matcher matched.
+  double trace_m2 = 0.0;     ///< Mean PositionTrace_m2() over the scans that the matcher matched.
+  MatcherComparison to_baseline;  ///< Comparison over the scans that both matched.
   TruthReport truth;
   double ms_median = 0.0;
 };
@@ -28,19 +29,19 @@ struct ExperimentRun {
 /// @pre the truth is known to it, and there are two contestants at least
 std::vector<ExperimentRun> RunsOf(const std::list<Contestant>& contestants, int seed);
 
-/// An array with one object per seed and matcher; every name ends in its unit. Names are only ever
-/// added.
+/// JSON: an array with one object per seed and matcher; every name ends in its unit. Names are only
+/// ever added.
 std::string ExperimentJson(const std::vector<ExperimentRun>& runs);
 
-/// The same as a table for programs. @pre there is a run
+/// A table for programs with one line per seed and matcher. @pre there is a run
 std::string ExperimentCsv(const std::vector<ExperimentRun>& runs);
 
-// @pre, of all that follows: there is a run.
+// All functions below require a run.
 
 /// A table for people: median and largest figures of each matcher, then every run.
 std::string ExperimentText(const std::vector<ExperimentRun>& runs);
 
-/// The same table in Markdown.
+/// A table in Markdown: median and largest figures of each matcher, then every run.
 std::string ExperimentMarkdown(const std::vector<ExperimentRun>& runs);
 
 }  // namespace qwsm::pipeline

@@ -10,7 +10,7 @@
 
 namespace qwsm::pipeline {
 
-/// What is compared of a matcher's answer to one scan.
+/// The figures by which a matcher's answer to one scan is compared.
 struct ScanFigures {
   Timestamp stamp{};
   StepStatus status = StepStatus::kFirst;
@@ -25,7 +25,7 @@ class FiguresSink final : public StepSink {
   void Take(const TimedStep& timed) override;
 
   const std::vector<ScanFigures>& scans() const { return scans_; }
-  /// Per scan; NaN where there was no match.
+  /// The residual of each scan, in mm; NaN where there was no match.
   std::vector<double> Residuals_mm() const;
 
  private:
@@ -35,14 +35,15 @@ class FiguresSink final : public StepSink {
 /// How one matcher fares beside another, as in section 4.1 of Visser et al. (2009): over the scans
 /// that both matched, mean against mean and scan by scan. NaN where there is no such scan.
 struct MatcherComparison {
-  std::size_t scans = 0;  ///< Matched by both.
+  std::size_t scans = 0;  ///< Scans matched by both.
   double residual_ratio = 0.0;
   double trace_ratio = 0.0;
-  double smaller_residual_share = 0.0;  ///< Of the scans, where the first one's is smaller.
+  /// Share of the scans in which the first one's residual is smaller.
+  double smaller_residual_share = 0.0;
   double smaller_trace_share = 0.0;
 };
 
-/// @pre figures of the same scans, one for one.
+/// Compares two matchers. @pre figures of the same scans, one for one.
 MatcherComparison CompareMatchers(std::span<const ScanFigures> candidate,
                                   std::span<const ScanFigures> baseline);
 

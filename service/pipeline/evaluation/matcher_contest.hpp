@@ -25,22 +25,22 @@ struct Contestant {
   FiguresSink figures;
 };
 
-/// Several matchers on the same observations; all else alike.
+/// Runs several matchers on the same observations; all else is alike.
 class MatcherContest {
  public:
-  /// Each matcher leaves all results of a run in a folder of its name inside `folder`.
-  /// @throws io::WriteError, as do all others here.
+  /// Lets each matcher leave all results of a run in a folder of its name inside `folder`.
+  /// @throws io::WriteError, as all functions of the class do.
   MatcherContest(const MapperOptions& options,
                  std::span<const MatcherKind> matchers,
                  const ResultsFolder& folder);
 
-  /// What Replay() is to run.
+  /// The runs that Replay() is to make.
   std::vector<MappingRun> runs();
 
   const std::list<Contestant>& contestants() const { return contestants_; }
 
   /// Writes every matcher's results, and what compares them: figures per scan (comparison.csv), on
-  /// average (metrics.json), and residuals as in the paper's Figure 4 (residual.png).
+  /// average (metrics.json), and residuals as in Figure 4 of Visser et al. (2009) (residual.png).
   /// @param truth of the robot in a frame of its own; empty where it is not known.
   void Finish(const OccupancyGridOptions& rendering, const Trajectory& truth = {});
 

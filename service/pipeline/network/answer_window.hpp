@@ -17,6 +17,7 @@ namespace qwsm::pipeline {
 template <class Kind>
 class BasicAnswerWindow {
  public:
+  /// Opens the window.
   /// @param size smaller than the queue of the service, so that nothing is dropped there.
   BasicAnswerWindow(dds::BasicReportReader<Kind>& reports, std::size_t size)
       : reports_(reports), size_(size) {}

@@ -20,8 +20,9 @@
 namespace qwsm::pipeline {
 
 struct ReplayOptions {
-  std::string robot;             ///< Namespace; empty for none.
-  std::optional<double> factor;  ///< Seconds of the record in one of ours; else as answered.
+  std::string robot;  ///< Namespace of the robot; empty for none.
+  /// Seconds of the record in one of ours; nothing: as fast as scans are answered.
+  std::optional<double> factor;
   ProgressStyle progress = ProgressStyle::kNone;
 };
 
@@ -30,7 +31,7 @@ struct ReplayOptions {
 template <class Kind, class Source>
 class NetworkReplay {
  public:
-  /// @param source outlives this; has a scan.
+  /// Makes a replay. @param source outlives this; has a scan.
   NetworkReplay(const dds::NetworkOptions& network, const ReplayOptions& options, Source& source)
       : source_(source),
         participant_(network),
@@ -44,7 +45,9 @@ class NetworkReplay {
     if (options.factor) pace_.emplace(*options.factor);
   }
 
-  /// @param T_robot_sensor of the first scan. @returns false where nobody listens.
+  /// Waits until somebody listens.
+  /// @param T_robot_sensor of the first scan.
+  /// @returns false where nobody does.
   bool WaitForListener(const typename Kind::Pose& T_robot_sensor,
                        std::chrono::duration<double> timeout,
                        const Interruption& interruption) {
@@ -58,7 +61,7 @@ class NetworkReplay {
     return false;
   }
 
-  /// @returns whether all was published.
+  /// Publishes all scans of the source. @returns whether all was published.
   bool Run(const Interruption& interruption) {
     while (const auto observation = source_.Next()) {
       while (pace_ && !pace_->WaitFor(observation->scan.stamp, kLook)) {
@@ -91,12 +94,12 @@ class NetworkReplay {
  private:
   using Clock = std::chrono::steady_clock;
 
-  // The service's queue holds more than this.
+  // Most scans on their way; the service's queue holds more than this.
   static constexpr std::size_t kScansOnTheirWay = 4;
   static constexpr auto kPatience = std::chrono::seconds(10);
   static constexpr auto kLook = std::chrono::milliseconds(200);
 
-  /// A service that hears the robot reports on it a moment later.
+  /// Waits for a reporter: a service that hears the robot reports on it a moment later.
   void WaitForReporter() {
     const auto until = Clock::now() + std::chrono::seconds(2);
     while (!reports_.has_writer() && Clock::now() < until) {

@@ -14,7 +14,7 @@
 
 namespace qwsm::pipeline {
 
-/// Whether the simulator waits for the service.
+/// Says whether the simulator waits for the service.
 enum class NetworkPace { kFree, kAnswers };
 
 /// A simulated robot on the network: publishes what it measures and where it really is, and takes
@@ -22,16 +22,17 @@ enum class NetworkPace { kFree, kAnswers };
 /// frame of their map is that of the world.
 class NetworkRobot final : public ReadingSink {
  public:
+  /// Publishes one robot.
   /// @param robot index in the simulation, which outlives this, as does the participant.
   NetworkRobot(const dds::Participant& participant,
                sim::Simulation& simulation,
                std::size_t robot,
                NetworkPace pace);
 
-  /// @returns false where nobody listens in time.
+  /// Waits until somebody listens. @returns false where nobody listens in time.
   bool WaitForListener(std::chrono::nanoseconds timeout);
 
-  /// Readings of other robots are passed over.
+  /// Publishes a reading; readings of other robots are passed over.
   void Take(const sim::Reading& reading) override;
   /// Waits until the last scan is answered.
   void Finish();

@@ -12,11 +12,12 @@ namespace qwsm::pipeline {
 /// Waits until things are due that happened, or are simulated, on another clock.
 class Pace {
  public:
-  /// @param factor their seconds in one of ours. @pre factor > 0
+  /// Sets the pace. @param factor seconds of the other clock in one of ours. @pre factor > 0
   explicit Pace(double factor) : factor_(factor) {}
 
-  /// Sleeps until `stamp` is due, but never for longer than `longest`: returns whether it is due.
-  /// The first one is due at once; so is one whose clock went back, and the next are due after it.
+  /// Sleeps until `stamp` is due, but never for longer than `longest`; returns whether it is due.
+  /// The first stamp is due at once; so is one whose clock went back, and the next are due after
+  /// it.
   bool WaitFor(Timestamp stamp, std::chrono::nanoseconds longest);
 
  private:

@@ -17,7 +17,7 @@ namespace qwsm::pipeline {
 /// Writes what a robot says as a CARMEN log, each scan with the odometry of its moment.
 class ScanRecorder final : public team::RobotListener<team::Planar> {
  public:
-  /// The stream outlives this.
+  /// Writes to a stream, which outlives this.
   explicit ScanRecorder(std::ostream& stream) : carmen_(stream) {}
 
   bool TakeScan(std::string_view robot, LaserScan scan) override;
@@ -27,7 +27,7 @@ class ScanRecorder final : public team::RobotListener<team::Planar> {
 
   /// Writes the scans whose odometry is known, or will not come.
   void WriteReady();
-  /// Writes all.
+  /// Writes all scans, with odometry or without.
   void Finish();
 
   std::size_t scans() const { return scans_; }

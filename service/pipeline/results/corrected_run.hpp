@@ -12,7 +12,7 @@
 
 namespace qwsm::pipeline {
 
-/// How many loops came to which end.
+/// Counts the loops that came to each end.
 struct LoopCounts {
   std::size_t accepted = 0;
   std::size_t found = 0;
@@ -31,7 +31,7 @@ class CorrectionSink final : public StepSink {
   explicit CorrectionSink(const MapperOptions& options) : corrector_(options) {}
 
   void Take(const TimedStep& timed) override;
-  /// @param map that the run made.
+  /// Corrects a run. @param map that the run made.
   CorrectedRun Correct(const ScanMap& map) const;
 
  private:
@@ -42,7 +42,7 @@ class CorrectionSink final : public StepSink {
 /// @throws io::WriteError.
 void WriteLoops(const ResultsFolder& folder, const Correction& correction, const ScanMap& map);
 
-/// The loops as lines between the places that they join.
+/// The loops of a correction as lines between the places that they join.
 std::vector<io::LoopLine> LoopLines(const Correction& correction);
 
 }  // namespace qwsm::pipeline

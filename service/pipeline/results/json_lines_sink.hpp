@@ -13,7 +13,7 @@ class JsonLinesSink final : public StepSink {
  public:
   explicit JsonLinesSink(std::FILE* stream) : stream_(stream) {}
 
-  /// @throws io::WriteError when nobody reads any more.
+  /// Writes an answer. @throws io::WriteError when nobody reads any more.
   void Take(const TimedStep& timed) override;
 
  private:

@@ -21,10 +21,10 @@ class ResultsFolder {
                 bool force,
                 std::span<const std::filesystem::path> inputs = {});
 
-  /// The same in `results/<UTC time>/`, with a link `results/latest` to it.
+  /// Creates the folder `results/<UTC time>/`, with a link `results/latest` to it.
   static ResultsFolder ForNow(const std::filesystem::path& parent);
 
-  /// What the constructor would object to. @throws io::WriteError.
+  /// Throws what the constructor would object to. @throws io::WriteError.
   static void Check(const std::filesystem::path& folder,
                     bool force,
                     std::span<const std::filesystem::path> inputs = {});

@@ -22,7 +22,8 @@ namespace qwsm::pipeline {
 /// pictures at the end.
 class ResultsWriter final : public StepSink {
  public:
-  /// @throws io::WriteError, as do all others here.
+  /// Begins the results in a folder.
+  /// @throws io::WriteError, as all functions of the class do.
   /// @param trajectory name of the file for the poses as they were answered.
   explicit ResultsWriter(const ResultsFolder& folder,
                          std::string_view trajectory = "trajectory.tum");
@@ -34,21 +35,21 @@ class ResultsWriter final : public StepSink {
   void Finish(const Mapper& mapper,
               const OccupancyGridOptions& rendering,
               const Trajectory& truth = {});
-  /// The same of a corrected run: the corrected poses are the trajectory, and the map is that of
-  /// the scans there; the map as it was goes into map_live.png.
+  /// Writes what can only be known at the end of a corrected run: the corrected poses are the
+  /// trajectory, and the map is that of the scans there; the map as it was goes into map_live.png.
   void Finish(const Mapper& mapper,
               const CorrectedRun& corrected,
               const OccupancyGridOptions& rendering,
               const Trajectory& truth = {});
 
   const RunStatistics& statistics() const { return statistics_; }
-  /// After Finish() of a corrected run.
+  /// Counts of loops, after Finish() of a corrected run.
   const std::optional<LoopCounts>& loops() const { return loops_; }
-  /// After Finish(), where the truth is known.
+  /// The report on the truth, after Finish(), where the truth is known.
   const std::optional<TruthReport>& truth_report() const { return truth_report_; }
 
  private:
-  // What a run ends with.
+  // The end of a run.
   struct Outcome {
     const ScanMap& map;
     MatcherKind matcher;

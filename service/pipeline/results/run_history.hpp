@@ -16,26 +16,27 @@ namespace qwsm::pipeline {
 /// Keeps of a run what pictures are drawn from.
 class RunHistory final : public StepSink {
  public:
-  /// Of a recorded log all is kept.
+  /// Limit that keeps all of a recorded log.
   static constexpr std::size_t kAll = std::size_t{1} << 40U;
 
-  /// @param most poses that are kept, evenly spread; even.
+  /// Keeps no poses yet. @param most poses that are kept, evenly spread; even.
   explicit RunHistory(std::size_t most = kAll)
       : path_(most), odometry_(most), residuals_mm_(most) {}
 
   void Take(const TimedStep& timed) override;
 
   const std::vector<io::PathPose>& path() const { return path_.elements(); }
-  /// Path and odometry.
+  /// Path and odometry as they are drawn over a map.
   io::MapOverlay Overlay() const;
-  /// Per scan; NaN where there was no match.
+  /// The residual of each scan, in mm; NaN where there was no match.
   const std::vector<double>& residuals_mm() const { return residuals_mm_.elements(); }
 
  private:
   ThinnedSeries<io::PathPose> path_;
   ThinnedSeries<StampedPose2> odometry_;
   ThinnedSeries<double> residuals_mm_;
-  std::optional<Pose2> T_map_odom_;  // By the first scan that has odometry.
+  // Odometry's place in the map, by the first scan that has odometry.
+  std::optional<Pose2> T_map_odom_;
 };
 
 }  // namespace qwsm::pipeline

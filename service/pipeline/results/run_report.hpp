@@ -12,7 +12,7 @@
 
 namespace qwsm::pipeline {
 
-/// As it is given after --matcher.
+/// The matcher's name as it is given after --matcher.
 std::string_view Name(MatcherKind matcher);
 
 /// The figures of a run as JSON; every name ends in its unit. Names are only ever added.
@@ -22,7 +22,7 @@ std::string MetricsJson(const RunStatistics& run,
                         const std::optional<TruthReport>& truth,
                         const std::optional<LoopCounts>& loops = {});
 
-/// The same in a few lines for people.
+/// The figures of a run in a few lines for people.
 std::string SummaryText(const RunStatistics& run,
                         const ScanMap& map,
                         const std::optional<TruthReport>& truth,

@@ -23,15 +23,15 @@ class RunStatistics final : public StepSink {
   std::size_t relevant() const { return relevant_; }
   std::size_t Count(StepStatus status) const;
   double path_length_m() const { return path_length_m_; }
-  /// Over the matched scans; 0 for none.
+  /// Mean residual over the matched scans, in mm; 0 where there is none.
   double MeanResidual_mm() const;
   double MeanTrace_m2() const;
   double total_time_s() const { return 1e-3 * time_sum_ms_; }
-  /// From the first scan to the last, by their stamps.
+  /// Time from the first scan to the last, by their stamps.
   double drive_time_s() const { return std::chrono::duration<double>(last_ - first_).count(); }
   /// Whether a robot would have outrun the mapping.
   bool is_outrun() const { return drive_time_s() > 0.0 && total_time_s() > drive_time_s(); }
-  /// Of the time per scan: 0.5 is the median. @pre scans() > 0.
+  /// Quantile of the time per scan: 0.5 is the median. @pre scans() > 0.
   double TimeQuantile_ms(double quantile) const;
   double longest_time_ms() const { return longest_time_ms_; }
 

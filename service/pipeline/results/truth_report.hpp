@@ -15,11 +15,13 @@ namespace qwsm::pipeline {
 /// How far a path is from the truth.
 struct TruthReport {
   std::size_t poses = 0;
-  double ate_rmse_m = 0.0;  ///< Of positions, after the best alignment (Sturm et al. 2012).
-  double ate_from_start_rmse_m = 0.0;  ///< The same with only the first poses made to coincide.
-  double heading_rmse_rad = 0.0;       ///< From the start, too.
+  double ate_rmse_m = 0.0;  ///< Error of positions, after the best alignment (Sturm et al. 2012).
+  /// Error of positions with only the first poses made to coincide.
+  double ate_from_start_rmse_m = 0.0;
+  /// Error of headings with only the first poses made to coincide.
+  double heading_rmse_rad = 0.0;
   double loop_gap_m = 0.0;  ///< How wrong the way from the first pose to the last one is.
-  NeesSummary nees;         ///< Of all poses but the first, which is exact by definition.
+  NeesSummary nees;         ///< Summary of all poses but the first, which is exact by definition.
 };
 
 /// The true path in the frame `map`: the map begins where the first pose says.

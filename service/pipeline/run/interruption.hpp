@@ -6,8 +6,9 @@
 
 namespace qwsm::pipeline {
 
-/// While one lives, the first Ctrl-C (SIGINT, or SIGTERM) is only noted, so that what was begun can
-/// be finished and written; the second one quits at once with exit code 130.
+/// While an object of this class lives, the first Ctrl-C (SIGINT, or SIGTERM) is only noted, so
+/// that what was begun can be finished and written; the second one quits at once with exit code
+/// 130.
 class Interruption {
  public:
   Interruption();

@@ -20,15 +20,16 @@ class LogSource final : public ScanSource {
   /// @throws io::LogError where one is no log.
   LogSource(const std::vector<std::filesystem::path>& logs, const io::LogOptions& options);
 
+  /// Gives the next scan.
   /// @throws io::LogError where a log is damaged, after everything before the damage was given.
   std::optional<Observation> Next() override;
   SourceProgress progress() const override;
   const Trajectory& truth() const override { return truth_; }
 
-  /// What Next() will give; null at the end.
+  /// The observation that Next() will give; null at the end.
   const Observation* Peek();
 
-  /// A line per log, and one per kind of fault.
+  /// Lines for the record: one per log, and one per kind of fault.
   std::vector<std::string> Describe() const override;
 
  private:
@@ -37,7 +38,7 @@ class LogSource final : public ScanSource {
   std::vector<std::unique_ptr<io::LogReader>> readers_;
   std::size_t current_ = 0;
   std::size_t scans_ = 0;
-  std::optional<Observation> ahead_;  // Peeked at.
+  std::optional<Observation> ahead_;  // Observation that was peeked at.
   Trajectory truth_;
 };
 

@@ -12,29 +12,31 @@
 
 namespace qwsm::pipeline {
 
-/// `map  62 %  4 210/6 790 scans  381 scan/s  ETA 0:07  dropped 0`; what is not known is left out.
+/// Progress as `map  62 %  4 210/6 790 scans  381 scan/s  ETA 0:07  dropped 0`; what is not known
+/// is left out.
 std::string ProgressLine(const std::string& task,
                          const SourceProgress& progress,
                          std::chrono::duration<double> elapsed);
 
-/// `504 s simulated  3100 x real time`.
+/// Simulated time as `504 s simulated  3100 x real time`.
 std::string SimulatedTimeText(std::chrono::duration<double> simulated,
                               std::chrono::duration<double> elapsed);
 
-/// 4210 as `4 210`.
+/// The number 4210 as `4 210`.
 std::string WithThousands(std::size_t number);
 
-/// How progress is shown.
+/// Says how progress is shown.
 enum class ProgressStyle {
   kNone,
   kLines,  ///< A line every five seconds, for files and dumb terminals.
   kBar,    ///< One line of a terminal, rewritten.
 };
 
-/// kBar where the stream is a terminal that can rewrite a line (TERM is not "dumb"), else kLines.
+/// The style of a stream: kBar where it is a terminal that can rewrite a line (TERM is not "dumb"),
+/// else kLines.
 ProgressStyle StyleFor(std::FILE* stream);
 
-/// `0:07`, `12:34`, `1:00:00`.
+/// A duration as `0:07`, `12:34` or `1:00:00`.
 std::string MinutesAndSeconds(double duration_s);
 
 /// A line about work in progress that is shown now and then.

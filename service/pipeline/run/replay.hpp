@@ -24,7 +24,7 @@ enum class ReplayEnd { kExhausted, kInterrupted, kSourceFailed };
 
 struct ReplayResult {
   ReplayEnd end = ReplayEnd::kExhausted;
-  std::string failure;  ///< What the source said when it failed.
+  std::string failure;  ///< Reason that the source gave when it failed.
 };
 
 /// Feeds the mappers with all the source has, as fast as they can, and hands every answer to the

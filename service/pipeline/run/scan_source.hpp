@@ -15,10 +15,11 @@ namespace qwsm::pipeline {
 
 /// How far a source has come.
 struct SourceProgress {
-  std::size_t scans = 0;          ///< Given so far.
-  std::size_t dropped = 0;        ///< Lost on the way here: malformed, or a full queue.
-  std::optional<double> share{};  ///< Of all there is, 0..1; unknown for what has no known end.
-  /// Of a simulation.
+  std::size_t scans = 0;    ///< Scans given so far.
+  std::size_t dropped = 0;  ///< Scans lost on the way here: malformed, or a full queue.
+  /// Share of all there is, 0..1; unknown for what has no known end.
+  std::optional<double> share{};
+  /// Time of a simulation.
   std::optional<std::chrono::duration<double>> simulated{};
 };
 
@@ -35,7 +36,7 @@ class ScanSource {
 
   virtual SourceProgress progress() const = 0;
 
-  /// True poses in some frame of their own, of the scans given so far; empty where unknown.
+  /// True poses of the scans given so far, in some frame of their own; empty where unknown.
   virtual const Trajectory& truth() const {
     static const Trajectory kUnknown;
     return kUnknown;

@@ -13,10 +13,10 @@ namespace qwsm::pipeline {
 struct TimedStep {
   MappingStep step;
   std::chrono::nanoseconds duration{};
-  std::optional<Pose2> T_odom_robot{};  ///< What it was asked with.
+  std::optional<Pose2> T_odom_robot{};  ///< Odometry that the mapper was given.
 };
 
-/// Whether the pose comes from a match.
+/// Whether the pose of a step comes from a match.
 inline bool HasMatch(StepStatus status) {
   return status == StepStatus::kMatched || status == StepStatus::kExtended;
 }

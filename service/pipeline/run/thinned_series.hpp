@@ -9,12 +9,12 @@
 
 namespace qwsm::pipeline {
 
-/// A series of any length in so much memory: whenever it is full every other element goes, and of
+/// A series of any length in bounded memory: whenever it is full every other element goes, and of
 /// those that come later only as many are kept, so that they stay evenly spread.
 template <class T>
 class ThinnedSeries {
  public:
-  /// @pre capacity is even.
+  /// Makes an empty series. @pre capacity is even.
   explicit ThinnedSeries(std::size_t capacity) : capacity_(capacity) {
     assert(capacity > 0 && capacity % 2 == 0 && "what is kept stays evenly spread");
   }
@@ -35,7 +35,7 @@ class ThinnedSeries {
  private:
   std::size_t capacity_;
   std::size_t added_ = 0;
-  std::size_t stride_ = 1;  // Of the elements that are kept, among all.
+  std::size_t stride_ = 1;  // Distance of the elements that are kept, among all.
   std::vector<T> elements_;
 };
 

@@ -20,8 +20,8 @@ namespace qwsm::pipeline {
 /// Both trajectories are poses in the world; odometry begins at the true pose.
 class SimulatedLog final : public ReadingSink {
  public:
-  /// Files are `NAME.log`, `NAME.truth.tum` and `NAME.odometry.tum` in the folder. Readings of
-  /// other robots are passed over.
+  /// Makes the files `NAME.log`, `NAME.truth.tum` and `NAME.odometry.tum` in the folder. Readings
+  /// of other robots are passed over.
   SimulatedLog(const std::filesystem::path& folder, std::size_t robot, const std::string& name);
 
   void Take(const sim::Reading& reading) override;
@@ -43,7 +43,7 @@ class SimulatedLog final : public ReadingSink {
   double path_length_m_ = 0.0;
   std::optional<Pose2> T_world_odom_;
   Pose2 T_world_robot_;
-  Pose2 T_world_odometry_;  ///< Of the robot, by its odometry.
+  Pose2 T_world_odometry_;  ///< The robot's pose by its odometry.
 };
 
 }  // namespace qwsm::pipeline

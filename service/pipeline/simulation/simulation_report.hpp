@@ -17,7 +17,7 @@ using SimulatedLogs = std::vector<std::unique_ptr<SimulatedLog>>;
 /// The figures of a simulation as JSON; every name ends in its unit. Names are only ever added.
 std::string SimulationJson(const sim::Simulation& simulation, const SimulatedLogs& logs);
 
-/// The same in a few lines for people.
+/// The figures of a simulation in a few lines for people.
 std::string SimulationSummary(const sim::Simulation& simulation, const SimulatedLogs& logs);
 
 }  // namespace qwsm::pipeline

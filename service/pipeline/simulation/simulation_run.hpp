@@ -21,7 +21,7 @@ bool RunSimulation(sim::Simulation& simulation,
                    std::span<ReadingSink* const> sinks,
                    const std::function<bool()>& stop);
 
-/// `sim  62 %  504 s simulated  3100 x real time  ETA 0:07`.
+/// Progress as `sim  62 %  504 s simulated  3100 x real time  ETA 0:07`.
 std::string SimulationProgressLine(const sim::Simulation& simulation,
                                    std::chrono::duration<double> elapsed);
 
@@ -42,7 +42,7 @@ class SimulationProgress final : public ReadingSink {
 /// Waits until readings are due, where simulated time is not to run as fast as it can.
 class Pacer final : public ReadingSink {
  public:
-  /// @param factor simulated seconds in a real one. @pre factor > 0
+  /// Sets the pace. @param factor simulated seconds in a real one. @pre factor > 0
   explicit Pacer(double factor) : factor_(factor) {}
 
   void Take(const sim::Reading& reading) override;

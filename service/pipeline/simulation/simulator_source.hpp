@@ -14,7 +14,7 @@ namespace qwsm::pipeline {
 /// What one robot of a simulation measures, and where it really was.
 class SimulatorSource final : public ScanSource {
  public:
-  /// @throws sim::ScenarioError. @pre robot < scenario.robots.size()
+  /// Starts a simulation. @throws sim::ScenarioError. @pre robot < scenario.robots.size()
   SimulatorSource(const sim::ScenarioOptions& scenario, std::size_t robot)
       : simulation_(scenario), robot_(robot) {}
 

@@ -13,7 +13,7 @@
 namespace slam6d::pipeline {
 
 /// Leaves what `slam6d register` leaves, for every robot of a team. A robot without a namespace has
-/// the folder itself, others a folder of their name in it. Keeps all points until then.
+/// the folder itself, others a folder of their name in it. Keeps all points until Finish().
 class CloudResults final : public qwsm::team::CloudSink {
  public:
   CloudResults(const qwsm::pipeline::ResultsFolder& folder,
@@ -23,7 +23,8 @@ class CloudResults final : public qwsm::team::CloudSink {
   void TakeAnswer(const qwsm::team::CloudAnswer& answer) override { Keep(answer); }
   void TakeRestored(const qwsm::team::CloudAnswer& answer) override { Keep(answer); }
 
-  /// Fits the scans to each other, if that is wanted, and writes. @pre the service has stopped.
+  /// Fits the scans to each other, if that is wanted, and writes the results.
+  /// @pre the service has stopped.
   /// @throws qwsm::io::WriteError.
   void Finish(qwsm::team::CloudService& service);
 

@@ -11,11 +11,11 @@
 
 namespace slam6d::pipeline {
 
-/// How a trajectory is laid over the truth before its error is taken.
+/// Says how a trajectory is laid over the truth before its error is taken.
 enum class PoseAlignment {
   kNone,
-  kFirst,  ///< Its first pose onto the true one: what a registration leaves open.
-  kBest,   ///< All positions, without scale (Umeyama 1991).
+  kFirst,  ///< Its first pose is laid onto the true one: what a registration leaves open.
+  kBest,   ///< All positions are laid over the true ones, without scale (Umeyama 1991).
 };
 
 /// Absolute trajectory error: root mean square, mean and largest over the poses.
@@ -29,7 +29,7 @@ struct PoseErrors {
   double max_rad = 0.0;
 };
 
-/// Compares the poses that both have.
+/// Compares the poses that both trajectories have.
 /// @throws std::runtime_error where there are none, or too few to align.
 PoseErrors Compare(const io::NumberedPoses& estimate,
                    const io::NumberedPoses& truth,

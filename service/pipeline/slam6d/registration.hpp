@@ -11,36 +11,36 @@
 
 namespace slam6d::pipeline {
 
-/// What became of one scan of a series.
+/// The outcome of one scan of a series.
 struct RegisteredScan {
   std::string name;
   std::filesystem::path file;
-  qwsm::Timestamp stamp{};  ///< Where none is known, its number in seconds.
+  qwsm::Timestamp stamp{};  ///< Stamp of the scan; where none is known, its number in seconds.
   Pose3 T_odom_scan;
-  PointCloud cloud;  ///< In the scanner's frame, within range.
+  PointCloud cloud;  ///< Points within range, in the scanner's frame.
   SlamStep step;
-  double time_s = 0.0;  ///< Of the registration, without reading.
+  double time_s = 0.0;  ///< Time of the registration, without reading.
 };
 
-/// A series, registered.
+/// A registered series.
 struct Registration {
   std::vector<RegisteredScan> scans;
-  std::vector<Pose3> T_map_scan;  ///< In the end.
+  std::vector<Pose3> T_map_scan;  ///< Poses in the end.
   RefinementResult refinement;
   std::size_t series_size = 0;
   double refinement_time_s = 0.0;
-  bool interrupted = false;  ///< There were more scans, or more fits to be done.
+  bool interrupted = false;  ///< Whether there were more scans, or more fits to be done.
 };
 
-/// Who watches a registration.
+/// Watches a registration.
 struct RegistrationObserver {
-  /// Told how much of the work is done, in [0, 1], and what it is.
+  /// Is told how much of the work is done, in [0, 1], and what it is.
   std::function<void(double share, const std::string& what)> show;
   std::function<void(const std::string& problem)> warn;
   std::function<bool()> should_stop;
 };
 
-/// The points that the registration would use.
+/// The points of a cloud that the registration would use.
 PointCloud WithinRange(const PointCloud& cloud, const SlamOptions& options);
 
 /// Registers all scans of a series and fits them to each other.

@@ -16,10 +16,10 @@ void WriteResults(const Registration& registration,
                   const options::RegistrationOptions& options,
                   const qwsm::pipeline::ResultsFolder& folder);
 
-/// metrics.json; every name ends in its unit.
+/// The text of metrics.json; every name ends in its unit.
 std::string MetricsJson(const Registration& registration);
 
-/// The same for people, a line per fact.
+/// The figures of a registration for people, a line per fact.
 std::string SummaryText(const Registration& registration);
 
 }  // namespace slam6d::pipeline

@@ -20,11 +20,12 @@ std::vector<std::filesystem::path> FindScans(const std::vector<std::filesystem::
 
 /// A scan as it was read.
 struct LoadedScan {
-  std::string name;  ///< Of its file, without folder and endings.
+  std::string name;  ///< Name of the file, without folder and endings.
   std::filesystem::path file;
-  PointCloud cloud;  ///< Empty where it was left out.
+  PointCloud cloud;  ///< Points; none where the scan was left out.
   Pose3 T_odom_scan;
-  std::vector<std::string> problems;  ///< Each naming file and line; the scan is used all the same.
+  /// Problems, each naming file and line; the scan is used all the same.
+  std::vector<std::string> problems;
 };
 
 /// Scans and the poses to start from, one after the other.
@@ -46,7 +47,7 @@ class ScanSeries {
  private:
   struct ReadScan {
     LoadedScan scan;
-    double range_m;  ///< Half of the points are farther off.
+    double range_m;  ///< Range that half of the points exceed.
   };
 
   ReadScan Read(const std::filesystem::path& file) const;
@@ -60,8 +61,8 @@ class ScanSeries {
   std::size_t read_ = 0;
   std::size_t given_ = 0;
   std::deque<ReadScan> ahead_;
-  std::vector<double> ranges_m_;  ///< Of the scans in the right units.
-  std::vector<Pose3> poses_;      ///< Of the scans given out.
+  std::vector<double> ranges_m_;  ///< Ranges of the scans in the right units.
+  std::vector<Pose3> poses_;      ///< Poses of the scans given out.
   bool told_of_no_pose_ = false;
 };
 

@@ -18,8 +18,9 @@ struct SearchTimes {
   double cached_ms = 0.0;
   std::vector<double> root_ms_of_iteration;
   std::vector<double> cached_ms_of_iteration;
-  double proven_share = 0.0;  ///< Of the queries, answered without touching the tree.
-  std::size_t wrong = 0;      ///< Distances that differ between the two.
+  double proven_share = 0.0;  ///< Share of the queries answered without touching the tree.
+  /// Distances that differ between search from the root and with the cache.
+  std::size_t wrong = 0;
 };
 
 /// Two scans and where the registration starts.
@@ -37,7 +38,7 @@ std::vector<SearchTimes> BenchSearch(const SearchTask& task,
 
 std::string SearchTable(std::span<const SearchTimes> times);
 
-/// Speed-up over bucket size, and time per iteration at one of them.
+/// Draws the speed-up over bucket size, and the time per iteration at one of them.
 /// @throws qwsm::io::WriteError where a picture cannot be written.
 void DrawSpeedUp(std::span<const SearchTimes> times, const std::filesystem::path& file);
 void DrawIterations(const SearchTimes& times, const std::filesystem::path& file);

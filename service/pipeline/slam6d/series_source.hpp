@@ -19,10 +19,10 @@ class SeriesSource {
  public:
   using Warn = std::function<void(const std::string& problem)>;
 
-  /// @param series outlives this.
+  /// Gives a series as observations. @param series outlives this.
   SeriesSource(ScanSeries& series, std::chrono::nanoseconds period, Warn warn);
 
-  /// What Next() will give; null at the end.
+  /// The observation that Next() will give; null at the end.
   const qwsm::team::CloudObservation* Peek() const { return ahead_ ? &*ahead_ : nullptr; }
   /// The next scan that has points; nothing at the end.
   std::optional<qwsm::team::CloudObservation> Next();

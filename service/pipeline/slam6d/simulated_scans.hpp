@@ -13,16 +13,16 @@ namespace slam6d::pipeline {
 
 /// A 3D scan of a simulation.
 struct SimulatedScan {
-  PointCloud cloud;    ///< In the scanner's frame.
-  Pose3 T_odom_scan;   ///< In the plane, by the wheels.
-  Pose3 T_world_scan;  ///< The truth.
+  PointCloud cloud;    ///< Points in the scanner's frame, in metres.
+  Pose3 T_odom_scan;   ///< The scanner's pose in the plane, by the wheels.
+  Pose3 T_world_scan;  ///< The true pose.
 };
 
 /// Robot 0 of a scenario drives, stops every now and then, and scans. The same options give the
 /// same scans.
 class SimulatedScans {
  public:
-  /// @throws sim::ScenarioError.
+  /// Starts a simulation. @throws sim::ScenarioError.
   SimulatedScans(const sim::ScenarioOptions& scenario, const options::SimulationOptions& options);
 
   /// The next scan; nothing once the drive is over.
@@ -33,8 +33,8 @@ class SimulatedScans {
   sim::Simulation simulation_;
   sim::SolidWorld world_;
   sim::RandomEngine random_;
-  std::optional<qwsm::Pose2> T_world_last_;  ///< Where the last reading was.
-  double way_m_ = 0.0;                       ///< Since the last scan.
+  std::optional<qwsm::Pose2> T_world_last_;  ///< The robot's pose at the last reading.
+  double way_m_ = 0.0;                       ///< Way driven since the last scan.
 };
 
 }  // namespace slam6d::pipeline

@@ -11,16 +11,16 @@
 
 namespace qwsm::pipeline {
 
-/// Lets a message through, and the same one again only after a while: what goes wrong ten times a
-/// second is worth a line, not ten a second. Any thread may ask.
+/// Lets a message through, and one of the same text again only after a while: what goes wrong ten
+/// times a second is worth a line, not ten a second. Any thread may ask.
 class RepeatFilter {
  public:
   using Clock = std::chrono::steady_clock;
 
   explicit RepeatFilter(Clock::duration period) : period_(period) {}
 
-  /// @return how often the same text was held back since it was let through; nothing if it is held
-  /// back now.
+  /// Asks for leave to tell a text.
+  /// @return how often it was held back since it was let through; nothing if it is held back now.
   std::optional<std::size_t> Pass(const std::string& text, Clock::time_point now);
 
  private:

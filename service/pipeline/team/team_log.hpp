@@ -10,7 +10,7 @@
 
 namespace qwsm::pipeline {
 
-/// Turns what is worth a line into messages, the same one at most every ten seconds.
+/// Turns what is worth a line into messages, each of one text at most every ten seconds.
 /// @tparam Sink team::TeamSink or team::CloudSink.
 template <class Sink>
 class TeamLog final : public Sink {
@@ -20,7 +20,7 @@ class TeamLog final : public Sink {
 
  private:
   RepeatFilter repeats_{std::chrono::seconds(10)};
-  std::uint64_t dropped_ = 0;  // As told last.
+  std::uint64_t dropped_ = 0;  // Drops as told last.
 };
 
 extern template class TeamLog<team::TeamSink>;

@@ -40,7 +40,7 @@ class TeamResults final : public team::TeamSink {
 
   ResultsFolder folder_;
   OccupancyGridOptions rendering_;
-  std::mutex mutex_;  // Of the list; each robot is answered by one thread at a time.
+  std::mutex mutex_;  // Guards the list; each robot is answered by one thread at a time.
   std::map<std::string, std::unique_ptr<RobotResults>> robots_;
 };
 

@@ -16,9 +16,9 @@ namespace qwsm::pipeline {
 class TeamTable {
  public:
   using Clock = std::chrono::steady_clock;
-  /// Rates and latencies are of the reports of so long.
+  /// Rates and latencies are taken over the reports of so long.
   static constexpr std::chrono::nanoseconds kWindow = std::chrono::seconds(5);
-  /// Who was not heard of for so long is silent.
+  /// A robot that was not heard of for so long is silent.
   static constexpr std::chrono::nanoseconds kSilence = std::chrono::seconds(2);
 
   void Take(const dds::MatchReport& report, Clock::time_point now);
@@ -35,7 +35,7 @@ class TeamTable {
   };
   struct Robot {
     dds::MatchReport last;
-    std::deque<Heard> recent;  // Of the window, as of the last report.
+    std::deque<Heard> recent;  // Reports of the window, as of the last one.
   };
 
   static std::vector<std::string> RowOf(const Robot& robot, Clock::time_point now);
