@@ -26,7 +26,7 @@ class Inspection {
     const auto report = [this](std::string_view field, const std::string& what) {
       problems_.push_back({prefix_ + std::string(field), what});
     };
-    // Rules between options make sense only where each of them does.
+    // Rules between options make sense only where each option does.
     if (problems_.size() > problems_before) return;
     if constexpr (requires { Validate(options, report); }) Validate(options, report);
   }
@@ -37,7 +37,7 @@ class Inspection {
     double max = std::numeric_limits<double>::infinity();
   };
 
-  /// Called by Describe() for each field.
+  /// Is called by Describe() for each field.
   template <class Value>
   void operator()(std::string_view name, Value& value, const FieldInfo& info) {
     if constexpr (std::is_same_v<Value, double> || std::is_same_v<Value, int>) {

@@ -14,7 +14,7 @@ Place FullPlace(const ScenarioOptions& scenario);
 /// Whether a robot drives a route of the layout, from its beginning.
 bool TakesRouteOfLayout(const DriverOptions& driver);
 
-/// Where a robot starts and where it goes.
+/// Says where a robot starts and where it goes.
 /// @pre a robot that takes a route of the layout finds one
 RobotPlacement PlacementOf(const ScenarioOptions& scenario, const Place& place, std::size_t robot);
 

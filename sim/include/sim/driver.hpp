@@ -22,10 +22,11 @@
 namespace sim {
 
 enum class DriverKind {
-  kSkilled,   ///< Follows the way points in smooth curves and stops for what is in the way.
-  kPoor,      ///< Follows them jerkily: reacts late, turns on the spot as fast as the robot can.
-  kRecorded,  ///< Plays commands back.
-  kExternal,  ///< Takes commands from outside.
+  kSkilled,  ///< Follows the way points in smooth curves and stops for what is in the way.
+  /// Follows the way points jerkily: reacts late, turns on the spot as fast as the robot can.
+  kPoor,
+  kRecorded,  ///< Plays the commands of a recorded drive back.
+  kExternal,  ///< Takes commands from outside the simulation.
 };
 
 inline std::span<const std::pair<std::string_view, DriverKind>> Names(DriverKind) {
@@ -60,11 +61,11 @@ struct DriverOptions {
   Route waypoints{};  ///< Where empty, the layout's own route is driven from its beginning.
   double speed_mps = 0.5;
   double turn_rad_s = 0.8;
-  double arrival_m = 0.4;  ///< A way point counts as reached from here.
+  double arrival_m = 0.4;  ///< A way point counts as reached from this far.
   int laps = 1;            ///< How often the way points are gone through.
   std::vector<TimedCommandOptions>
-      commands{};             ///< Of a recorded drive, in the order of their times.
-  std::string command_log{};  ///< A file with these; whoever loads the scenario reads it.
+      commands{};             ///< Commands of a recorded drive, in the order of their times.
+  std::string command_log{};  ///< A file with the commands; whoever loads the scenario reads it.
 };
 
 template <class Visitor>
@@ -104,18 +105,18 @@ struct DriverView {
   qwsm::Timestamp now{};
   qwsm::Pose2 T_world_robot{};
   double free_ahead_m = 0.0;   ///< From the robot's front to what it would bump into.
-  double free_behind_m = 0.0;  ///< From its back.
+  double free_behind_m = 0.0;  ///< From the robot's back to what it would bump into.
 };
 
 /// Steers one robot.
 class Driver {
  public:
-  /// @pre a driver that follows way points has at least one
+  /// Makes a driver. @pre a driver that follows way points has at least one
   Driver(DriverOptions options, Route route, std::uint64_t seed);
 
   VelocityCommand Decide(const DriverView& view);
 
-  /// The command an external driver gives until the next one.
+  /// Gives the command that an external driver follows until the next one.
   void SetCommand(const VelocityCommand& command) { external_ = command; }
 
   /// Whether the last way point or command is behind; never for an external driver.
@@ -134,15 +135,16 @@ class Driver {
 
   DriverOptions options_;
   Route route_;
-  std::size_t passed_ = 0;  ///< Way points or commands, over all laps.
+  std::size_t passed_ = 0;  ///< Way points or commands passed, over all laps.
   bool has_arrived_ = false;
   VelocityCommand external_;
 
-  bool is_turning_ = false;             ///< A poor driver either turns or drives.
-  std::deque<double> seen_errors_rad_;  ///< What a poor driver has not reacted to yet.
+  bool is_turning_ = false;             ///< Whether a poor driver turns; it either turns or drives.
+  std::deque<double> seen_errors_rad_;  ///< Errors that a poor driver has not reacted to yet.
 
   std::optional<qwsm::Pose2> last_progress_T_world_robot_;
-  qwsm::Timestamp stuck_from_{};  ///< Unless there is progress before.
+  /// When the driver counts as stuck, unless there is progress before.
+  qwsm::Timestamp stuck_from_{};
   qwsm::Timestamp escape_until_{};
   VelocityCommand escape_;
   RandomEngine random_;

@@ -51,7 +51,7 @@ inline std::span<const std::pair<std::string_view, Surface>> Names(Surface) {
   return kNames;
 }
 
-/// An upright rectangle with ground of its own; later ones lie on top of earlier ones.
+/// An upright rectangle with ground of its own; later regions lie on top of earlier ones.
 struct GroundRegionOptions {
   Surface surface = Surface::kFloor;
   double min_x_m = 0.0;
@@ -97,7 +97,7 @@ void Describe(Visitor& visit, GroundOptions& o) {
   visit("grass", o.grass, {.help = "what wheels find on grass"});
 }
 
-/// Says what a wheel finds where it stands.
+/// Knows what a wheel finds where it stands.
 class Ground {
  public:
   Ground(GroundOptions options, std::uint64_t seed) : options_(std::move(options)), seed_(seed) {}

@@ -12,7 +12,7 @@ namespace sim {
 struct GyroOptions {
   bool enabled = false;
   double noise_rad_per_sqrt_s = 2e-4;  ///< Angle random walk: sigma of the angle after one second.
-  double bias_rad_s = 0.0;             ///< At the start.
+  double bias_rad_s = 0.0;             ///< Bias at the start.
   double bias_walk_rad_s = 1e-5;       ///< Sigma of the bias's change in one second.
 };
 
@@ -36,7 +36,7 @@ class Gyro {
 
   void Advance(double yaw_rate_rad_s, std::chrono::duration<double> duration);
 
-  /// Turned since the start as the gyro reads it; not wrapped.
+  /// Angle turned since the start as the gyro reads it; not wrapped.
   double turned_rad() const { return turned_rad_; }
 
  private:

@@ -13,23 +13,24 @@
 
 namespace sim {
 
-/// Defaults: a SICK LMS-200 at 1 degree, as the paper's experiment has it.
+/// Options of a laser; the defaults are a SICK LMS-200 at 1 degree, as in Visser et al. (2009).
 struct LaserOptions {
   int beams = 181;
   double field_of_view_rad = std::numbers::pi;  ///< From the first beam to the last.
   double rate_hz = 10.0;
   double sweep_s = 0.0;  ///< From the first beam to the last; 0 takes all at once, without skew.
   double range_min_m = 0.05;
-  double range_max_m = 81.9;     ///< What "no echo" reads.
+  double range_max_m = 81.9;     ///< Range that is read for "no echo".
   double useful_range_m = 78.0;  ///< Farther surfaces return no echo.
-  double mount_x_m = 0.0;        ///< On the robot.
+  double mount_x_m = 0.0;        ///< Place on the robot.
   double mount_y_m = 0.0;
   double mount_heading_rad = 0.0;
   double range_sigma_m = 0.01;
-  double range_sigma_relative = 0.0;  ///< Grows with the range; adds in squares to range_sigma_m.
+  /// Noise that grows with the range; adds in squares to range_sigma_m.
+  double range_sigma_relative = 0.0;
   double bearing_sigma_rad = 0.0;
   double range_step_m = 0.0;         ///< Readings are rounded to multiples of it; 0 does not round.
-  double dropout_probability = 0.0;  ///< That a surface returns no echo.
+  double dropout_probability = 0.0;  ///< Probability that a surface returns no echo.
 };
 
 template <class Visitor>
@@ -81,7 +82,7 @@ void Validate(const LaserOptions& o, Report& report) {
   }
 }
 
-/// The geometry the scans of such a laser carry.
+/// The geometry that the scans of such a laser carry.
 qwsm::LaserGeometry GeometryOf(const LaserOptions& options);
 
 /// A planar laser on a robot. Beam 0 looks right, the others follow counter-clockwise; scans bear

@@ -14,9 +14,9 @@ namespace sim {
 /// How well the wheels were measured before the drive, as relative errors that stay the same during
 /// it: what UMBmark tells apart (Borenstein and Feng 1996). Each robot draws its own by the seed.
 struct CalibrationOptions {
-  double scale_sigma = 0.005;    ///< Of the mean radius of all wheels.
-  double balance_sigma = 0.002;  ///< Of the right wheels' radius over the left ones'.
-  double turn_sigma = 0.02;      ///< Of the effective track.
+  double scale_sigma = 0.005;    ///< Error of the mean radius of all wheels.
+  double balance_sigma = 0.002;  ///< Error of the right wheels' radius over the left ones'.
+  double turn_sigma = 0.02;      ///< Error of the effective track.
 };
 
 template <class Visitor>
@@ -33,15 +33,16 @@ void Describe(Visitor& visit, CalibrationOptions& o) {
 }
 
 struct OdometryOptions {
-  int ticks_per_turn = 2000;  ///< Of a wheel.
-  /// How unevenly a wheel's turning is read: sigma of the distance after one metre, growing with
-  /// the root of the distance.
+  int ticks_per_turn = 2000;  ///< Encoder ticks per turn of a wheel.
+  /// Sigma of the distance that a wheel's turning is read as, after one metre; it grows with the
+  /// root of the distance.
   double travel_noise_m = 0.002;
   double left_radius_error =
       0.0;  ///< How much too large the left wheels are thought to be; relative.
   double right_radius_error = 0.0;
   double turn_factor_error = 0.0;  ///< Relative error of the calibrated effective track.
-  CalibrationOptions calibration;  ///< In addition to these three, drawn at random.
+  /// Calibration errors in addition to the three above, drawn at random.
+  CalibrationOptions calibration;
 };
 
 template <class Visitor>
@@ -82,12 +83,12 @@ class WheelOdometry {
     double read_m = 0.0;
   };
 
-  /// Distance the encoder newly reports.
+  /// The distance that the encoder newly reports.
   double Read(Encoder& encoder, double rim_mps, std::chrono::duration<double> duration);
 
   double travel_noise_m_;
   double tick_m_;
-  double left_scale_ = 1.0;  ///< Of a distance as read over the one rolled.
+  double left_scale_ = 1.0;  ///< Factor of a distance as read over the one rolled.
   double right_scale_ = 1.0;
   double effective_track_m_;
   Encoder left_;

@@ -13,7 +13,7 @@
 namespace sim {
 
 struct PersonOptions {
-  Route waypoints{};  ///< Walked from the first to the last and over again.
+  Route waypoints{};  ///< Way points, walked from the first to the last and over again.
   double speed_mps = 1.1;
   double radius_m = 0.22;
   double mass_kg = 75.0;
@@ -56,8 +56,10 @@ class Person {
   BodyId body_;
   double preferred_side_ = 1.0;  ///< +1 passes on the left first, -1 on the right.
   std::size_t goal_ = 0;
-  double nearest_m_ = std::numeric_limits<double>::infinity();  ///< To the goal so far.
-  qwsm::Timestamp lost_from_{};                                 ///< Unless it is neared before.
+  /// Nearest distance to the goal so far.
+  double nearest_m_ = std::numeric_limits<double>::infinity();
+  /// When the person counts as lost, unless the goal is neared before.
+  qwsm::Timestamp lost_from_{};
   qwsm::Timestamp stray_until_{};
   double stray_rad_ = 0.0;
   qwsm::Timestamp next_decision_{};

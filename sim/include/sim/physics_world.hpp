@@ -16,7 +16,7 @@ struct Disc {
   double radius_m = 0.0;
 };
 
-/// Centred on its body, `length_m` along the body's x axis.
+/// A rectangle centred on its body, `length_m` along the body's x axis.
 struct Rectangle {
   double length_m = 0.0;
   double width_m = 0.0;
@@ -27,13 +27,13 @@ using Outline = std::variant<Disc, Rectangle>;
 /// Names one body of a PhysicsWorld.
 enum class BodyId : std::size_t {};
 
-/// How a body moves: the velocity of its centre along the world's axes, and its turning.
+/// The motion of a body: the velocity of its centre along the world's axes, and its turning.
 struct Twist2 {
   Eigen::Vector2d velocity_mps = Eigen::Vector2d::Zero();
   double yaw_rate_rad_s = 0.0;
 };
 
-/// What acts on a body: a force at its centre along the world's axes, and a torque.
+/// The force on a body at its centre along the world's axes, and the torque.
 struct Wrench2 {
   Eigen::Vector2d force_n = Eigen::Vector2d::Zero();
   double torque_nm = 0.0;
@@ -51,14 +51,14 @@ class PhysicsWorld {
   PhysicsWorld(const PhysicsWorld&) = delete;
   PhysicsWorld& operator=(const PhysicsWorld&) = delete;
 
-  /// A body that nothing moves.
+  /// Adds a body that nothing moves.
   BodyId AddFixed(const Outline& outline, const qwsm::Pose2& T_world_body);
 
-  /// A body of even density that moves by the wrenches applied to it.
+  /// Adds a body of even density that moves by the wrenches applied to it.
   /// @pre mass_kg > 0
   BodyId AddDriven(const Outline& outline, const qwsm::Pose2& T_world_body, double mass_kg);
 
-  /// A body that lies on the ground: it slides when pushed by more than its friction force.
+  /// Adds a body that lies on the ground: it slides when pushed by more than its friction force.
   /// @pre mass_kg > 0, friction_force_n >= 0
   BodyId AddLoose(const Outline& outline,
                   const qwsm::Pose2& T_world_body,
@@ -67,10 +67,11 @@ class PhysicsWorld {
 
   qwsm::Pose2 PoseOf(BodyId id) const;
   Twist2 TwistOf(BodyId id) const;
-  double MassOf(BodyId id) const;             ///< In kg; 0 for a fixed body.
-  double MomentOfInertiaOf(BodyId id) const;  ///< About the centre, in kg m^2; 0 if fixed.
+  double MassOf(BodyId id) const;  ///< Mass in kg; 0 for a fixed body.
+  /// Moment of inertia about the centre, in kg m^2; 0 for a fixed body.
+  double MomentOfInertiaOf(BodyId id) const;
 
-  /// Acts until the end of the next Step(); several wrenches add up.
+  /// Applies a wrench until the end of the next Step(); several wrenches add up.
   void Apply(BodyId id, const Wrench2& wrench);
 
   void Step(std::chrono::duration<double> duration);

@@ -12,7 +12,7 @@ namespace sim {
 
 /// A 2D laser scanner that nods, as on Kurt3D (Nüchter et al. 2007, section 2.2).
 struct PitchingLaserOptions {
-  int beams = 181;  ///< Of a sweep, over its width.
+  int beams = 181;  ///< Beams of a sweep, over its width.
   double width_rad = std::numbers::pi;
   int sweeps = 256;
   double height_rad = 2.0 * std::numbers::pi / 3.0;
@@ -34,7 +34,7 @@ void Describe(Visitor& visit, PitchingLaserOptions& o) {
   visit("mount_height_m", o.mount_height_m, {.help = "above the ground", .min = 0.05, .max = 10});
 }
 
-/// A scan from a pose, in the scanner's frame: all beams that came back.
+/// Takes a scan from a pose: all beams that came back, in the scanner's frame.
 slam6d::PointCloud Scan(const SolidWorld& world,
                         const slam6d::Pose3& T_world_laser,
                         const PitchingLaserOptions& options,

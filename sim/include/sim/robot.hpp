@@ -17,7 +17,8 @@ namespace sim {
 
 struct RobotOptions {
   std::string name = "robot";
-  double start_x_m = 0.0;  ///< Not looked at where the robot drives a route of the layout.
+  /// Start along x; not looked at where the robot drives a route of the layout.
+  double start_x_m = 0.0;
   double start_y_m = 0.0;
   double start_heading_rad = 0.0;
   double length_m = 0.5;
@@ -64,9 +65,9 @@ void Validate(const RobotOptions& o, Report& report) {
 struct Reading {
   std::size_t robot = 0;  ///< Index in the scenario.
   qwsm::LaserScan scan;
-  qwsm::Pose2 T_odom_robot;        ///< By the wheels, from where the robot started.
-  qwsm::Pose2 T_world_robot;       ///< The truth.
-  std::optional<double> gyro_rad;  ///< Turned since the start, by the gyro; not wrapped.
+  qwsm::Pose2 T_odom_robot;        ///< Pose by the wheels, from where the robot started.
+  qwsm::Pose2 T_world_robot;       ///< True pose.
+  std::optional<double> gyro_rad;  ///< Angle turned since the start, by the gyro; not wrapped.
 };
 
 /// A robot, where it starts and the way it is to follow, if it follows one.
@@ -81,13 +82,13 @@ class Robot {
  public:
   Robot(const RobotPlacement& placement, std::uint64_t seed, PhysicsWorld& world);
 
-  /// Decides, turns the wheels and pushes, for a step of the world that begins now.
+  /// Lets the driver decide, turns the wheels and pushes, for a step of the world that begins now.
   void Drive(PhysicsWorld& world,
              const Ground& ground,
              qwsm::Timestamp now,
              std::chrono::nanoseconds step);
 
-  /// Encoders and gyro, after the step.
+  /// Reads encoders and gyro, after the step.
   void Advance(const PhysicsWorld& world, std::chrono::nanoseconds step);
 
   /// Casts the beams that are due by now; the scan is returned once it is complete.
@@ -109,7 +110,7 @@ class Robot {
   Gyro gyro_;
   Laser laser_;
   Driver driver_;
-  Reading reading_;  ///< Of the scan being taken.
+  Reading reading_;  ///< Reading of the scan being taken.
   std::int64_t scans_begun_ = 0;
 };
 

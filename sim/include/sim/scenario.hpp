@@ -16,10 +16,11 @@ namespace sim {
 
 /// A world, its robots, and how they drive. Lengths are in the world's frame.
 struct ScenarioOptions {
-  int seed = 1;                ///< Of everything random: places, noise, patches of ground, drivers.
-  double duration_s = 3600.0;  ///< Ends earlier once every robot has arrived.
+  int seed = 1;  ///< Seed of everything random: places, noise, patches of ground, drivers.
+  /// Longest duration; the run ends earlier once every robot has arrived.
+  double duration_s = 3600.0;
   LayoutOptions layout;
-  SceneryOptions scenery;  ///< In addition to what the layout puts up.
+  SceneryOptions scenery;  ///< Scenery in addition to what the layout puts up.
   GroundOptions ground;
   std::vector<RobotOptions> robots;
 };
@@ -43,7 +44,7 @@ struct ScenarioProblem {
   std::string what;
 };
 
-/// A scenario that cannot be run. what() has one line per problem.
+/// Tells of a scenario that cannot be run. what() has one line per problem.
 class ScenarioError : public std::invalid_argument {
  public:
   explicit ScenarioError(std::vector<ScenarioProblem> problems);
@@ -53,11 +54,11 @@ class ScenarioError : public std::invalid_argument {
   std::vector<ScenarioProblem> problems_;
 };
 
-/// Everything wrong with a scenario: values out of bounds, what contradicts another option, and
+/// All that is wrong with a scenario: values out of bounds, what contradicts another option, and
 /// robots that start inside something.
 std::vector<ScenarioProblem> FindProblems(const ScenarioOptions& scenario);
 
-/// Of these, what only the scenario as a whole shows.
+/// Problems that only the scenario as a whole shows.
 /// @pre every value is within its bounds
 std::vector<ScenarioProblem> FindProblemsOfTheWhole(const ScenarioOptions& scenario);
 

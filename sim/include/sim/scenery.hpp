@@ -35,7 +35,7 @@ struct BoxOptions {
   double length_m = 1.0;
   double width_m = 1.0;
   double mass_kg = 0.0;
-  double friction = 0.5;  ///< On the ground.
+  double friction = 0.5;  ///< Friction on the ground.
 };
 
 template <class Visitor>
@@ -79,7 +79,7 @@ void Describe(Visitor& visit, SceneryOptions& o) {
   visit("persons", o.persons, {.help = "people who walk about"});
 }
 
-/// Everything of both.
+/// The scenery of both.
 SceneryOptions operator+(SceneryOptions a, const SceneryOptions& b);
 
 /// Puts walls, boxes and round things into the world; persons enter by their own constructor.

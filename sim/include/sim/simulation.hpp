@@ -20,7 +20,7 @@ class Simulation {
  public:
   static constexpr std::chrono::nanoseconds kStep = std::chrono::milliseconds(10);
 
-  /// Throws ScenarioError naming everything wrong with the scenario.
+  /// Sets up a scenario. @throws ScenarioError naming everything wrong with the scenario.
   explicit Simulation(const ScenarioOptions& scenario);
 
   /// The next complete scan of any robot, in the order of completion; nothing once the simulation
@@ -34,10 +34,11 @@ class Simulation {
   /// Whether the duration is up or every robot has arrived.
   bool is_over() const;
 
-  /// How much of it is behind, 0..1, by the time or by the way of the robot that is last.
+  /// Share of the simulation that is over, 0..1, by the time or by the way of the robot that is
+  /// last.
   double share_done() const;
 
-  /// What an external driver asks for until told otherwise.
+  /// Sets what an external driver asks for until told otherwise.
   /// @pre robot < robots().size()
   void SetCommand(std::size_t robot, const VelocityCommand& command);
 
@@ -63,8 +64,8 @@ class Simulation {
   std::vector<Robot> robots_;
   qwsm::Timestamp now_{};
   bool has_begun_ = false;
-  std::vector<Reading> completed_;  ///< In the last step.
-  std::size_t taken_ = 0;           ///< Of these, by Next().
+  std::vector<Reading> completed_;  ///< Readings completed in the last step.
+  std::size_t taken_ = 0;           ///< How many of `completed_` Next() has given.
 };
 
 }  // namespace sim

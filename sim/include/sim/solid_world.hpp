@@ -11,11 +11,11 @@
 
 namespace sim {
 
-/// How high things stand that a scenario knows by their outlines.
+/// Heights of things that a scenario knows by their outlines.
 struct SolidOptions {
   double wall_height_m = 2.5;
   double box_height_m = 1.0;
-  double round_height_m = 5.0;  ///< Trees and columns.
+  double round_height_m = 5.0;  ///< Height of trees and columns.
   TerrainOptions terrain;
 };
 
@@ -30,7 +30,7 @@ void Describe(Visitor& visit, SolidOptions& o) {
 /// A ray of light in the world.
 struct Ray3 {
   Eigen::Vector3d origin_m;
-  Eigen::Vector3d direction;  ///< Of unit length.
+  Eigen::Vector3d direction;  ///< Direction of unit length.
 };
 
 /// The world of a scenario in space: its walls and boxes extruded, its round things as columns, on

@@ -11,10 +11,10 @@ namespace sim {
 
 /// Ground with slopes and steps.
 struct TerrainOptions {
-  double steepest = 0.05;  ///< Rise over run of its hills.
+  double steepest = 0.05;  ///< Steepest slope of the hills, as rise over run.
   double wavelength_m = 25.0;
   double step_height_m = 0.08;
-  double step_spacing_m = 7.0;  ///< Along x, up and down in turn.
+  double step_spacing_m = 7.0;  ///< Distance of steps along x, up and down in turn.
 };
 
 template <class Visitor>
@@ -33,10 +33,10 @@ class Terrain {
   explicit Terrain(const TerrainOptions& options) : options_(options) {}
 
   double HeightM(const Eigen::Vector2d& p_world_m) const;
-  /// Nowhere is it higher, nor deeper than that below 0.
+  /// Limit of the height: the ground is nowhere higher, nor deeper than this below 0.
   double HighestM() const;
 
-  /// Where a robot is that has a heading and stands on four wheels.
+  /// The pose of a robot that has a heading and stands on four wheels.
   slam6d::Pose3 Stand(const qwsm::Pose2& T_world_robot) const;
 
  private:

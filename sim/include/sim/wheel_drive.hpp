@@ -29,10 +29,10 @@ inline std::span<const std::pair<std::string_view, DriveType>> Names(DriveType) 
 struct WheelDriveOptions {
   DriveType type = DriveType::kSkidSteer;
   double wheel_radius_m = 0.11;
-  double track_m = 0.40;               ///< Between left and right wheels.
-  double wheelbase_m = 0.28;           ///< Between front and rear wheels.
-  double max_speed_mps = 1.0;          ///< Of a wheel's rim.
-  double max_acceleration_mps2 = 1.5;  ///< Of a wheel's rim.
+  double track_m = 0.40;               ///< Distance between left and right wheels.
+  double wheelbase_m = 0.28;           ///< Distance between front and rear wheels.
+  double max_speed_mps = 1.0;          ///< Greatest speed of a wheel's rim.
+  double max_acceleration_mps2 = 1.5;  ///< Greatest acceleration of a wheel's rim.
 };
 
 template <class Visitor>
@@ -52,7 +52,7 @@ void Describe(Visitor& visit, WheelDriveOptions& o) {
 /// What a driver asks of a robot.
 struct VelocityCommand {
   double forward_mps = 0.0;
-  double turn_rad_s = 0.0;  ///< Counter-clockwise.
+  double turn_rad_s = 0.0;  ///< Counter-clockwise rate, in rad/s.
 };
 
 /// How much wider than its track a robot's wheels seem to stand when it turns on firm floor. A skid
@@ -73,13 +73,13 @@ struct RimSpeeds {
 /// most the friction the ground there allows. All that goes wrong with odometry follows from that.
 class WheelDrive {
  public:
-  /// @pre mass_kg > 0, inertia_kgm2 > 0
+  /// Makes a drive. @pre mass_kg > 0, inertia_kgm2 > 0
   WheelDrive(const WheelDriveOptions& options, double mass_kg, double inertia_kgm2);
 
-  /// The motors bring the rims nearer to the command's speeds.
+  /// Brings the rims nearer to the command's speeds, as the motors do.
   void Drive(const VelocityCommand& command, std::chrono::duration<double> duration);
 
-  /// What the ground does to a robot that moves like this, over the next `duration`.
+  /// The wrench of the ground on a robot that moves like this, over the next `duration`.
   Wrench2 Push(const Ground& ground,
                const qwsm::Pose2& T_world_robot,
                const Twist2& motion,

@@ -11,7 +11,7 @@ namespace slam6d {
 // Eigen's decompositions of small matrices, compiled once for the library: a source that calls them
 // itself takes ten seconds longer to compile each.
 
-/// A = U diag(values) V^T.
+/// The singular value decomposition A = U diag(values) V^T.
 struct Svd3 {
   Eigen::Matrix3d U;
   Eigen::Vector3d values;  ///< Not negative, falling.
@@ -27,13 +27,13 @@ Vector6d EigenvaluesOf(const Matrix6d& symmetric);
 
 /// The solutions of A v = value B v.
 struct GeneralizedEigen6 {
-  Vector6d values;   ///< Rising.
+  Vector6d values;   ///< Eigenvalues, rising.
   Matrix6d vectors;  ///< One per column, with v^T B v = 1.
 };
-/// @param A symmetric. @param B symmetric and positive definite.
+/// Solves A v = value B v. @param A symmetric. @param B symmetric and positive definite.
 GeneralizedEigen6 GeneralizedEigenOf(const Matrix6d& A, const Matrix6d& B);
 
-/// x of A x = b. @param A symmetric and positive definite.
+/// The solution x of A x = b. @param A symmetric and positive definite.
 Vector6d SolvePositive(const Matrix6d& A, const Vector6d& b);
 
 Matrix6d InverseOf(const Matrix6d& A);

@@ -12,7 +12,7 @@
 
 namespace slam6d {
 
-/// What one iteration found out.
+/// The outcome of one iteration.
 struct IcpStep {
   std::size_t pairs = 0;
   double rms_residual_m = 0.0;
@@ -37,7 +37,7 @@ class IcpMinimizer {
   virtual ~IcpMinimizer() = default;
 
   virtual IcpStep Iterate(const Pose3& T_map_cur, int iteration) = 0;
-  /// Of the pose, from the pairs of the last iteration.
+  /// Covariance of the pose, from the pairs of the last iteration.
   virtual Matrix6d Covariance() const = 0;
   virtual SearchStatistics statistics() const = 0;
 };

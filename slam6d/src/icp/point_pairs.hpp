@@ -20,11 +20,12 @@ class PointPairs {
  public:
   using Sums = PointSums;
 
-  /// Both scans must outlive this.
+  /// Pairs two scans, which must outlive this.
   PointPairs(const ScanModel& ref, const ScanModel& cur, const IcpOptions& options);
 
   Sums Collect(const Pose3& T_ref_cur, int iteration);
-  /// Of the pose, in the frame ref, for residuals of one metre; from the pairs collected last.
+  /// Information on the pose, in the frame ref, for residuals of one metre; from the pairs
+  /// collected last.
   Matrix6d Information() const;
   const SearchStatistics& statistics() const { return statistics_; }
 
@@ -39,7 +40,8 @@ class PointPairs {
   CachedSearch search_;
   SimdLevel simd_;
   PointCloud cur_ref_;  ///< The current points in the frame ref.
-  Eigen::Vector3d center_ref_m_ = Eigen::Vector3d::Zero();  ///< The scanner's place among them.
+  /// The scanner's place among the reference's points.
+  Eigen::Vector3d center_ref_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d origin_m_;
   double counted_distance2_m2_;  ///< Pairs as far apart as this do not count.
   double rms_residual_m_ = 0.0;

@@ -16,7 +16,7 @@ struct NormalEquations {
   double weighted_residual2 = 0.0;  ///< Squared residuals over their variances.
   double residual2_m2 = 0.0;
   std::size_t pairs = 0;
-  bool settled = true;  ///< The scale of the residuals has its final value.
+  bool settled = true;  ///< Whether the scale of the residuals has its final value.
 
   NormalEquations In(const Pose3& T_map_ref) const;
   NormalEquations& operator+=(const NormalEquations& other);
@@ -27,11 +27,11 @@ class SurfelPairs {
  public:
   using Sums = NormalEquations;
 
-  /// Both scans must outlive this.
+  /// Pairs two scans, which must outlive this.
   SurfelPairs(const ScanModel& ref, const ScanModel& cur, const IcpOptions& options);
 
   Sums Collect(const Pose3& T_ref_cur, int iteration);
-  /// Of the pose, in the frame ref, from the pairs collected last.
+  /// Information on the pose, in the frame ref, from the pairs collected last.
   const Matrix6d& Information() const { return information_; }
   const SearchStatistics& statistics() const { return statistics_; }
 
@@ -44,7 +44,7 @@ class SurfelPairs {
   /// Weights and normals of an iteration.
   struct Rules {
     Pose3 T_ref_cur;
-    double scale2_m2;  ///< Residuals well above it lose their weight.
+    double scale2_m2;  ///< Residuals well above this lose their weight.
   };
 
   bool ShrinkScale();
@@ -52,13 +52,14 @@ class SurfelPairs {
   void AddPair(const Rules& rules, std::size_t i, NormalEquations& equations);
 
   const SurfelMap& ref_;
-  const SurfelMap* cur_surfels_;  ///< None for points.
+  const SurfelMap* cur_surfels_;  ///< Null for points.
   const IcpOptions options_;
   PointCloud cur_;
   CachedSearch search_;
   PointCloud cur_ref_;
-  std::vector<double> residuals_m_;  ///< Of the current points in the last iteration, or NaN.
-  double scale_m_;                   ///< Residuals well above it lose their weight.
+  /// Residuals of the current points in the last iteration, or NaN.
+  std::vector<double> residuals_m_;
+  double scale_m_;  ///< Residuals well above this lose their weight.
   Matrix6d information_ = Matrix6d::Zero();
   SearchStatistics statistics_;
 };

@@ -14,7 +14,7 @@
 
 namespace slam6d {
 
-/// The arrays of a KdTreeLayout.
+/// Views the arrays of a KdTreeLayout.
 struct KdTreeView {
   const KdNode* nodes;
   const Box* limits;
@@ -40,7 +40,7 @@ struct SearchAnswer {
   std::uint32_t leaves_visited;
 };
 
-/// What CachedSearch remembers, per query; see there.
+/// Views what CachedSearch remembers of its queries.
 struct CacheView {
   double* searched_x_m;
   double* searched_y_m;
@@ -63,8 +63,8 @@ struct QueryRange {
 
 struct CacheRules {
   double max_distance_m;
-  double prune_scale;  ///< Above 1: look farther than the neighbour, to learn about the others.
-  bool from_root;      ///< Forget the cache: the yardstick.
+  double prune_scale;  ///< Above 1: looks farther than the neighbour, to learn about the others.
+  bool from_root;      ///< Forgets the cache: the yardstick.
 };
 
 struct RangeCounts {
@@ -105,7 +105,7 @@ struct KdTreeKernel {
   void (*sum_pairs)(const PairRange& pairs, PairSums& sums);
 };
 
-/// @pre `level` is available on this machine and not kBest.
+/// The loops of a level. @pre `level` is available on this machine and not kBest.
 const KdTreeKernel& KernelFor(SimdLevel level);
 
 inline KdTreeView ViewOf(const KdTreeLayout& layout) {

@@ -10,12 +10,12 @@ namespace sim {
 /// Buildings in rows with streets between and around them, trees and lamp posts on both sides of
 /// every street.
 struct CampusOptions {
-  int columns = 3;  ///< Of buildings.
+  int columns = 3;  ///< Columns of buildings.
   int rows = 2;
-  double block_length_m = 60.0;  ///< From one street to the next.
+  double block_length_m = 60.0;  ///< Distance from one street to the next.
   double block_width_m = 50.0;
   double street_width_m = 12.0;
-  double post_spacing_m = 14.0;  ///< Of trees and lamp posts along a street.
+  double post_spacing_m = 14.0;  ///< Distance of trees and lamp posts along a street.
 };
 
 template <class Visitor>
@@ -39,8 +39,8 @@ void Validate(const CampusOptions& o, Report& report) {
   }
 }
 
-/// The way goes round every block of the campus, row by row, so that streets are driven again and
-/// again; the origin is in the middle.
+/// Makes a campus. The way goes round every block of the campus, row by row, so that streets are
+/// driven again and again; the origin is in the middle.
 Place MakeCampus(const CampusOptions& options, RandomEngine& random);
 
 }  // namespace sim

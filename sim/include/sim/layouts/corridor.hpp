@@ -12,10 +12,10 @@ struct CorridorOptions {
   double width_m = 2.0;
   int zigzag_legs = 6;
   double zigzag_leg_m = 6.0;
-  double bend_rad = 1.2;      ///< By which one leg turns away from the one before.
-  double straight_m = 45.0;   ///< 0 leaves the straight stretch out.
-  double door_at_m = 30.0;    ///< From the beginning of the straight stretch.
-  double door_width_m = 0.9;  ///< 0 leaves the door out.
+  double bend_rad = 1.2;      ///< Angle by which one leg turns away from the one before.
+  double straight_m = 45.0;   ///< Length of the straight stretch; 0 leaves it out.
+  double door_at_m = 30.0;    ///< Place of the door, from the beginning of the straight stretch.
+  double door_width_m = 0.9;  ///< Width of the door; 0 leaves it out.
   bool returns = true;        ///< Whether the way leads back to the start.
 };
 

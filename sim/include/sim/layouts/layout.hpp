@@ -31,7 +31,7 @@ inline std::span<const std::pair<std::string_view, LayoutKind>> Names(LayoutKind
   return kNames;
 }
 
-/// Which place to lay out, and how; the options of the other places are not looked at.
+/// Says which place to lay out, and how; the options of the other places are not looked at.
 struct LayoutOptions {
   LayoutKind kind = LayoutKind::kEmpty;
   ParkOptions park;
@@ -51,7 +51,7 @@ void Describe(Visitor& visit, LayoutOptions& o) {
   visit("campus", o.campus, {.help = "how a campus is laid out"});
 }
 
-/// The same options and seed give the same place.
+/// Lays out a place. The same options and seed give the same place.
 Place MakePlace(const LayoutOptions& options, std::uint64_t seed);
 
 }  // namespace sim

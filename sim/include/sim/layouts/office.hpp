@@ -10,13 +10,13 @@ namespace sim {
 /// Two rows of rooms along a corridor, with doors ajar, tables on thin legs, cabinets and people.
 struct OfficeOptions {
   int rooms_per_side = 4;
-  double room_length_m = 6.0;  ///< Along the corridor.
+  double room_length_m = 6.0;  ///< Length along the corridor.
   double room_depth_m = 5.0;
   double corridor_width_m = 2.4;
   double door_width_m = 1.1;
   int tables_per_room = 1;
   int persons = 3;
-  int routes = 1;  ///< For so many robots; each begins in another room.
+  int routes = 1;  ///< Number of robots' routes; each begins in another room.
 };
 
 template <class Visitor>
@@ -38,8 +38,8 @@ void Validate(const OfficeOptions& o, Report& report) {
   }
 }
 
-/// Each way visits every room once and ends where it began. In the corridor robots keep to the
-/// right, so that they can pass each other.
+/// Makes an office. Each way visits every room once and ends where it began. In the corridor robots
+/// keep to the right, so that they can pass each other.
 Place MakeOffice(const OfficeOptions& options, RandomEngine& random);
 
 }  // namespace sim

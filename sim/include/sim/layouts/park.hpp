@@ -11,15 +11,16 @@ namespace sim {
 struct ParkOptions {
   double width_m = 80.0;
   double height_m = 40.0;
-  int groups = 3;  ///< Of trees along the way.
+  int groups = 3;  ///< Groups of trees along the way.
   int trees_per_group = 5;
   double group_radius_m = 4.0;
   double min_trunk_radius_m = 0.12;
   double max_trunk_radius_m = 0.4;
-  double clearance_m = 2.0;   ///< No trunk stands nearer to the way.
-  double lonely_share = 0.4;  ///< Of the way, round the sharp turn: few trees are in view there.
-  int lonely_in_view = 2;     ///< That many.
-  int usual_in_view = 4;      ///< On the rest of the way, at least.
+  double clearance_m = 2.0;  ///< No trunk stands nearer to the way than this.
+  /// Share of the way, round the sharp turn, in which few trees are in view.
+  double lonely_share = 0.4;
+  int lonely_in_view = 2;  ///< Trees in view on the lonely share of the way.
+  int usual_in_view = 4;   ///< Fewest trees in view on the rest of the way.
 };
 
 template <class Visitor>
@@ -62,8 +63,8 @@ void Validate(const ParkOptions& o, Report& report) {
   }
 }
 
-/// One clockwise loop from the bottom-right corner, with a sharp turn in the upper-right one, round
-/// which trees are few. Places and trunks change with the random numbers.
+/// Makes a park with one clockwise loop from the bottom-right corner, with a sharp turn in the
+/// upper-right one, round which trees are few. Places and trunks change with the random numbers.
 Place MakePark(const ParkOptions& options, RandomEngine& random);
 
 }  // namespace sim

@@ -9,7 +9,7 @@
 
 namespace sim {
 
-/// Scenery, and ways through it that are free of it. Robots beyond the last route share them.
+/// Scenery, and ways through it that are free of it. Robots beyond the last route share the routes.
 struct Place {
   SceneryOptions scenery;
   std::vector<Route> routes;
@@ -26,7 +26,7 @@ double DistanceToRoute(const Eigen::Vector2d& p_m, const Route& route);
 /// The route with further way points on its legs, at most `spacing_m` apart.
 Route Refined(const Route& route, double spacing_m);
 
-/// Walls along a polyline, with corners closed.
+/// Adds walls along a polyline, with corners closed.
 void AddWalls(const Route& corners, double thickness_m, SceneryOptions& scenery);
 
 }  // namespace sim

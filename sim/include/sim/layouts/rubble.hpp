@@ -13,8 +13,8 @@ struct RubbleOptions {
   double width_m = 16.0;
   int slabs = 40;             ///< Boxes of 0.4 to 2 m.
   int bricks = 120;           ///< Boxes of 5 to 30 cm.
-  int rods = 30;              ///< Of 1 to 6 cm radius.
-  double clearance_m = 0.55;  ///< Nothing lies nearer to the way.
+  int rods = 30;              ///< Rods of 1 to 6 cm radius.
+  double clearance_m = 0.55;  ///< Nothing lies nearer to the way than this.
 };
 
 template <class Visitor>
@@ -28,7 +28,8 @@ void Describe(Visitor& visit, RubbleOptions& o) {
       "clearance_m", o.clearance_m, {.help = "nothing is nearer to the way", .min = 0.3, .max = 3});
 }
 
-/// A winding loop through the hall. The debris changes with the random numbers, the way a little.
+/// Makes a collapsed floor with a winding loop through the hall. The debris changes with the random
+/// numbers, the way a little.
 Place MakeRubble(const RubbleOptions& options, RandomEngine& random);
 
 }  // namespace sim
