@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace pipeline;
 
-/// The last one is the paper's baseline.
+/// The last one is the baseline of Visser et al. (2009), their incremental WSM.
 constexpr std::array kExperimentMatchers = {MatcherKind::kQWsm, MatcherKind::kWsm};
 
 struct ExperimentArguments {
@@ -40,7 +40,8 @@ struct Experiment {
   ReplayEnd end = ReplayEnd::kExhausted;
 };
 
-/// The pictures of one seed under the paper's names: both maps (Figure 3), both residuals (4).
+/// The pictures of one seed under the names in Visser et al. (2009): both maps (Figure 3), both
+/// residuals (Figure 4).
 void CopyFigures(const fs::path& seed, const fs::path& folder) {
   const auto copy = [&](const fs::path& from, const char* to) {
     if (!fs::exists(seed / from)) return;

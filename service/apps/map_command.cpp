@@ -82,7 +82,7 @@ Origin OpenOrigin(const MapArguments& arguments, const options::LogOptions& log)
           .scenario = scenario};
 }
 
-// The papers' incremental mapping.
+// Incremental mapping, as in Visser et al. (2009): no pose is corrected afterwards.
 ExitCode MapOnly(const MapArguments& arguments,
                  const options::ProgramOptions& options,
                  pipeline::ScanSource& source,

@@ -29,8 +29,8 @@ MatchResult MatchScans(const LaserScan& reference,
                        const LaserScan& scan,
                        const UncertainPose2& guess);
 
-/// The same with a guess that is off by as much as kGuessSigma_m and kGuessSigma_rad say; without
-/// one, that the robot has hardly moved.
+/// Where `scan` was taken, seen from where `reference` was, with a guess that is off by as much as
+/// kGuessSigma_m and kGuessSigma_rad say; without one, that the robot has hardly moved.
 MatchResult MatchScans(const LaserScan& reference,
                        const LaserScan& scan,
                        const Pose2& T_ref_cur_guess = {});

@@ -32,9 +32,9 @@ class ScanChain {
   void Add(const ScanNode& node);
 
   std::span<const Pose2> T_chain_node() const { return T_chain_node_; }
-  /// From each node to the next.
+  /// Edges from each node to the next.
   std::span<const PoseEdge> edges() const { return edges_; }
-  /// They overlap by half.
+  /// Submaps of the chain, which overlap by half.
   std::span<const RigidSubmap> submaps() const { return submaps_; }
 
   /// The surfaces that the scans of a submap show, in the frame of the chain. They are not kept:

@@ -30,6 +30,7 @@ bool IsWithinTolerance(const Eigen::VectorXd& step, const SparseGraphSolverOptio
 }
 
 // How convex the loss of loops has to be so that the worst one still counts; 1 is the loss itself.
+// Yang et al. (2020) begin with it.
 double InitialConvexity(const PoseGraph& graph, double max_loop_chi2) {
   double worst = 0.0;
   for (const PoseEdge& edge : graph.edges) {

@@ -141,6 +141,7 @@ void Pairing::AddLine(const Eigen::Matrix2d& R_map_cur,
   const double noise_m2 =
       NoiseAlong(normal, R_map_cur * point.beam_robot, point.range_m, options_.noise);
   const double variance_m2 = DistanceVariance(surface, noise_m2, pair.inflation_m2);
+  // Visser et al. (2009), Eq. (1): epsilon, of which a line tells the part along its normal.
   const double error_m = normal.dot(surface.mean_m - pair.p_map);
   Weigh(error_m * error_m / variance_m2, pair, equations);
   // Where a surface curves, a mean lies behind the points: means are compared with means.
@@ -154,6 +155,7 @@ void Pairing::AddObject(const Eigen::Matrix2d& R_map_cur,
                         NormalEquations& equations) const {
   const Eigen::Matrix2d information = PositionInformation(
       pair.surface, NoiseInMap(R_map_cur, point), Extent_m2(point) + pair.inflation_m2);
+  // Visser et al. (2009), Eq. (1): epsilon = m - (R u + t).
   const Eigen::Vector2d error = pair.surface.mean_m - pair.p_map;
   Weigh(error.dot(information * error), pair, equations);
   equations.AddPoint(pair.weight * information, error, pair.arm);

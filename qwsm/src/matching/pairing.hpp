@@ -76,7 +76,7 @@ class Pairing {
   // Covariance of b of the pairs found last, by what the readings miss the surfaces by.
   Eigen::Matrix3d Scatter(const Pose2& T_map_cur) const;
 
-  // A of the pairs found last, were each the nearest sample of the papers.
+  // A of the pairs found last, were each the nearest sample as in Visser et al. (2009), Eq. (3).
   Eigen::Matrix3d NearestSampleInformation(const Pose2& T_map_cur) const;
 
  private:

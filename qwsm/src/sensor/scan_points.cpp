@@ -15,7 +15,7 @@ namespace {
 constexpr double kNormalReachSpacings = 2.2;  // Normals need so many, where beams are far apart.
 constexpr double kGap_m = 0.15;               // Neighbouring points further apart, and
 constexpr double kGapSpacings = 6.0;          // more beam spacings apart, lie on two surfaces.
-constexpr double kGapOfMean_m = 0.03;         // The same for points of which the mean is wanted.
+constexpr double kGapOfMean_m = 0.03;  // For points of which the mean is wanted, gaps are narrower.
 constexpr double kGapOfMeanSpacings = 3.0;
 constexpr double kMaxRoughness_m = 0.05;  // A wall is flatter than this.
 constexpr std::size_t kMaxBeamsAway = 2;  // Between neighbours, for a failed reading.

@@ -35,7 +35,7 @@ void MatcherContest::Finish(const OccupancyGridOptions& rendering, const Traject
   std::vector<io::ResidualSeries> residuals;
   for (Contestant& contestant : contestants_) {
     contestant.results.Finish(contestant.mapper, rendering, truth);
-    // The first matcher stands in front, as in the paper.
+    // The first matcher stands in front, as in Figure 4 of Visser et al. (2009).
     residuals.insert(residuals.begin(),
                      {.name = std::string(Name(contestant.matcher())),
                       .residual_mm = contestant.figures.Residuals_mm()});

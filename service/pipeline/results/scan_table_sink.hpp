@@ -12,7 +12,7 @@
 namespace qwsm::pipeline {
 
 /// The uncertainty of a match that Visser et al. (2009, section 4.1) chart, in m^2: the sum of the
-/// on-diagonal elements for x and y of its covariance.
+/// on-diagonal elements for x and y of its nearest_sample_covariance.
 double PositionTrace_m2(const MatchResult& match);
 
 /// Writes a table (CSV) of what the mapper found out about every scan. Columns are only ever added.

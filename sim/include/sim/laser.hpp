@@ -13,12 +13,14 @@
 
 namespace sim {
 
-/// Options of a laser; the defaults are a SICK LMS-200 at 1 degree, as in Visser et al. (2009).
+/// Options of a laser; the defaults are a SICK LMS-200 with 181 beams over 180 degrees, as in
+/// section 4.1 of Visser et al. (2009).
 struct LaserOptions {
   int beams = 181;
-  double field_of_view_rad = std::numbers::pi;  ///< From the first beam to the last.
+  double field_of_view_rad = std::numbers::pi;  ///< Angle from the first beam to the last.
   double rate_hz = 10.0;
-  double sweep_s = 0.0;  ///< From the first beam to the last; 0 takes all at once, without skew.
+  /// Time from the first beam to the last; 0 takes all at once, without skew.
+  double sweep_s = 0.0;
   double range_min_m = 0.05;
   double range_max_m = 81.9;     ///< Range that is read for "no echo".
   double useful_range_m = 78.0;  ///< Farther surfaces return no echo.

@@ -15,7 +15,8 @@ namespace {
 /// Small enough that a chunk's points stay in the cache from one of its three loops to the next.
 constexpr std::size_t kPointsPerChunk = 2048;
 
-/// More pairs than so many do not make a pose better known.
+/// More pairs than so many do not make a pose better known, as their errors are not independent: of
+/// a robot tilted on a step, points found the place to 19 cm, and all pairs promised 0.1 mm.
 constexpr double kIndependentPairs = 30.0;
 
 /// The middle of the reference: sums are taken about it, against cancellation far from the origin.

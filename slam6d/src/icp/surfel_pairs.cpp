@@ -27,8 +27,9 @@ constexpr double kGrazingSine = 0.05;
 constexpr double kFirstScaleShare = 0.5;
 constexpr double kScaleShrink = 0.6;
 
-/// It ends no lower than so many times the deviation of most residuals: among trees surfels agree
-/// to centimetres only, and a narrower scale holds on to the few that agree by chance.
+/// The scale ends no lower than so many times the deviation of most residuals: among trees surfels
+/// agree to centimetres only, and a narrower scale holds on to the few that agree by chance (car,
+/// see docs/slam6d.md: 63 cm off with a scale of 2 cm, 3.0 cm with this).
 constexpr double kScaleDeviations = 4.0;
 
 /// Standard deviation of a normal distribution over the median of its absolute values.

@@ -16,10 +16,10 @@ namespace qwsm {
 
 /// A map and a path that are consistent as a whole.
 struct Correction {
-  std::vector<UncertainPose2> map_node;   ///< Of the relevant scans, by ScanId.
-  std::vector<UncertainPose2> map_robot;  ///< Of all scans, in the order they were taken.
-  PoseGraph graph;                        ///< With the loops that are accepted.
-  std::vector<Loop> loops;                ///< All that were found.
+  std::vector<UncertainPose2> map_node;   ///< Poses of the relevant scans, by ScanId.
+  std::vector<UncertainPose2> map_robot;  ///< Poses of all scans, in the order they were taken.
+  PoseGraph graph;                        ///< The graph with the loops that are accepted.
+  std::vector<Loop> loops;                ///< All loops that were found.
 };
 
 /// Corrects a map that was made incrementally, once places are seen again: relevant scans become
@@ -32,7 +32,7 @@ class MapCorrector {
   MapCorrector(MapCorrector&&) noexcept;
   MapCorrector& operator=(MapCorrector&&) noexcept;
 
-  /// Takes the answer to a scan, of all scans in their order.
+  /// Takes the answer to a scan; to be called for all scans in their order.
   void Take(const MappingStep& step);
 
   /// Finds the loops among what was taken so far, and the poses that agree best with them. Where

@@ -9,10 +9,10 @@ namespace qwsm {
 
 /// A relevant scan as a node of the pose graph.
 struct ScanNode {
-  LaserScan scan;            ///< Without the beams that ended on what moves.
-  UncertainPose2 map_robot;  ///< As it was answered.
+  LaserScan scan;            ///< The scan without the beams that ended on what moves.
+  UncertainPose2 map_robot;  ///< Pose as it was answered.
   UncertainPose2 odometry;   ///< Motion since the node before, as odometry tells it.
-  bool closed_loop = false;  ///< The answer does not continue the one before.
+  bool closed_loop = false;  ///< Whether the answer does not continue the one before.
 };
 
 }  // namespace qwsm

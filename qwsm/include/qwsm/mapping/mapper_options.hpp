@@ -18,8 +18,9 @@ namespace qwsm {
 /// Says what a scan is matched with, and how.
 enum class MatcherKind {
   kQWsm,  ///< Weighted, against the quadtree of all relevant scans (Visser et al. 2009).
-  kWsm,   ///< Weighted, against the last relevant scan only: the paper's incremental baseline.
-  kIcp,   ///< Plain point-to-point ICP against the last relevant scan.
+  /// Weighted, against the last relevant scan only: the incremental WSM of Visser et al. (2009).
+  kWsm,
+  kIcp,  ///< Plain point-to-point ICP against the last relevant scan.
 };
 
 inline std::span<const std::pair<std::string_view, MatcherKind>> Names(MatcherKind) {

@@ -8,8 +8,8 @@ namespace qwsm {
 
 /// What is expected of a pose before a scan tells. Both have the same `T_a_b`.
 struct PosePrediction {
-  UncertainPose2 conservative;  ///< As uncertain as a slip of the wheels may make it.
-  UncertainPose2 adapted;       ///< As uncertain as odometry has proved to be so far.
+  UncertainPose2 conservative;  ///< Pose as uncertain as a slip of the wheels may make it.
+  UncertainPose2 adapted;       ///< Pose as uncertain as odometry has proved to be so far.
 };
 
 }  // namespace qwsm

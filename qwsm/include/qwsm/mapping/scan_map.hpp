@@ -17,10 +17,10 @@
 
 namespace qwsm {
 
-/// Which points of a relevant scan are stored.
+/// Says which points of a relevant scan are stored.
 enum class InsertionRule {
-  kEveryPoint,  ///< All of them, as in Visser et al. (2009).
-  kNewSurface,  ///< Those where older scans have not yet put enough points.
+  kEveryPoint,  ///< All points are stored, as in Visser et al. (2009).
+  kNewSurface,  ///< Points are stored where older scans have not yet put enough.
 };
 
 inline std::span<const std::pair<std::string_view, InsertionRule>> Names(InsertionRule) {
@@ -67,7 +67,7 @@ std::vector<MapPoint> PointsToStore(const SurfaceMap& surfaces,
 struct MapAddition {
   LaserScan scan;
   UncertainPose2 map_robot;
-  std::vector<MapPoint> points;  ///< Those of its points that are stored.
+  std::vector<MapPoint> points;  ///< Points of the scan that are stored.
   FrameCovariance own_error;     ///< Error that it did not take over from the scans it lies on.
 };
 

@@ -36,8 +36,8 @@ struct [[nodiscard]] MatchResult {
   /// Information about (x, y, theta) of the pairs alone, without the prior: by the scatter of their
   /// residuals (White 1980) where the match ended by itself, else by the error model.
   Eigen::Matrix3d pair_information = Eigen::Matrix3d::Zero();
-  /// The covariance, were each pair the nearest sample as in the papers (Visser et al. 2009, eq.
-  /// 3): with measurement noise and correspondence error, which shrinks as the reference gets
+  /// The covariance of (x, y, theta), were each pair the nearest sample as in Visser et al. (2009),
+  /// Eq. (3): with measurement noise and correspondence error, which shrinks as the reference gets
   /// denser. For comparison with theirs only.
   Eigen::Matrix3d nearest_sample_covariance = Eigen::Matrix3d::Zero();
   int iterations = 0;

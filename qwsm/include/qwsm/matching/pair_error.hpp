@@ -16,14 +16,15 @@ namespace qwsm {
 /// better known than another.
 Eigen::Matrix2d CorrespondenceError(const Surface& surface);
 
-/// Error of a pair as the papers model it (Visser et al. 2009, Eq. (3)), S = N_map + Q + R N R^T,
+/// Covariance of the error xi of a pair in Visser et al. (2009), Eq. (3): S = N_map + Q + R N R^T,
 /// in m^2 and map axes. The denser the map, the smaller.
 /// @param N_map noise of the scan's point in map axes, R N R^T. The map's point is taken to have
 ///   been measured as well as this one, and as often as scans saw its surface.
 Eigen::Matrix2d NearestSampleError(const Surface& surface, const Eigen::Matrix2d& N_map);
 
 /// Variance of the distance of a scan's point from a surface that is a line, along its normal.
-/// Departing from the papers, such a pair tells nothing of the position along the line.
+/// Departing from Visser et al. (2009) and Pfister et al. (2002), such a pair tells nothing of the
+/// position along the line.
 ///
 /// @param noise_m2 of the scan's point along the normal.
 /// @param inflation_m2 variance owing to the error that annealing has left of the first guess.

@@ -65,7 +65,8 @@ struct Surface {
   Eigen::Vector2d mean_m = Eigen::Vector2d::Zero();
   Eigen::Vector2d normal = Eigen::Vector2d::Zero();  ///< Unit vector; meaningful for a line only.
   double across_m2 = 0.0;  ///< Variance along the normal; for no line, the mean of both variances.
-  double sampling_m2 = 0.0;   ///< Correspondence error: variance along it of the nearest sample.
+  /// Correspondence error: variance of the nearest sample along the surface.
+  double sampling_m2 = 0.0;
   double observations = 1.0;  ///< Scans that the mean is of: readings of one scan share errors.
   bool is_line = false;
   bool is_sample = false;  ///< The mean is a single sample: too few are known around it.

@@ -124,8 +124,8 @@ struct [[nodiscard]] IcpResult {
 /// The pose after each iteration; the guess stands first.
 using IcpTrace = std::vector<Pose3>;
 
-/// Aligns `cur` with `ref`, beginning at a guess (Nüchter et al. 2007, section 3.3 and
-/// Algorithm 1).
+/// Aligns `cur` with `ref`, beginning at a guess (Nüchter et al. 2007, section 3.3, and Algorithm 1
+/// in section 4.1).
 IcpResult Align(const ScanModel& ref,
                 const ScanModel& cur,
                 const Pose3& T_ref_cur_guess,

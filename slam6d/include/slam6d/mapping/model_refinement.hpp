@@ -64,9 +64,9 @@ struct ModelScan {
 /// to all it overlaps, and where it moves, these are fitted again, until nothing moves. The first
 /// scan, the master, stays where it is.
 ///
-/// Departures from the paper: the queue begins with all scans, as one that already fits would hide
-/// those behind it; a scan's neighbours are the nearest ones only, so that the time grows with the
-/// number of scans and not with its square; and a scan is fitted so many times at most.
+/// Departing from Nüchter et al., the queue begins with all scans, as one that already fits would
+/// hide those behind it; a scan's neighbours are the nearest ones only, so that the time grows with
+/// the number of scans and not with its square; and a scan is fitted so many times at most.
 RefinementResult RefineModel(std::span<const ModelScan> scans,
                              const IcpOptions& icp,
                              const RefinementOptions& options,

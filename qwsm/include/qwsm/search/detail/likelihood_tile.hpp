@@ -18,20 +18,21 @@ class LikelihoodTile {
   static constexpr int kSide = 1 << kBits;  ///< In cells of level 0.
   /// A cell of a level is 2^ShiftOf(level) cells of level 0 wide.
   static constexpr int ShiftOf(int level) { return level == 0 ? 0 : level + 2; }
-  /// The same for drift, which need not be known as finely.
+  /// A cell of drift of a level is 2^DriftShiftOf(level) cells of level 0 wide: drift need not be
+  /// known as finely.
   static constexpr int DriftShiftOf(int level) { return level == 0 ? 1 : level + 2; }
 
   LikelihoodTile() { drift_codes_.fill(kUnmapped); }
 
-  /// Cells of a level, one row after the other. Empty ones hold 0.
+  /// Likelihoods of a level, one row after the other. Empty cells hold 0.
   const std::uint8_t* likelihoods(int level) const { return &likelihoods_[FirstOf(level)]; }
   std::uint8_t* likelihoods(int level) { return &likelihoods_[FirstOf(level)]; }
-  /// The same of drift codes. Empty ones hold kUnmapped.
+  /// Drift codes of a level, one row after the other. Empty cells hold kUnmapped.
   const std::uint8_t* drift_codes(int level) const { return &drift_codes_[FirstDriftOf(level)]; }
   std::uint8_t* drift_codes(int level) { return &drift_codes_[FirstDriftOf(level)]; }
 
  private:
-  // Of each level, and of all.
+  // First cell of each level, and the number of all cells.
   static constexpr std::array<std::size_t, kLevels + 1> kFirst = {0, 1024, 1040, 1044};
   static constexpr std::array<std::size_t, kLevels + 1> kFirstDrift = {0, 256, 272, 276};
   static std::size_t FirstOf(int level) { return kFirst[static_cast<std::size_t>(level)]; }
