@@ -77,8 +77,8 @@ class FieldCollector {
   OptionGroup Take() { return std::move(group_); }
 
  private:
-  /// Gives a range of (name, enumerator) pairs from `Names(Enum)`, which stands beside the
-  /// enumeration.
+  /// A choice of the names in `Names(Enum)`, a range of (name, enumerator) pairs that stands beside
+  /// the enumeration.
   template <class Enum>
   static ChoiceField ChoiceOf(Enum& value) {
     ChoiceField choice;

@@ -12,10 +12,10 @@
 
 namespace slam6d::graph {
 
-/// How the error of a loop is spread over its scans.
+/// Says how the error of a loop is spread over its scans.
 enum class LoopDistribution {
-  kLeastSquares,  ///< By what is known of each pair (CeresLoopCloser).
-  kAlongPath,     ///< In proportion to the way (PathLoopCloser).
+  kLeastSquares,  ///< Spread by what is known of each pair (CeresLoopCloser).
+  kAlongPath,     ///< Spread in proportion to the way (PathLoopCloser).
 };
 
 inline std::span<const std::pair<std::string_view, LoopDistribution>> Names(LoopDistribution) {

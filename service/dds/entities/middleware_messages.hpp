@@ -16,7 +16,7 @@ class MiddlewareMessages {
  public:
   using Sink = std::function<void(const std::string& text)>;
 
-  /// @param sink is called from any thread, by one at a time.
+  /// Takes over what the middleware says. @param sink is called from any thread, by one at a time.
   explicit MiddlewareMessages(Sink sink, int per_second = 5);
   MiddlewareMessages(const MiddlewareMessages&) = delete;
   MiddlewareMessages& operator=(const MiddlewareMessages&) = delete;

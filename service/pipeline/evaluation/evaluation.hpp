@@ -18,8 +18,8 @@ namespace qwsm::pipeline {
 /// Says what trajectories are compared with.
 struct EvaluationOptions {
   std::optional<std::filesystem::path> relations;
-  std::optional<std::filesystem::path>
-      log;  ///< Its odometry carries poses to stamps between scans.
+  /// Log whose odometry carries poses to stamps between scans.
+  std::optional<std::filesystem::path> log;
   std::optional<std::filesystem::path> truth;  ///< A TUM trajectory.
   bool align = false;  ///< Move the trajectory onto the truth before its error is taken.
   std::chrono::nanoseconds max_time_difference = std::chrono::milliseconds(10);

@@ -15,7 +15,7 @@ struct ScanFigures {
   Timestamp stamp{};
   StepStatus status = StepStatus::kFirst;
   double residual_mm = 0.0;  ///< Mean distance that is left between the points of a pair.
-  double trace_m2 = 0.0;     ///< See PositionTrace_m2().
+  double trace_m2 = 0.0;     ///< PositionTrace_m2() of the match.
   double duration_ms = 0.0;
 };
 

@@ -49,7 +49,7 @@ class ResultsWriter final : public StepSink {
   const std::optional<TruthReport>& truth_report() const { return truth_report_; }
 
  private:
-  // The end of a run.
+  // What is known at the end of a run.
   struct Outcome {
     const ScanMap& map;
     MatcherKind matcher;

@@ -14,7 +14,7 @@ namespace slam6d::pipeline {
 /// Says how a trajectory is laid over the truth before its error is taken.
 enum class PoseAlignment {
   kNone,
-  kFirst,  ///< Its first pose is laid onto the true one: what a registration leaves open.
+  kFirst,  ///< The first pose is laid onto the true one: what a registration leaves open.
   kBest,   ///< All positions are laid over the true ones, without scale (Umeyama 1991).
 };
 

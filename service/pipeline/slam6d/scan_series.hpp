@@ -34,9 +34,9 @@ struct LoadedScan {
 /// none, a missing pose (the motion before it is taken to go on), a file in other units.
 class ScanSeries {
  public:
+  /// Gives scans in the order of their files.
   /// @param starts poses by the numbers of the scans, counted from 0; empty: from `NAME.pose`
-  /// beside
-  ///        each file.
+  ///        beside each file.
   ScanSeries(std::vector<std::filesystem::path> files,
              io::NumberedPoses starts,
              const options::RegistrationOptions& options);

@@ -41,7 +41,7 @@ class Journal {
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  /// Whose journal it is.
+  /// Name of the service whose journal it is.
   const std::string& identity() const { return names_.identity; }
 
   /// What a damaged file has lost.

@@ -25,7 +25,7 @@ struct SessionContext {
   TeamMap& map;
   const SinkList<TeamSink>& sinks;
   std::optional<UncertainPose2> start;  ///< Where the robot starts if nothing better is known.
-  /// Size that a teammate has for the others, in metres; see TeamOptions.
+  /// Readings so near to a teammate are left out, in metres; see TeamOptions.
   double teammate_radius_m = 0.0;
   /// Puts a relevant scan into the map, the journal and the network.
   std::function<void(const TeamScan&, std::span<const ScanPoint>)> extend;

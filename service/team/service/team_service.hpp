@@ -30,7 +30,7 @@ namespace qwsm::team {
 
 struct TeamServiceOptions {
   TeamOptions team;
-  MapperOptions mapper;  ///< Its matcher is q-wsm, whatever it says.
+  MapperOptions mapper;  ///< The matcher is q-wsm, whatever the options say.
   OccupancyGridOptions rendering;
 };
 

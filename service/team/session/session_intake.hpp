@@ -34,7 +34,7 @@ class SessionIntake {
     Scan scan;
     Lane::Time arrived{};
     std::optional<Pose> T_odom_robot;
-    std::optional<Pose> T_robot_sensor_claimed;  ///< See RobotListener::TakeContestedScan().
+    std::optional<Pose> T_robot_sensor_claimed;  ///< Claim of RobotListener::TakeContestedScan().
     bool is_interrupted = false;  ///< The robot, or its clock, was away since the last scan.
     bool was_elsewhere = false;   ///< Whether another service knows better where the robot is.
     /// Whether odometry moved faster than any robot: it began anew.

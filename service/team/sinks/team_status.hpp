@@ -35,7 +35,7 @@ struct SessionCounts {
   std::uint64_t scans = 0;             ///< Scans that arrived, whatever became of them.
   std::uint64_t answered = 0;          ///< Scans answered with a pose.
   std::uint64_t dead_reckoned = 0;     ///< Scans answered without a match.
-  std::uint64_t relevant = 0;          ///< Scans answered and added to the map.
+  std::uint64_t relevant = 0;          ///< Scans added to the map.
   std::uint64_t without_odometry = 0;  ///< Scans answered without odometry.
   std::uint64_t dropped = 0;           ///< Scans dropped: the queue was full, the oldest went.
   std::uint64_t late = 0;              ///< Scans overtaken on their way; answered all the same.

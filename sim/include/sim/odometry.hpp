@@ -37,8 +37,8 @@ struct OdometryOptions {
   /// Sigma of the distance that a wheel's turning is read as, after one metre; it grows with the
   /// root of the distance.
   double travel_noise_m = 0.002;
-  double left_radius_error =
-      0.0;  ///< How much too large the left wheels are thought to be; relative.
+  /// How much too large the left wheels are thought to be; relative.
+  double left_radius_error = 0.0;
   double right_radius_error = 0.0;
   double turn_factor_error = 0.0;  ///< Relative error of the calibrated effective track.
   /// Calibration errors in addition to the three above, drawn at random.

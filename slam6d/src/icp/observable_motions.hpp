@@ -20,8 +20,9 @@ bool LeavesMotionOpen(const Matrix6d& A);
 /// counts only where it is well above that.
 class ObservableMotions {
  public:
-  /// @param A of the normal equations. @param A_noise what the errors of the normals add to it on
-  ///        average; positive definite.
+  /// Compares what pairs tell with noise.
+  /// @param A of the normal equations.
+  /// @param A_noise what the errors of the normals add to A on average; positive definite.
   ObservableMotions(const Matrix6d& A, const Matrix6d& A_noise);
 
   /// A without noise, and without the motions that are not observable.

@@ -21,7 +21,7 @@ std::string_view Name(LoopVerdict verdict);
 
 /// A scan that was matched with a submap of an earlier or later pass.
 struct Loop {
-  PoseEdge edge;              ///< From the submap's reference scan to the scan.
+  PoseEdge edge;              ///< Edge from the submap's reference scan to the scan.
   double overlap = 0.0;       ///< Share of the scan's points that agree with the submap.
   double reduced_chi2 = 0.0;  ///< Mean squared error of the pairs, in units of its variance.
   LoopVerdict verdict = LoopVerdict::kUnconfirmed;

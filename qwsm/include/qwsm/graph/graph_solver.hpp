@@ -11,7 +11,7 @@ namespace qwsm {
 /// The poses that agree best with the edges of a graph.
 struct [[nodiscard]] GraphSolution {
   std::vector<Pose2> T_map_node;
-  std::vector<double> weights;  ///< By edge: 1 where it is believed, 0 where it is not.
+  std::vector<double> weights;  ///< Weight of each edge: 1 where it is believed, 0 where not.
   int iterations = 0;
   bool is_converged = false;
 };
@@ -24,6 +24,7 @@ class GraphSolver {
   GraphSolver& operator=(const GraphSolver&) = delete;
   virtual ~GraphSolver() = default;
 
+  /// The poses that agree best with the edges.
   /// @pre every node hangs on the first by edges that tell of all three degrees of freedom.
   virtual GraphSolution Solve(const PoseGraph& graph) const = 0;
 };

@@ -51,7 +51,7 @@ void Describe(Visitor& visit, SurfaceMapOptions& o) {
 /// A point to be stored.
 struct MapPoint {
   Eigen::Vector2d p_map_m = Eigen::Vector2d::Zero();
-  /// Towards the laser that saw it; zero where the scan shows no line.
+  /// Normal towards the laser that saw the point; zero where the scan shows no line.
   Eigen::Vector2d normal_map = Eigen::Vector2d::Zero();
   double spacing_m = 0.0;  ///< Distance to the next sample of its surface.
   double drift_m2 = 0.0;   ///< Variance of its position owing to the pose it was seen from.

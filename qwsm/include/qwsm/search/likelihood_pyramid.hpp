@@ -16,7 +16,7 @@
 
 namespace qwsm {
 
-/// Of cells this small, all that is no farther than kFarthestCoordinate_m has a number.
+/// Smallest cells that can be numbered as far as kFarthestCoordinate_m.
 inline constexpr double kSmallestCell_m = 0.01;
 
 struct LikelihoodPyramidOptions {

@@ -13,7 +13,7 @@ namespace slam6d {
 
 /// What stands for the points of a cube.
 enum class ReductionChoice {
-  kMean,           ///< Their mean: the noise is averaged.
+  kMean,           ///< The mean of the points: the noise is averaged.
   kNearestToMean,  ///< The point nearest to the mean: one that was measured.
   kRandom,         ///< At most `points_per_voxel` of the points, drawn at random.
 };

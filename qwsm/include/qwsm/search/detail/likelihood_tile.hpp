@@ -15,7 +15,7 @@ class LikelihoodTile {
   static constexpr int kLevels = 3;
   static constexpr std::uint8_t kUnmapped = std::numeric_limits<std::uint8_t>::max();
   static constexpr int kBits = 5;
-  static constexpr int kSide = 1 << kBits;  ///< In cells of level 0.
+  static constexpr int kSide = 1 << kBits;  ///< Side of a tile, in cells of level 0.
   /// A cell of a level is 2^ShiftOf(level) cells of level 0 wide.
   static constexpr int ShiftOf(int level) { return level == 0 ? 0 : level + 2; }
   /// A cell of drift of a level is 2^DriftShiftOf(level) cells of level 0 wide: drift need not be

@@ -32,8 +32,8 @@ struct LogOptions {
   std::optional<Pose2> T_robot_laser;       ///< Replaces what the log says of the mounting.
   std::optional<float> range_max_m;         ///< Replaces what the log says or shows.
   std::optional<double> field_of_view_rad;  ///< Replaces the guess where lines do not state it.
-  std::function<void(const std::string&)>
-      on_fault;  ///< Is called with each kind of fault once, as it appears.
+  /// Is called with each kind of fault once, as it appears.
+  std::function<void(const std::string&)> on_fault;
 };
 
 /// How much of a log has been read.
