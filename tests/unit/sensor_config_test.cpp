@@ -31,7 +31,8 @@ TEST(SensorConfiguration, AllAreValidAndSayWhenToUseThem) {
   EXPECT_EQ(Shipped().size(), 4U);
   for (const fs::path& file : Shipped()) {
     SCOPED_TRACE(file);
-    EXPECT_NO_THROW(static_cast<void>(LoadOptions<options::ProgramOptions>({.file = file, .settings = {}})));
+    EXPECT_NO_THROW(
+        static_cast<void>(LoadOptions<options::ProgramOptions>({.file = file, .settings = {}})));
     std::ifstream stream(file);
     std::string line;
     for (int i = 0; i < 4; ++i) std::getline(stream, line);  // Below the notice.

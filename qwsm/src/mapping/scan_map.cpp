@@ -25,9 +25,9 @@ FrameCovariance OwnError(const UncertainPose2& map_robot, const FrameCovariance&
 bool IsNewSurface(const SurfaceMap& surfaces,
                   const Eigen::Vector2d& p_map_m,
                   const ScanMapOptions& options) {
-  return surfaces.quadtree().CountInRadius(
-             p_map_m, options.density_radius_m, options.max_density_points) <
-         options.max_density_points;
+  return surfaces.quadtree().CountInRadius(p_map_m,
+                                           options.density_radius_m,
+                                           options.max_density_points) < options.max_density_points;
 }
 
 }  // namespace
