@@ -195,6 +195,9 @@ TEST_F(Slam6dProgram, SaysWhatIsWrongWithItsArguments) {
   expect({"register", scans_, "--set", "slam.icp.metrik=svd"}, "did you mean");
   expect({"eval", empty, "--truth", truth_}, "holds no trajectory.tum");
   expect({"regster"}, "did you mean 'register'");
+  const fs::path twins = folder_.path() / "twins.yaml";
+  std::ofstream(twins) << "team:\n  robots:\n    - {name: a}\n    - {name: a}\n";
+  expect({"serve", "--config", twins, "--output", results_}, "is the name of another robot");
 }
 
 TEST_F(Slam6dProgram, ComparesSearches) {
