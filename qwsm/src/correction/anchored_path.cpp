@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "qwsm/geometry/frame_covariance.hpp"
+#include "pose_estimate.hpp"
 
 namespace qwsm {
 namespace {
@@ -41,19 +41,11 @@ std::vector<UncertainPose2> AnchoredPath::At(std::span<const UncertainPose2> map
   for (const Answer& answer : answers_) {
     path.push_back(answer.map_robot);
     if (!answer.node) continue;
-    path.back() = map_node[*answer.node] * Since(*answer.node, answer.map_robot);
+    path.back() =
+        map_node[*answer.node] * Since(anchors_[*answer.node].map_robot, answer.map_robot);
     path.back().T_a_b = Interpolated(answer, map_node);
   }
   return path;
-}
-
-// The pose as seen from a node, and what it is more uncertain by.
-UncertainPose2 AnchoredPath::Since(NodeId node, const UncertainPose2& map_robot) const {
-  const UncertainPose2& map_node = anchors_[node].map_robot;
-  UncertainPose2 since = map_robot;
-  since.covariance = PositivePart(since.covariance -
-                                  FrameCovariance::Of(map_node).At(since.T_a_b.translation_m()));
-  return UncertainPose2{.T_a_b = map_node.T_a_b.Inverse()} * since;
 }
 
 Pose2 AnchoredPath::Interpolated(const Answer& answer,

@@ -35,7 +35,6 @@ class AnchoredPath {
     bool continues = true;
   };
 
-  UncertainPose2 Since(NodeId node, const UncertainPose2& map_robot) const;
   Pose2 Interpolated(const Answer& answer, std::span<const UncertainPose2> map_node) const;
 
   std::vector<Answer> answers_;

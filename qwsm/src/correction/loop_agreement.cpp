@@ -11,11 +11,6 @@ constexpr NodeId kSamePass = 16;  // Nodes between scans of the same pass, at mo
 constexpr int kMinAgreeing = 2;
 constexpr double kMaxChi2 = 7.815;  // 95 % of right ones are below, for three degrees of freedom.
 
-UncertainPose2 MeasuredBy(const PoseEdge& edge) {
-  return {.T_a_b = edge.T_from_to,
-          .covariance = (edge.information + 1e-6 * Eigen::Matrix3d::Identity()).inverse()};
-}
-
 double SquaredMahalanobisDistance(const UncertainPose2& a, const UncertainPose2& b) {
   const Eigen::Vector3d apart(a.T_a_b.x_m - b.T_a_b.x_m,
                               a.T_a_b.y_m - b.T_a_b.y_m,

@@ -87,11 +87,11 @@ std::vector<LoopFinder::Candidate> LoopFinder::NearPasses(const PoseEstimate& es
   for (std::size_t i = 0; i < submaps.size(); ++i) {
     std::vector<NodeId> nodes;
     for (const RigidSubmap& later : submaps.subspan(i)) nodes.push_back(later.reference());
-    const std::size_t later_submaps = nodes.size();
+    const auto later_submaps = std::ssize(nodes);
     AppendNodesInReach(submaps[i], estimate, nodes);
     const auto seen = estimate.SeenFrom(submaps[i].reference(), nodes);
-    references.Add({seen.begin(), seen.begin() + std::ssize(submaps.subspan(i))});
-    for (std::size_t k = later_submaps; k < seen.size(); ++k) {
+    references.Add({seen.begin(), seen.begin() + later_submaps});
+    for (auto k = static_cast<std::size_t>(later_submaps); k < seen.size(); ++k) {
       const double distance_m = seen[k].T_a_b.translation_m().norm();
       if (distance_m <= ReachOf(seen[k])) near.push_back({nodes[k], i, seen[k], distance_m});
     }

@@ -24,9 +24,9 @@ class LoopFinder {
         nodes_(nodes),
         chain_(chain) {}
 
-  /// The loops that are found from there. Those of the last time that were accepted are taken
-  /// over and not looked for again; the verdicts are kAccepted where other loops of the
-  /// same two passes agree, else kUnconfirmed. In the order of scans, then submaps.
+  /// The loops that are found from there, in the order of scans, then submaps. Their verdicts are
+  /// kAccepted where loops of scans near by agree, else kUnconfirmed.
+  /// @param last found before; those that were accepted are not looked for again.
   std::vector<Loop> Find(const PoseEstimate& estimate, std::span<const Loop> last) const;
 
  private:

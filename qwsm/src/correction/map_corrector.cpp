@@ -66,7 +66,7 @@ std::string_view Name(LoopVerdict verdict) {
 struct MapCorrector::State {
   explicit State(const MapperOptions& mapper) : options(mapper), chain(mapper) {}
 
-  Correction AsAnswered(std::vector<Loop> loops = {}) const;
+  Correction AsAnswered(std::vector<Loop> loops) const;
   Correction Refused(std::vector<Loop> loops) const;
   bool IsContradictedBy(const std::vector<Pose2>& T_map_node) const;
 
@@ -121,7 +121,8 @@ void MapCorrector::Take(const MappingStep& step) {
 
 Correction MapCorrector::Correct() const {
   const State& state = *state_;
-  Correction correction = state.AsAnswered();
+  Correction correction;
+  correction.graph.T_map_node = AnsweredPosesOf(state.nodes);
   const LoopFinder finder(state.options, state.nodes, state.chain);
   const SparseGraphSolver solver;
   std::unique_ptr<PoseEstimate> estimate = std::make_unique<AnsweredPoses>(state.nodes);

@@ -6,17 +6,19 @@
 
 namespace qwsm {
 
+UncertainPose2 Since(const UncertainPose2& map_earlier, const UncertainPose2& map_robot) {
+  const FrameCovariance known = FrameCovariance::Of(map_earlier);
+  UncertainPose2 since = map_robot;
+  since.covariance = PositivePart(since.covariance - known.At(since.T_a_b.translation_m()));
+  return UncertainPose2{.T_a_b = map_earlier.T_a_b.Inverse()} * since;
+}
+
 std::vector<UncertainPose2> AnsweredPoses::SeenFrom(NodeId from,
                                                     std::span<const NodeId> nodes) const {
-  const UncertainPose2& map_from = nodes_[from].map_robot;
-  const FrameCovariance known = FrameCovariance::Of(map_from);
-  const UncertainPose2 from_map{.T_a_b = map_from.T_a_b.Inverse()};
   std::vector<UncertainPose2> seen;
   seen.reserve(nodes.size());
   for (const NodeId node : nodes) {
-    UncertainPose2 since = nodes_[node].map_robot;
-    since.covariance = PositivePart(since.covariance - known.At(since.T_a_b.translation_m()));
-    seen.push_back(from_map * since);
+    seen.push_back(Since(nodes_[from].map_robot, nodes_[node].map_robot));
   }
   return seen;
 }

@@ -4,6 +4,13 @@
 
 namespace qwsm {
 
+UncertainPose2 MeasuredBy(const PoseEdge& edge) {
+  constexpr double kLeastInformation = 1e-6;
+  return {
+      .T_a_b = edge.T_from_to,
+      .covariance = (edge.information + kLeastInformation * Eigen::Matrix3d::Identity()).inverse()};
+}
+
 EdgeLinearization Linearize(const PoseEdge& edge, std::span<const Pose2> T_map_node) {
   const Pose2& from = T_map_node[edge.from];
   const Pose2& to = T_map_node[edge.to];

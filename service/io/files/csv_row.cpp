@@ -18,6 +18,13 @@ void CsvRow::Add(Timestamp stamp) {
   text_ += ',';
 }
 
+void CsvRow::Add(const UncertainPose2& pose) {
+  for (const double number : {pose.T_a_b.x_m, pose.T_a_b.y_m, pose.T_a_b.theta_rad}) Add(number);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = i; j < 3; ++j) Add(pose.covariance(i, j));
+  }
+}
+
 void CsvRow::Add(std::string_view word) {
   text_ += word;
   text_ += ',';

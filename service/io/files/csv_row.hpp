@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "qwsm/geometry/pose2.hpp"
 #include "qwsm/sensor/laser_scan.hpp"
 
 namespace qwsm::io {
@@ -14,6 +15,8 @@ class CsvRow {
  public:
   void Add(double value);
   void Add(Timestamp stamp);
+  /// Adds nine columns: x, y and theta, and the upper triangle of their covariance, row by row.
+  void Add(const UncertainPose2& pose);
   /// Adds a word of our own. @pre it has no comma or quote.
   void Add(std::string_view word);
 

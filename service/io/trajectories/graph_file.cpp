@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/io/trajectories/graph_file.hpp"
 
-#include <array>
 #include <string>
 
 #include "service/io/files/atomic_file.hpp"

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/results/corrected_run.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <string_view>
 
@@ -19,18 +18,10 @@ constexpr std::string_view kLoopHeader =
     "overlap,reduced_chi2,verdict\n";
 
 std::string LineOf(const Loop& loop, const ScanMap& map) {
-  const Pose2& T_from_to = loop.edge.T_from_to;
-  // Along a corridor next to nothing is known of one direction.
-  constexpr double kLeastInformation = 1e-6;
-  const Eigen::Matrix3d covariance =
-      (loop.edge.information + kLeastInformation * Eigen::Matrix3d::Identity()).inverse();
   io::CsvRow row;
   row.Add(map.scans()[loop.edge.from].scan.stamp);
   row.Add(map.scans()[loop.edge.to].scan.stamp);
-  for (const double number : {T_from_to.x_m, T_from_to.y_m, T_from_to.theta_rad}) row.Add(number);
-  for (int i = 0; i < 3; ++i) {
-    for (int j = i; j < 3; ++j) row.Add(covariance(i, j));
-  }
+  row.Add(MeasuredBy(loop.edge));
   row.Add(loop.overlap);
   row.Add(loop.reduced_chi2);
   row.Add(Name(loop.verdict));

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
-#include <string>
+#include <cstddef>
+#include <vector>
 
 #include "qwsm/correction/map_corrector.hpp"
 #include "service/io/pictures/trajectory_picture.hpp"

@@ -20,16 +20,6 @@ constexpr std::string_view kCorrectedHeader =
     "corrected_cov_xx_m2,corrected_cov_xy_m2,corrected_cov_xtheta_m_rad,corrected_cov_yy_m2,"
     "corrected_cov_ytheta_m_rad,corrected_cov_thetatheta_rad2\n";
 
-void Add(const UncertainPose2& map_robot, io::CsvRow& row) {
-  const Pose2& T_map_robot = map_robot.T_a_b;
-  for (const double number : {T_map_robot.x_m, T_map_robot.y_m, T_map_robot.theta_rad}) {
-    row.Add(number);
-  }
-  for (int i = 0; i < 3; ++i) {
-    for (int j = i; j < 3; ++j) row.Add(map_robot.covariance(i, j));
-  }
-}
-
 }  // namespace
 
 double PositionTrace_m2(const MatchResult& match) {
@@ -44,7 +34,7 @@ void ScanTableSink::Take(const TimedStep& timed) {
   const MappingStep& step = timed.step;
   io::CsvRow row;
   row.Add(step.stamp);
-  Add(step.map_robot, row);
+  row.Add(step.map_robot);
   row.Add(Name(step.status));
   row.Add(step.reason);
   row.Add(step.relevant ? "1" : "0");
@@ -68,7 +58,7 @@ void AddCorrectedPoses(const std::filesystem::path& table,
   for (const UncertainPose2& map_robot : corrected) {
     std::getline(rows, row);
     io::CsvRow columns;
-    Add(map_robot, columns);
+    columns.Add(map_robot);
     wider.stream() << row << ',' << columns.Finish();
   }
   wider.Commit();

@@ -12,14 +12,14 @@ namespace qwsm {
 /// What became of a place that was recognised.
 enum class LoopVerdict : std::uint8_t {
   kAccepted,      ///< The poses are corrected by it.
-  kUnconfirmed,   ///< Too few loops of the same two passes agree with it.
+  kUnconfirmed,   ///< Too few loops of scans near by agree with it.
   kContradicted,  ///< The rest of the graph disagrees.
   kRefused,       ///< With the loops the map would contradict the scans more than without.
 };
 
 std::string_view Name(LoopVerdict verdict);
 
-/// A scan that was matched with a submap of an earlier or later pass.
+/// A scan that was matched with a submap of an earlier pass.
 struct Loop {
   PoseEdge edge;              ///< Edge from the submap's reference scan to the scan.
   double overlap = 0.0;       ///< Share of the scan's points that agree with the submap.

@@ -10,7 +10,6 @@
 #include "qwsm/mapping/mapper_options.hpp"
 #include "qwsm/mapping/mapping_step.hpp"
 #include "qwsm/mapping/scan_map.hpp"
-#include "qwsm/metrics/stamped_pose.hpp"
 
 namespace qwsm {
 

@@ -31,6 +31,10 @@ struct PoseEdge {
   EdgeTrust trust = EdgeTrust::kBackbone;
 };
 
+/// The pose of `to` as seen from `from`, as uncertain as the edge tells. Of a direction of which it
+/// tells nothing the sigma is a kilometre.
+UncertainPose2 MeasuredBy(const PoseEdge& edge);
+
 /// Poses in one frame `map`, and what is known of them relative to each other.
 struct PoseGraph {
   std::vector<Pose2> T_map_node;
