@@ -22,15 +22,15 @@ void AppendNumber(std::string& text, double value) { AppendShortest(text, value)
 void AppendNumber(std::string& text, float value) { AppendShortest(text, value); }
 
 void AppendStamp(std::string& text, Timestamp stamp) {
-  constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+  constexpr std::int64_t kPerSecond = 1'000'000'000;
   const bool negative = stamp < Timestamp::zero();
   // Unsigned, as the most negative number has no positive counterpart.
   const std::uint64_t count = negative
                                   ? std::uint64_t{0} - static_cast<std::uint64_t>(stamp.count())
                                   : static_cast<std::uint64_t>(stamp.count());
   if (negative) text += '-';
-  AppendShortest(text, count / kNanosecondsPerSecond);
-  const std::string decimals = std::to_string(count % kNanosecondsPerSecond);
+  AppendShortest(text, count / kPerSecond);
+  const std::string decimals = std::to_string(count % kPerSecond);
   text += '.';
   text.append(9 - decimals.size(), '0');
   text += decimals;
