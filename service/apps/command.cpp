@@ -3,11 +3,11 @@
 #include "service/apps/command.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <filesystem>
 
 #include "service/config/suggestion.hpp"
+#include "service/pipeline/text/messages.hpp"
 
 namespace qwsm::apps {
 
@@ -55,7 +55,7 @@ io::LogOptions LogOptionsOf(const options::LogOptions& options) {
   log.strict = options.strict;
   if (options.range_max_m > 0.0) log.range_max_m = static_cast<float>(options.range_max_m);
   if (options.field_of_view_rad > 0.0) log.field_of_view_rad = options.field_of_view_rad;
-  log.on_fault = [](const std::string& fault) { spdlog::warn("{}", fault); };
+  log.on_fault = [](const std::string& fault) { messages::Warn(fault); };
   return log;
 }
 

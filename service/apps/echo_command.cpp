@@ -1,12 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <chrono>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -19,6 +17,8 @@
 #include "service/dds/robot/match_report_reader.hpp"
 #include "service/io/trajectories/trajectory_file.hpp"
 #include "service/pipeline/run/interruption.hpp"
+#include "service/pipeline/text/json.hpp"
+#include "service/pipeline/text/messages.hpp"
 #include "service/team/sinks/team_status.hpp"
 
 namespace qwsm::apps {
@@ -57,7 +57,7 @@ std::string TextOf(const dds::MatchReport& report) {
 
 std::string JsonOf(const dds::MatchReport& report) {
   const Pose2& pose = report.map_robot.T_a_b;
-  nlohmann::ordered_json json;
+  pipeline::Json json;
   json["robot"] = report.robot;
   json["stamp_s"] = std::chrono::duration<double>(report.stamp).count();
   json["x_m"] = pose.x_m;
@@ -74,7 +74,7 @@ std::string JsonOf(const dds::MatchReport& report) {
   json["latency_ms"] = Milliseconds(report.latency);
   json["scans"] = report.scans;
   json["dropped"] = report.dropped;
-  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  return json.Line();
 }
 
 std::string LineOf(const dds::MatchReport& report, const EchoArguments& arguments) {
@@ -90,7 +90,7 @@ ExitCode RunEcho(const EchoArguments& arguments) {
   const dds::Participant participant(session.options().network);
   dds::MatchReportReader reports(participant, arguments.robots);
   const pipeline::Interruption interruption;
-  spdlog::info("listening");
+  messages::Info("listening");
   using Clock = std::chrono::steady_clock;
   const auto begin = Clock::now();
   std::size_t shown = 0;

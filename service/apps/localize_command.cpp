@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <filesystem>
 #include <memory>
@@ -18,6 +17,7 @@
 #include "service/apps/run_session.hpp"
 #include "service/io/maps/map_file.hpp"
 #include "service/pipeline/results/results_writer.hpp"
+#include "service/pipeline/text/messages.hpp"
 
 namespace qwsm::apps {
 namespace {
@@ -60,11 +60,11 @@ UncertainPose2 FindStart(const LocalizeArguments& arguments,
         "the first scan fits nowhere in the map; is it the right map? --at X Y DEG says where the "
         "robot starts");
   }
-  spdlog::info("starts at {}", PlaceText(place->best.T_map_robot));
+  messages::Info("starts at {}", PlaceText(place->best.T_map_robot));
   if (place->rival) {
-    spdlog::warn("the first scan fits at {} and nearly as well at {}; --at X Y DEG says which",
-                 PlaceText(place->best.T_map_robot),
-                 PlaceText(place->rival->T_map_robot));
+    messages::Warn("the first scan fits at {} and nearly as well at {}; --at X Y DEG says which",
+                   PlaceText(place->best.T_map_robot),
+                   PlaceText(place->rival->T_map_robot));
   }
   start.T_a_b = place->best.T_map_robot;
   return start;

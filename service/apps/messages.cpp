@@ -10,8 +10,9 @@
 
 #include <cerrno>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
+
+#include "service/pipeline/text/json.hpp"
 
 namespace qwsm::apps {
 namespace {
@@ -23,14 +24,13 @@ class JsonFormatter final : public spdlog::formatter {
   void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& line) override {
     spdlog::memory_buf_t time;
     time_.format(message, time);
-    nlohmann::ordered_json json;
+    pipeline::Json json;
     json["time"] = fmt::to_string(time);
     const auto level = spdlog::level::to_string_view(message.level);
     json["level"] = std::string(level.data(), level.size());
     json["message"] = std::string(message.payload.data(), message.payload.size());
-    const std::string text = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    const std::string text = json.Line();
     line.append(text.data(), text.data() + text.size());
-    line.push_back('\n');
   }
   std::unique_ptr<spdlog::formatter> clone() const override {
     return std::make_unique<JsonFormatter>();

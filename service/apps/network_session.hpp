@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <spdlog/spdlog.h>
-
 #include <string>
 
 #include "service/apps/command.hpp"
 #include "service/apps/messages.hpp"
 #include "service/config/loader.hpp"
 #include "service/dds/entities/middleware_messages.hpp"
+#include "service/pipeline/text/messages.hpp"
 
 namespace qwsm::apps {
 
@@ -29,7 +28,7 @@ class BasicNetworkSession {
  public:
   explicit BasicNetworkSession(const NetworkArguments& arguments)
       : options_(Begin(arguments)),
-        messages_([](const std::string& text) { spdlog::warn("{}", text); }) {}
+        messages_([](const std::string& text) { messages::Warn(text); }) {}
 
   const Options& options() const { return options_; }
 

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <chrono>
 #include <filesystem>
@@ -16,6 +15,7 @@
 #include "service/io/files/atomic_file.hpp"
 #include "service/pipeline/network/scan_recorder.hpp"
 #include "service/pipeline/run/interruption.hpp"
+#include "service/pipeline/text/messages.hpp"
 
 namespace qwsm::apps {
 namespace {
@@ -33,11 +33,11 @@ ExitCode RunRecord(const RecordArguments& arguments) {
   const NetworkSession session(arguments.network);
   io::AtomicFile file(arguments.log);
   pipeline::ScanRecorder recorder(file.stream());
-  dds::Refusals refusals([](const std::string& text) { spdlog::warn("{}", text); });
+  dds::Refusals refusals([](const std::string& text) { messages::Warn(text); });
   const dds::Participant participant(session.options().network);
   dds::RobotFeed feed(participant, dds::RobotNames(arguments.robot), refusals);
   const pipeline::Interruption interruption;
-  spdlog::info("recording {}", dds::RobotNames(arguments.robot).Topic(dds::kScanTopic));
+  messages::Info("recording {}", dds::RobotNames(arguments.robot).Topic(dds::kScanTopic));
   while (!interruption.requested() && !(arguments.count && recorder.scans() >= *arguments.count)) {
     feed.Deliver(100ms, recorder);
     recorder.WriteReady();

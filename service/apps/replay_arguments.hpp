@@ -3,7 +3,6 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <chrono>
 #include <cstdio>
@@ -13,6 +12,7 @@
 #include "service/apps/output.hpp"
 #include "service/dds/wire/wire_kind.hpp"
 #include "service/pipeline/network/network_replay.hpp"
+#include "service/pipeline/text/messages.hpp"
 
 namespace qwsm::apps {
 
@@ -45,9 +45,9 @@ ExitCode Replay(Source& source,
   if (!replay.WaitForListener(
           T_robot_sensor, std::chrono::duration<double>(arguments.wait_s), interruption)) {
     if (interruption.requested()) return ExitCode::kInterrupted;
-    spdlog::error("nobody listens to {}; is '{}' running in the same DDS domain?",
-                  dds::RobotNames(arguments.robot).Topic(dds::OnWire<Kind>::kScanTopic),
-                  server);
+    messages::Error("nobody listens to {}; is '{}' running in the same DDS domain?",
+                    dds::RobotNames(arguments.robot).Topic(dds::OnWire<Kind>::kScanTopic),
+                    server);
     return ExitCode::kFailed;
   }
   const auto begin = std::chrono::steady_clock::now();

@@ -3,7 +3,6 @@
 #include "service/apps/run_session.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <cstdio>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "service/pipeline/results/run_report.hpp"
 #include "service/pipeline/run/interruption.hpp"
 #include "service/pipeline/run/progress_display.hpp"
+#include "service/pipeline/text/messages.hpp"
 
 namespace qwsm::apps {
 
@@ -77,7 +77,7 @@ RunSession::RunSession(const RunArguments& arguments, const options::ProgramOpti
                   ? ResultsFolder(*arguments.output, arguments.force, InputsOf(arguments))
                   : ResultsFolder::ForNow("results")) {
   CopyMessagesTo(folder_ / "run.log");
-  spdlog::info("version {}", Version());
+  messages::Info("version {}", Version());
   io::WriteTextFile(folder_ / "config.yaml", config::DumpOptions(options));
 }
 
@@ -99,7 +99,7 @@ ReplayResult RunSession::Run(const std::string& task,
   const Interruption interruption;
   ReplayResult result = Replay(source, runs, [&] { return interruption.requested(); });
   progress.Clear();
-  for (const std::string& line : source.Describe()) spdlog::info("{}", line);
+  for (const std::string& line : source.Describe()) messages::Info(line);
   return result;
 }
 
@@ -119,7 +119,7 @@ ExitCode Conclude(const ReplayResult& result) {
     case ReplayEnd::kSourceFailed:
       break;
   }
-  spdlog::error("{}", result.failure);
+  messages::Error(result.failure);
   return ExitCode::kUsage;
 }
 

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include <spdlog/spdlog.h>
 
 #include <memory>
 #include <optional>
@@ -15,6 +14,7 @@
 #include "service/options/program_options.hpp"
 #include "service/pipeline/team/team_log.hpp"
 #include "service/pipeline/team/team_results.hpp"
+#include "service/pipeline/text/messages.hpp"
 #include "service/team/service/team_service.hpp"
 
 namespace qwsm::apps {
@@ -50,7 +50,7 @@ class TeamServer {
     return sinks;
   }
 
-  dds::Refusals refusals_{[](const std::string& text) { spdlog::warn("{}", text); }};
+  dds::Refusals refusals_{[](const std::string& text) { messages::Warn(text); }};
   dds::Participant participant_;
   dds::RosGraph graph_;
   pipeline::TeamLog<team::TeamSink> log_;

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <spdlog/spdlog.h>
-
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -18,6 +16,7 @@
 #include "service/apps/version.hpp"
 #include "service/pipeline/results/results_folder.hpp"
 #include "service/pipeline/run/interruption.hpp"
+#include "service/pipeline/text/messages.hpp"
 #include "service/team/sinks/team_status.hpp"
 
 namespace qwsm::apps {
@@ -67,7 +66,7 @@ void Serve(const Serving<Service, Inbox, Results>& serving,
   ServiceManager manager;
   serving.service.Start();
   manager.TellReady("serving");
-  spdlog::info("serving as {}", serving.service.identity());
+  messages::Info("serving as {}", serving.service.identity());
   while (!interruption.requested()) {
     serving.inbox.Deliver(std::chrono::milliseconds(20));  // A signal does not end this call.
     manager.TellAlive("serving");
@@ -85,7 +84,7 @@ ExitCode RunServe(const ServeArguments& arguments) {
   const BasicNetworkSession<Options> session(arguments.network);
   const std::optional<pipeline::ResultsFolder> folder =
       BeginResults(arguments, config::DumpOptions(session.options()));
-  spdlog::info("version {}", Version());
+  messages::Info("version {}", Version());
   const pipeline::Interruption interruption;
   Server server(arguments, session.options(), folder);
   server.Run(interruption);

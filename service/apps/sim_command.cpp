@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <filesystem>
 #include <memory>
@@ -23,6 +22,7 @@
 #include "service/pipeline/run/interruption.hpp"
 #include "service/pipeline/simulation/simulation_report.hpp"
 #include "service/pipeline/simulation/simulation_run.hpp"
+#include "service/pipeline/text/messages.hpp"
 
 namespace qwsm::apps {
 namespace {
@@ -54,7 +54,7 @@ SimulatedLogs OpenLogs(const sim::Simulation& simulation, const ResultsFolder& f
 class NetworkTeam {
  public:
   NetworkTeam(const SimArguments& arguments, sim::Simulation& simulation)
-      : messages_([](const std::string& text) { spdlog::warn("{}", text); }),
+      : messages_([](const std::string& text) { messages::Warn(text); }),
         participant_(config::LoadOptions<dds::NetworkOptions>(
             {.file = std::nullopt, .settings = arguments.network})) {
     const auto pace = arguments.wait_for_answers ? NetworkPace::kAnswers : NetworkPace::kFree;
@@ -93,7 +93,7 @@ ExitCode RunSim(const SimArguments& arguments) {
   const ResultsFolder folder = arguments.output ? ResultsFolder(*arguments.output, arguments.force)
                                                 : ResultsFolder::ForNow("results");
   CopyMessagesTo(folder / "run.log");
-  spdlog::info("version {}", Version());
+  messages::Info("version {}", Version());
   io::WriteTextFile(folder / "scenario.yaml", ScenarioText(scenario));
 
   const SimulatedLogs logs = OpenLogs(simulation, folder);

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <chrono>
@@ -19,6 +18,7 @@
 #include "service/pipeline/run/interruption.hpp"
 #include "service/pipeline/run/progress_display.hpp"
 #include "service/pipeline/team/team_table.hpp"
+#include "service/pipeline/text/messages.hpp"
 
 namespace qwsm::apps {
 namespace {
@@ -59,7 +59,7 @@ ExitCode RunWatch(const WatchArguments& arguments) {
   const dds::Participant participant(session.options().network);
   dds::MatchReportReader reports(participant, arguments.robots);
   const pipeline::Interruption interruption;
-  spdlog::info("listening");
+  messages::Info("listening");
   pipeline::TeamTable table;
   Screen screen;
   const auto begin = Clock::now();

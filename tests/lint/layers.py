@@ -46,7 +46,7 @@ THIRD_PARTY = {
     "Ceres": (r"ceres/", {"service/graph"}),
     "Boost": (r"boost/", {"service/io"}),
     "SQLite": (r"sqlite3\.h", {"service/io"}),
-    "nlohmann-json": (r"nlohmann/", {"service/io", "service/pipeline", "service/apps"}),
+    "nlohmann-json": (r"nlohmann/", {"service/pipeline"}),
     "Cyclone DDS": (r"dds/(dds\.h|dds[a-z]*/)", {"service/dds", "idl"}),
     "fmt": (r"fmt/", {layer for layer in MAY_USE if layer.startswith("service/")}),
     "spdlog": (r"spdlog/", {"service/pipeline", "service/apps"}),
@@ -57,8 +57,9 @@ THIRD_PARTY = {
     "nanoflann": (r"nanoflann", set()),
 }
 
-# Libraries that even their own layer keeps to its .cpp files, so that a port touches few of them.
-SOURCES_ONLY = {"Box2D", "Boost", "Cairo", "Ceres", "SQLite"}
+# Libraries that even their own layer keeps to its .cpp files, so that a port touches few of them and
+# few of ours compile them.
+SOURCES_ONLY = {"Box2D", "Boost", "Cairo", "Ceres", "SQLite", "nlohmann-json", "spdlog"}
 
 # Standard headers by which a library would print, open files, read clocks or run threads.
 IMPURE = {"cstdio", "filesystem", "fstream", "iostream", "stdio.h"}

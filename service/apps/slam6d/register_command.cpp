@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <chrono>
 #include <filesystem>
@@ -19,6 +18,7 @@
 #include "service/pipeline/run/interruption.hpp"
 #include "service/pipeline/run/progress_display.hpp"
 #include "service/pipeline/slam6d/registration_results.hpp"
+#include "service/pipeline/text/messages.hpp"
 
 namespace slam6d::apps {
 namespace {
@@ -61,7 +61,7 @@ ResultsFolder OpenResults(const RegisterArguments& arguments,
       arguments.output ? ResultsFolder(*arguments.output, arguments.force, InputsOf(arguments))
                        : ResultsFolder::ForNow("results");
   qwsm::apps::CopyMessagesTo(folder / "run.log");
-  spdlog::info("version {}", qwsm::apps::Version());
+  qwsm::messages::Info("version {}", qwsm::apps::Version());
   qwsm::io::WriteTextFile(folder / "config.yaml", qwsm::config::DumpOptions(options));
   return folder;
 }
@@ -90,7 +90,7 @@ pipeline::Registration Register(pipeline::ScanSeries& series,
       .warn =
           [&](const std::string& problem) {
             line.Clear();
-            spdlog::warn("{}", problem);
+            qwsm::messages::Warn(problem);
           },
       .should_stop = [&] { return interruption.requested(); }};
   return pipeline::RegisterSeries(series, options, observer);
@@ -99,14 +99,14 @@ pipeline::Registration Register(pipeline::ScanSeries& series,
 void WarnOfDoubtfulScans(const pipeline::Registration& registration) {
   for (const pipeline::RegisteredScan& scan : registration.scans) {
     if (scan.step.status == SlamStatus::kDeadReckoned) {
-      spdlog::warn(
+      qwsm::messages::Warn(
           "{}: could not be registered with the scans before it ({}, overlap {:.0f} %); it "
           "is where odometry has it",
           scan.file.string(),
           Name(scan.step.match.status),
           100.0 * scan.step.overlap);
     } else if (scan.step.status == SlamStatus::kUnusable) {
-      spdlog::warn(
+      qwsm::messages::Warn(
           "{}: has fewer than three different points that count; it is where odometry has it",
           scan.file.string());
     }
@@ -130,7 +130,7 @@ ExitCode RunRegister(const RegisterArguments& arguments) {
   WarnOfDoubtfulScans(registration);
   pipeline::WriteResults(registration, options, folder);
   const std::string summary = pipeline::SummaryText(registration);
-  spdlog::info("\n{}", summary);
+  qwsm::messages::Info("\n{}", summary);
   if (arguments.verbosity.json) {
     qwsm::apps::Print("{}", pipeline::MetricsJson(registration));
   } else if (!arguments.verbosity.quiet) {

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include <spdlog/spdlog.h>
 
 #include <chrono>
 #include <filesystem>
@@ -13,6 +12,7 @@
 #include "service/apps/slam6d/commands.hpp"
 #include "service/apps/slam6d/network.hpp"
 #include "service/pipeline/slam6d/series_source.hpp"
+#include "service/pipeline/text/messages.hpp"
 
 namespace slam6d::apps {
 namespace {
@@ -35,7 +35,7 @@ ExitCode RunReplay(const SeriesReplayArguments& arguments) {
   const std::chrono::duration<double> period(arguments.period_s);
   pipeline::SeriesSource source(series,
                                 std::chrono::round<std::chrono::nanoseconds>(period),
-                                [](const std::string& problem) { spdlog::warn("{}", problem); });
+                                [](const std::string& problem) { qwsm::messages::Warn(problem); });
   if (source.Peek() == nullptr) throw qwsm::apps::UsageError("none of the scans has points");
   return qwsm::apps::Replay<qwsm::team::Spatial>(
       source, arguments.replay, session.options().network, verbosity, "slam6d serve");

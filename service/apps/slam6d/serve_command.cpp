@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include <spdlog/spdlog.h>
 
 #include <memory>
 #include <optional>
@@ -15,6 +14,7 @@
 #include "service/options/slam6d/program_options.hpp"
 #include "service/pipeline/slam6d/cloud_results.hpp"
 #include "service/pipeline/team/team_log.hpp"
+#include "service/pipeline/text/messages.hpp"
 #include "service/team/service/cloud_service.hpp"
 
 namespace slam6d::apps {
@@ -57,7 +57,7 @@ class CloudServer {
     return sinks;
   }
 
-  qwsm::dds::Refusals refusals_{[](const std::string& text) { spdlog::warn("{}", text); }};
+  qwsm::dds::Refusals refusals_{[](const std::string& text) { qwsm::messages::Warn(text); }};
   qwsm::dds::Participant participant_;
   qwsm::dds::RosGraph graph_;
   qwsm::pipeline::TeamLog<CloudSink> log_;

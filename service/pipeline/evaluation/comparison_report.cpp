@@ -4,9 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <string_view>
 #include <vector>
 
@@ -17,7 +15,6 @@
 namespace qwsm::pipeline {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Rows = std::vector<std::vector<std::string>>;
 
 /// The first contestant beside another.
@@ -37,9 +34,6 @@ std::vector<Duel> Duels(const std::list<Contestant>& contestants) {
   }
   return duels;
 }
-
-/// JSON knows no NaN.
-Json NumberOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 std::string MatcherTable(const std::list<Contestant>& contestants) {
   Rows rows{{"matcher",
@@ -96,23 +90,24 @@ std::string ComparisonCsv(const std::list<Contestant>& contestants) {
 std::string ComparisonJson(const std::list<Contestant>& contestants) {
   Json json;
   for (const Contestant& contestant : contestants) {
-    json["matchers"].push_back(Json::parse(MetricsJson(contestant.results.statistics(),
-                                                       contestant.mapper.map(),
-                                                       contestant.matcher(),
-                                                       contestant.results.truth_report())));
+    json["matchers"].Add(MetricsJson(contestant.results.statistics(),
+                                     contestant.mapper.map(),
+                                     contestant.matcher(),
+                                     contestant.results.truth_report()));
   }
   for (const Duel& duel : Duels(contestants)) {
     const MatcherComparison& comparison = duel.comparison;
-    json["comparisons"].push_back(
-        {{"matcher", duel.candidate},
-         {"baseline", duel.baseline},
-         {"scans", comparison.scans},
-         {"residual_ratio", NumberOrNull(comparison.residual_ratio)},
-         {"trace_ratio", NumberOrNull(comparison.trace_ratio)},
-         {"residual_smaller_share", NumberOrNull(comparison.smaller_residual_share)},
-         {"trace_smaller_share", NumberOrNull(comparison.smaller_trace_share)}});
+    Json figures;
+    figures["matcher"] = duel.candidate;
+    figures["baseline"] = duel.baseline;
+    figures["scans"] = comparison.scans;
+    figures["residual_ratio"] = comparison.residual_ratio;
+    figures["trace_ratio"] = comparison.trace_ratio;
+    figures["residual_smaller_share"] = comparison.smaller_residual_share;
+    figures["trace_smaller_share"] = comparison.smaller_trace_share;
+    json["comparisons"].Add(figures);
   }
-  return json.dump(2) + "\n";
+  return json.Text();
 }
 
 std::string ComparisonText(const std::list<Contestant>& contestants) {

@@ -2,17 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "qwsm/geometry/angle.hpp"
 #include "service/config/text_table.hpp"
 #include "service/pipeline/evaluation/evaluation.hpp"
+#include "service/pipeline/text/json.hpp"
 
 namespace qwsm::pipeline {
 namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
-using Json = nlohmann::ordered_json;
 
 const double kDegrees = RadiansToDegrees(1.0);
 
@@ -69,10 +67,12 @@ Json ToJson(const ErrorStatistics& errors, const std::string& unit, double scale
 }
 
 Json ToJson(const RelationsSummary& summary) {
-  return {{"translation", ToJson(summary.translation_m, "m")},
-          {"translation_squared", ToJson(summary.translation_squared_m2, "m2")},
-          {"rotation", ToJson(summary.rotation_rad, "deg", kDegrees)},
-          {"rotation_squared", ToJson(summary.rotation_squared_rad2, "deg2", kDegrees * kDegrees)}};
+  Json json;
+  json["translation"] = ToJson(summary.translation_m, "m");
+  json["translation_squared"] = ToJson(summary.translation_squared_m2, "m2");
+  json["rotation"] = ToJson(summary.rotation_rad, "deg", kDegrees);
+  json["rotation_squared"] = ToJson(summary.rotation_squared_rad2, "deg2", kDegrees * kDegrees);
+  return json;
 }
 
 Json ToJson(const RelationsResult& relations) {
@@ -109,18 +109,19 @@ std::string EvaluationTable(std::span<const Evaluation> evaluations) {
 }
 
 std::string EvaluationJson(std::span<const Evaluation> evaluations) {
-  Json list = Json::array();
+  Json list = Json::Array();
   for (const Evaluation& evaluation : evaluations) {
-    Json json{{"trajectory", evaluation.trajectory}};
+    Json json;
+    json["trajectory"] = evaluation.trajectory;
     if (evaluation.relations) json["relations"] = ToJson(*evaluation.relations);
     if (evaluation.absolute_m) json["ate"] = ToJson(*evaluation.absolute_m, "m");
     if (evaluation.relative) {
       json["rpe"]["translation"] = ToJson(evaluation.relative->translation_m, "m");
       json["rpe"]["rotation"] = ToJson(evaluation.relative->rotation_rad, "deg", kDegrees);
     }
-    list.push_back(std::move(json));
+    list.Add(std::move(json));
   }
-  return list.dump(2) + "\n";
+  return list.Text();
 }
 
 }  // namespace qwsm::pipeline

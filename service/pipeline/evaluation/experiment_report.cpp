@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <string_view>
 #include <utility>
@@ -16,6 +14,7 @@
 #include "service/config/text_table.hpp"
 #include "service/io/files/csv_row.hpp"
 #include "service/pipeline/results/run_report.hpp"
+#include "service/pipeline/text/json.hpp"
 
 namespace qwsm::pipeline {
 namespace {
@@ -126,17 +125,15 @@ std::vector<ExperimentRun> RunsOf(const std::list<Contestant>& contestants, int 
 }
 
 std::string ExperimentJson(const std::vector<ExperimentRun>& runs) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  Json json = Json::Array();
   for (const ExperimentRun& run : runs) {
-    nlohmann::ordered_json object{{"seed", run.seed}, {"matcher", Name(run.matcher)}};
-    for (const Figure& figure : FiguresOf(run)) {
-      // JSON knows no NaN.
-      object[std::string(figure.name)] =
-          std::isfinite(figure.value) ? nlohmann::ordered_json(figure.value) : nullptr;
-    }
-    json.push_back(std::move(object));
+    Json object;
+    object["seed"] = run.seed;
+    object["matcher"] = Name(run.matcher);
+    for (const Figure& figure : FiguresOf(run)) object[figure.name] = figure.value;
+    json.Add(std::move(object));
   }
-  return json.dump(2) + "\n";
+  return json.Text();
 }
 
 std::string ExperimentCsv(const std::vector<ExperimentRun>& runs) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <chrono>
 #include <cstddef>
@@ -16,6 +15,7 @@
 #include "service/pipeline/network/pace.hpp"
 #include "service/pipeline/run/interruption.hpp"
 #include "service/pipeline/run/progress_display.hpp"
+#include "service/pipeline/text/messages.hpp"
 
 namespace qwsm::pipeline {
 
@@ -107,7 +107,7 @@ class NetworkReplay {
     }
     is_answered_ = reports_.has_writer();
     if (!pace_ && !is_answered_) {
-      spdlog::warn("no service reports on the scans; paced by acknowledgments only");
+      messages::Warn("no service reports on the scans; paced by acknowledgments only");
     }
   }
 
@@ -118,7 +118,7 @@ class NetworkReplay {
     }
     window_.NoteSent(stamp);
     if (!window_.WaitForRoom(kPatience)) {
-      spdlog::warn("no answer for {} s; going on", std::chrono::seconds(kPatience).count());
+      messages::Warn("no answer for {} s; going on", std::chrono::seconds(kPatience).count());
     }
   }
 

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/network/network_robot.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <string>
 #include <vector>
+
+#include "service/pipeline/text/messages.hpp"
 
 namespace qwsm::pipeline {
 namespace {
@@ -63,7 +63,7 @@ void NetworkRobot::Take(const sim::Reading& reading) {
   if (pace_ == NetworkPace::kFree) return;
   window_.NoteSent(reading.scan.stamp);
   if (!window_.WaitForRoom(kPatience)) {
-    spdlog::warn("{}: no answer for {} s; going on", names().name(), kPatience.count());
+    messages::Warn("{}: no answer for {} s; going on", names().name(), kPatience.count());
   }
 }
 

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/results/results_folder.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
+#include <ctime>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -56,7 +57,10 @@ void RefuseInputsIn(const fs::path& folder, std::span<const fs::path> inputs) {
 
 std::string UtcTime() {
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  return fmt::format("{:%Y-%m-%dT%H-%M-%SZ}", fmt::gmtime(now));
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  std::array<char, 32> text{};
+  return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H-%M-%SZ", &utc)};
 }
 
 void PointTo(const fs::path& link, const fs::path& target) {

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/results/results_writer.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <array>
 #include <cmath>
 #include <utility>
@@ -14,6 +12,7 @@
 #include "service/io/pictures/residual_plot.hpp"
 #include "service/io/trajectories/trajectory_file.hpp"
 #include "service/pipeline/results/run_report.hpp"
+#include "service/pipeline/text/messages.hpp"
 
 namespace qwsm::pipeline {
 namespace {
@@ -92,7 +91,7 @@ void ResultsWriter::Report(const Outcome& outcome, const Trajectory& truth) {
   if (!truth_in_map_.empty()) io::WriteTumFile(folder_ / "truth.tum", truth_in_map_);
   io::WriteTextFile(
       folder_ / "metrics.json",
-      MetricsJson(statistics_, outcome.map, outcome.matcher, truth_report_, outcome.loops));
+      MetricsJson(statistics_, outcome.map, outcome.matcher, truth_report_, outcome.loops).Text());
   const std::array<io::ResidualSeries, 1> series{
       {{.name = std::string(Name(outcome.matcher)), .residual_mm = history_.residuals_mm()}}};
   io::WriteResidualPlot(folder_ / "residual.png", series);
@@ -111,18 +110,18 @@ void ResultsWriter::DrawMap(const ScanMap& map,
 std::optional<OccupancyGrid> RenderOrWarn(const ScanMap& map, OccupancyGridOptions rendering) {
   OccupancyGridResult result = RenderOccupancyGrid(map.scans(), rendering);
   if (result.status == RenderStatus::kTooLarge && std::isfinite(result.smallest_cell_m)) {
-    spdlog::warn("the map of {:.0f} x {:.0f} m is drawn with cells of {:.2g} m, not {:.2g} m",
-                 result.extent_x_m,
-                 result.extent_y_m,
-                 result.smallest_cell_m,
-                 rendering.cell_m);
+    messages::Warn("the map of {:.0f} x {:.0f} m is drawn with cells of {:.2g} m, not {:.2g} m",
+                   result.extent_x_m,
+                   result.extent_y_m,
+                   result.smallest_cell_m,
+                   rendering.cell_m);
     rendering.cell_m = result.smallest_cell_m;
     result = RenderOccupancyGrid(map.scans(), rendering);
   }
   if (result.status == RenderStatus::kRendered) return std::move(result.grid);
-  spdlog::warn("no map is drawn: {}",
-               result.status == RenderStatus::kNothingMeasured ? "no scan shows anything"
-                                                               : "it is too large");
+  messages::Warn("no map is drawn: {}",
+                 result.status == RenderStatus::kNothingMeasured ? "no scan shows anything"
+                                                                 : "it is too large");
   return std::nullopt;
 }
 

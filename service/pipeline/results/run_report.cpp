@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "qwsm/geometry/angle.hpp"
 #include "service/pipeline/run/progress_display.hpp"
@@ -18,7 +17,7 @@ double ScansPerSecond(const RunStatistics& run) {
   return time_s > 0.0 ? static_cast<double>(run.scans()) / time_s : 0.0;
 }
 
-void AddTo(nlohmann::ordered_json& json, const TruthReport& truth) {
+void AddTo(Json& json, const TruthReport& truth) {
   json["ate_rmse_m"] = truth.ate_rmse_m;
   json["ate_from_start_rmse_m"] = truth.ate_from_start_rmse_m;
   json["heading_rmse_deg"] = RadiansToDegrees(truth.heading_rmse_rad);
@@ -35,13 +34,13 @@ std::string_view Name(MatcherKind matcher) {
   return found->first;
 }
 
-std::string MetricsJson(const RunStatistics& run,
-                        const ScanMap& map,
-                        MatcherKind matcher,
-                        const std::optional<TruthReport>& truth,
-                        const std::optional<LoopCounts>& loops) {
+Json MetricsJson(const RunStatistics& run,
+                 const ScanMap& map,
+                 MatcherKind matcher,
+                 const std::optional<TruthReport>& truth,
+                 const std::optional<LoopCounts>& loops) {
   const PointQuadtreeStatistics points = map.surfaces().quadtree().Statistics();
-  nlohmann::ordered_json json;
+  Json json;
   json["matcher"] = Name(matcher);
   json["scans"] = run.scans();
   json["matched"] = run.Count(StepStatus::kMatched);
@@ -68,7 +67,7 @@ std::string MetricsJson(const RunStatistics& run,
     json["loops"]["accepted"] = loops->accepted;
   }
   if (truth) AddTo(json, *truth);
-  return json.dump(2) + "\n";
+  return json;
 }
 
 std::string SummaryText(const RunStatistics& run,

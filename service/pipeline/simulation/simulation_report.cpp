@@ -6,7 +6,8 @@
 
 #include <chrono>
 #include <cmath>
-#include <nlohmann/json.hpp>
+
+#include "service/pipeline/text/json.hpp"
 
 namespace qwsm::pipeline {
 namespace {
@@ -18,21 +19,21 @@ double SimulatedTime_s(const sim::Simulation& simulation) {
 }  // namespace
 
 std::string SimulationJson(const sim::Simulation& simulation, const SimulatedLogs& logs) {
-  nlohmann::ordered_json json;
+  Json json;
   json["simulated_s"] = SimulatedTime_s(simulation);
-  json["robots"] = nlohmann::ordered_json::array();
+  json["robots"] = Json::Array();
   for (std::size_t i = 0; i < logs.size(); ++i) {
     const Pose2 error = logs[i]->OdometryError();
-    nlohmann::ordered_json robot;
+    Json robot;
     robot["name"] = simulation.robots()[i].options().name;
     robot["scans"] = logs[i]->scans();
     robot["path_length_m"] = logs[i]->path_length_m();
     robot["odometry_error_m"] = error.translation_m().norm();
     robot["odometry_error_deg"] = RadiansToDegrees(std::abs(error.theta_rad));
     robot["arrived"] = simulation.robots()[i].driver().has_arrived();
-    json["robots"].push_back(robot);
+    json["robots"].Add(robot);
   }
-  return json.dump(2) + "\n";
+  return json.Text();
 }
 
 std::string SimulationSummary(const sim::Simulation& simulation, const SimulatedLogs& logs) {

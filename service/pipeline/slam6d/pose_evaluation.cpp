@@ -7,16 +7,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
 
 #include "service/config/text_table.hpp"
+#include "service/pipeline/text/json.hpp"
 #include "slam6d/icp/closed_form.hpp"
 
 namespace slam6d::pipeline {
 namespace {
+
+using qwsm::pipeline::Json;
 
 constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
@@ -106,20 +108,21 @@ std::string ErrorTable(std::span<const NamedErrors> all) {
 }
 
 std::string ErrorJson(std::span<const NamedErrors> all) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  Json list = Json::Array();
   for (const NamedErrors& named : all) {
     const PoseErrors& e = named.errors;
-    list.push_back({{"trajectory", named.name},
-                    {"poses", e.poses},
-                    {"ate",
-                     {{"rmse_m", e.rmse_m},
-                      {"mean_m", e.mean_m},
-                      {"max_m", e.max_m},
-                      {"rmse_deg", e.rmse_rad * kDegreesPerRadian},
-                      {"mean_deg", e.mean_rad * kDegreesPerRadian},
-                      {"max_deg", e.max_rad * kDegreesPerRadian}}}});
+    Json json;
+    json["trajectory"] = named.name;
+    json["poses"] = e.poses;
+    json["ate"]["rmse_m"] = e.rmse_m;
+    json["ate"]["mean_m"] = e.mean_m;
+    json["ate"]["max_m"] = e.max_m;
+    json["ate"]["rmse_deg"] = e.rmse_rad * kDegreesPerRadian;
+    json["ate"]["mean_deg"] = e.mean_rad * kDegreesPerRadian;
+    json["ate"]["max_deg"] = e.max_rad * kDegreesPerRadian;
+    list.Add(std::move(json));
   }
-  return list.dump(2) + "\n";
+  return list.Text();
 }
 
 }  // namespace slam6d::pipeline

@@ -3,13 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "service/pipeline/run/progress_display.hpp"
 #include "service/pipeline/slam6d/registration_results.hpp"
+#include "service/pipeline/text/json.hpp"
 
 namespace slam6d::pipeline {
 namespace {
+
+using qwsm::pipeline::Json;
 
 /// What is counted over all scans.
 struct Figures {
@@ -51,7 +53,7 @@ Figures FiguresOf(const Registration& registration) {
 
 std::string MetricsJson(const Registration& registration) {
   const Figures figures = FiguresOf(registration);
-  nlohmann::ordered_json json;
+  Json json;
   json["scans"] = registration.scans.size();
   json["scans_in_series"] = registration.series_size;
   json["matched"] = Count(registration, SlamStatus::kMatched);
@@ -67,7 +69,7 @@ std::string MetricsJson(const Registration& registration) {
   json["time_registration_s"] = figures.time_s;
   json["time_refinement_s"] = registration.refinement_time_s;
   json["interrupted"] = registration.interrupted;
-  return json.dump(2) + "\n";
+  return json.Text();
 }
 
 std::string SummaryText(const Registration& registration) {

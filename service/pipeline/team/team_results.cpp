@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/team/team_results.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -18,6 +16,7 @@
 #include "service/pipeline/results/results_writer.hpp"
 #include "service/pipeline/results/run_report.hpp"
 #include "service/pipeline/run/parallel.hpp"
+#include "service/pipeline/text/messages.hpp"
 
 namespace qwsm::pipeline {
 
@@ -39,7 +38,7 @@ class TeamResults::RobotResults {
       files_->second.Take(timed);
     } catch (const io::WriteError& error) {
       has_failed_ = true;
-      spdlog::error("{}; the results end here", error.what());
+      messages::Error("{}; the results end here", error.what());
     }
     statistics_.Take(timed);
     history_.Take(timed);
@@ -50,7 +49,7 @@ class TeamResults::RobotResults {
     files_->first.Commit();
     files_->second.Commit();
     io::WriteTextFile(folder_ / "metrics.json",
-                      MetricsJson(statistics_, map, MatcherKind::kQWsm, std::nullopt));
+                      MetricsJson(statistics_, map, MatcherKind::kQWsm, std::nullopt).Text());
     if (grid) io::WriteTrajectoryPicture(folder_ / "trajectory.png", *grid, history_.Overlay());
   }
 
