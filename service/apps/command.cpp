@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <sstream>
 
 #include "service/config/suggestion.hpp"
 #include "service/pipeline/text/messages.hpp"
@@ -21,7 +22,12 @@ void AddConfiguration(CLI::App& parser, config::OptionSources& sources) {
       .add_option_function<std::string>("--config", take_file, "options in YAML; see qwsm config")
       ->type_name("FILE")
       ->group("Configuration");
-  parser.add_option("--set", sources.settings, "one option, over the file's; may be repeated")
+  const auto take_settings = [&sources](const std::vector<std::string>& settings) {
+    sources.settings.insert(sources.settings.end(), settings.begin(), settings.end());
+  };
+  parser
+      .add_option_function<std::vector<std::string>>(
+          "--set", take_settings, "one option, over the file's; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false)
       ->group("Configuration");
@@ -36,6 +42,31 @@ void AddVerbosity(CLI::App& parser, Verbosity& verbosity, const std::string& jso
   parser.add_flag("-v,--verbose", verbosity.verbose, "say more about what is done")
       ->excludes("--quiet")
       ->group("Messages");
+}
+
+namespace {
+
+void AddSetting(CLI::App& parser,
+                config::OptionSources& sources,
+                const std::string& flag,
+                const std::string& key,
+                const std::string& help) {
+  const auto set = [&sources, key](const std::string& value) {
+    sources.settings.push_back(key + "=" + value);
+  };
+  parser.add_option_function<std::string>(flag, set, help)->type_name("NAME")->group("Bags");
+}
+
+}  // namespace
+
+void AddTopics(CLI::App& parser, config::OptionSources& sources) {
+  AddSetting(
+      parser, sources, "--scan", "log.scan", "topics of scans, with commas; else all lasers");
+  AddSetting(parser, sources, "--odom", "log.odometry", "topic of odometry, or /tf; else chosen");
+}
+
+void AddRobot(CLI::App& parser, config::OptionSources& sources) {
+  AddSetting(parser, sources, "--robot", "log.robot", "of several robots, that of this namespace");
 }
 
 MatcherKind MatcherNamed(const std::string& name) {
@@ -55,6 +86,10 @@ io::LogOptions LogOptionsOf(const options::LogOptions& options) {
   log.strict = options.strict;
   if (options.range_max_m > 0.0) log.range_max_m = static_cast<float>(options.range_max_m);
   if (options.field_of_view_rad > 0.0) log.field_of_view_rad = options.field_of_view_rad;
+  std::istringstream topics(options.scan);
+  for (std::string topic; std::getline(topics, topic, ',');) log.scan_topics.push_back(topic);
+  log.odometry_topic = options.odometry;
+  log.robot = options.robot;
   log.on_fault = [](const std::string& fault) { messages::Warn(fault); };
   return log;
 }

@@ -49,6 +49,12 @@ CLI::App* AddParser(CLI::App& program, const std::string& name, const std::strin
 /// Adds the arguments --config and --set.
 void AddConfiguration(CLI::App& parser, config::OptionSources& sources);
 
+/// Adds the arguments --scan and --odom, which say what of a bag is read, as settings.
+void AddTopics(CLI::App& parser, config::OptionSources& sources);
+
+/// Adds the argument --robot, which says whose scans of a bag are read, as a setting.
+void AddRobot(CLI::App& parser, config::OptionSources& sources);
+
 /// Adds the arguments --quiet, --verbose and, where it has a meaning, --json.
 void AddVerbosity(CLI::App& parser, Verbosity& verbosity, const std::string& json_help);
 

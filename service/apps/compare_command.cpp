@@ -48,6 +48,7 @@ Command AddCompareCommand(CLI::App& program) {
       "  qwsm compare intel.log --output intel            intel/q-wsm, intel/wsm, intel/icp ...\n"
       "  qwsm compare intel.log --json                    figures for programs");
   AddRunArguments(*parser, *arguments, "all figures as JSON on standard output");
+  AddRobot(*parser, arguments->sources);
   return {.parser = parser, .run = [arguments] { return RunCompare(*arguments); }};
 }
 

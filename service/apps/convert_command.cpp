@@ -107,6 +107,8 @@ Command AddConvertCommand(CLI::App& program) {
       ->check(CLI::IsMember({"carmen", "carmen-flaser", "odometry", "truth"}))
       ->type_name("FORM")
       ->capture_default_str();
+  AddTopics(*parser, arguments->sources);
+  AddRobot(*parser, arguments->sources);
   AddConfiguration(*parser, arguments->sources);
   return {.parser = parser, .run = [arguments] { return RunConvert(*arguments); }};
 }

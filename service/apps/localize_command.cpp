@@ -106,6 +106,7 @@ Command AddLocalizeCommand(CLI::App& program) {
       ->check(NumberBetween(-kFarthestCoordinate_m, kFarthestCoordinate_m))
       ->type_name("X Y DEG");
   AddRunArguments(*parser, arguments->run);
+  AddRobot(*parser, arguments->run.sources);
   return {.parser = parser, .run = [arguments] { return RunLocalize(*arguments); }};
 }
 

@@ -35,6 +35,7 @@ struct MapArguments {
 
 options::ProgramOptions LoadOptions(const MapArguments& arguments) {
   auto options = config::LoadOptions<options::ProgramOptions>(arguments.run.sources);
+  if (arguments.robot && !arguments.is_simulated()) options.log.robot = *arguments.robot;
   if (arguments.matcher) options.mapper.matcher = MatcherNamed(*arguments.matcher);
   if (arguments.save_map && options.mapper.matcher != MatcherKind::kQWsm) {
     throw UsageError("--save-map needs the matcher q-wsm: the others forget what they have seen");
@@ -47,8 +48,8 @@ void CheckSource(const MapArguments& arguments) {
     throw UsageError("map needs either logs or --sim SCENARIO");
   }
   const ScenarioArguments& simulated = arguments.simulated;
-  if (!arguments.is_simulated() && (simulated.seed || simulated.duration_s || arguments.robot)) {
-    throw UsageError("--seed, --duration and --robot belong to --sim SCENARIO");
+  if (!arguments.is_simulated() && (simulated.seed || simulated.duration_s)) {
+    throw UsageError("--seed and --duration belong to --sim SCENARIO");
   }
 }
 
@@ -147,6 +148,8 @@ Command AddMapCommand(CLI::App& program) {
       "  qwsm map intel.log --save-map intel.qwsm         to localize in later\n"
       "  qwsm map intel.log --set graph.enabled=false     nothing is corrected in the end\n"
       "  qwsm map robot.log --set mapper.motion.rotation_per_rotation=0.5\n"
+      "  qwsm map drive.bag                               ROS 1; rosbag2: a folder, .mcap, .db3\n"
+      "  qwsm map team --robot robot1 --scan robot1/scan  of a bag with more in it\n"
       "  qwsm map --sim office --seed 7                   a simulated robot, with the truth\n"
       "  zcat *.log.gz | qwsm map - --quiet               from a pipe");
   AddRunArguments(*parser, arguments->run)->required(false);
@@ -161,8 +164,7 @@ Command AddMapCommand(CLI::App& program) {
       ->group("Simulation");
   AddScenarioSettings(*parser, arguments->simulated);
   parser->add_option("--robot", arguments->robot, "of several robots, that of this name")
-      ->type_name("NAME")
-      ->group("Simulation");
+      ->type_name("NAME");
   return {.parser = parser, .run = [arguments] { return RunMap(*arguments); }};
 }
 

@@ -22,7 +22,9 @@ ExitCode RunReplay(const LogReplayArguments& arguments) {
   const NetworkSession session(arguments.network);
   const Verbosity& verbosity = arguments.network.verbosity;
   ReplayOptionsOf(arguments.replay, verbosity);  // Wrong ones are told before a log is read.
-  pipeline::LogSource source(arguments.logs, LogOptionsOf(session.options().log));
+  io::LogOptions log = LogOptionsOf(session.options().log);
+  if (log.robot.empty()) log.robot = arguments.replay.robot;
+  pipeline::LogSource source(arguments.logs, log);
   if (source.Peek() == nullptr) {
     throw UsageError("there is no scan in " + arguments.logs.front().string());
   }
@@ -40,9 +42,12 @@ Command AddReplayCommand(CLI::App& program) {
       "  qwsm replay intel.log.gz --robot robot1    as /robot1/scan and /robot1/odom\n"
       "  qwsm replay intel.log.gz --rate 10         ten times as fast\n"
       "  qwsm replay intel.log.gz --rate max        as fast as the service answers");
-  parser->add_option("LOG", arguments->logs, "logs, parts of one recording; - is standard input")
+  parser
+      ->add_option(
+          "LOG", arguments->logs, "logs or bags, parts of one recording; - is standard input")
       ->required()
       ->type_name("");
+  AddTopics(*parser, arguments->network.sources);
   AddReplayArguments(*parser, arguments->replay);
   AddNetworkArguments(*parser, arguments->network, {});
   return {.parser = parser, .run = [arguments] { return RunReplay(*arguments); }};

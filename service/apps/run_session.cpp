@@ -35,9 +35,12 @@ CLI::Option* AddRunArguments(CLI::App& parser,
                              RunArguments& arguments,
                              const std::string& json_help) {
   CLI::Option* logs =
-      parser.add_option("LOG", arguments.logs, "logs, parts of one recording; - is standard input")
+      parser
+          .add_option(
+              "LOG", arguments.logs, "logs or bags, parts of one recording; - is standard input")
           ->required()
           ->type_name("");
+  AddTopics(parser, arguments.sources);
   AddResultArguments(parser, arguments, json_help);
   return logs;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <numbers>
+#include <string>
 
 #include "qwsm/mapping/mapper.hpp"
 #include "qwsm/mapping/occupancy_grid.hpp"
@@ -18,6 +19,9 @@ struct LogOptions {
   bool strict = false;
   double range_max_m = 0.0;
   double field_of_view_rad = 0.0;
+  std::string scan;
+  std::string odometry;
+  std::string robot;
 };
 
 template <class Visitor>
@@ -31,6 +35,10 @@ void Describe(Visitor& visit, LogOptions& o) {
         {.help = "of the laser; 0: as the log says or its beams suggest",
          .min = 0,
          .max = 2.0 * std::numbers::pi});
+  visit("scan", o.scan, {.help = "of a bag: topics of scans, with commas; empty: one per laser"});
+  visit(
+      "odometry", o.odometry, {.help = "of a bag: topic of odometry, or /tf; empty: the robot's"});
+  visit("robot", o.robot, {.help = "of a bag of several robots: the namespace of one"});
 }
 
 /// Options for correcting the map where loops are closed.

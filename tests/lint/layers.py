@@ -45,6 +45,9 @@ THIRD_PARTY = {
     "libpng": (r"png\.h", {"service/io"}),
     "Ceres": (r"ceres/", {"service/graph"}),
     "Boost": (r"boost/", {"service/io"}),
+    "zstd": (r"zstd\.h", {"service/io"}),
+    "LZ4": (r"lz4frame\.h", {"service/io"}),
+    "bzip2": (r"bzlib\.h", {"service/io"}),
     "SQLite": (r"sqlite3\.h", {"service/io"}),
     "nlohmann-json": (r"nlohmann/", {"service/pipeline"}),
     "Cyclone DDS": (r"dds/(dds\.h|dds[a-z]*/)", {"service/dds", "idl"}),
@@ -59,7 +62,9 @@ THIRD_PARTY = {
 
 # Libraries that even their own layer keeps to its .cpp files, so that a port touches few of them and
 # few of ours compile them.
-SOURCES_ONLY = {"Box2D", "Boost", "Cairo", "Ceres", "SQLite", "nlohmann-json", "spdlog"}
+SOURCES_ONLY = {
+    "Box2D", "Boost", "Cairo", "Ceres", "LZ4", "SQLite", "bzip2", "nlohmann-json", "spdlog", "zstd"
+}
 
 # Standard headers by which a library would print, open files, read clocks or run threads.
 IMPURE = {"cstdio", "filesystem", "fstream", "iostream", "stdio.h"}

@@ -4,8 +4,8 @@
 
 #include <cmath>
 #include <cstring>
-#include <limits>
 
+#include "qwsm/geometry/quaternion.hpp"
 #include "service/dds/wire/robot_names.hpp"
 
 namespace qwsm::dds {
@@ -15,12 +15,6 @@ constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 
 // Indices of x, y and yaw among (x, y, z, roll, pitch, yaw).
 constexpr int kPlanar[3] = {0, 1, 5};
-
-double Neighbor(double value, int steps) {
-  const double towards = std::copysign(std::numeric_limits<double>::infinity(), steps);
-  for (int i = 0; i < std::abs(steps); ++i) value = std::nextafter(value, towards);
-  return value;
-}
 
 }  // namespace
 
@@ -46,31 +40,14 @@ std::chrono::nanoseconds Nanoseconds(double duration_s) {
 }
 
 wire::Quaternion QuaternionOf(double theta_rad) {
-  const wire::Quaternion rounded{0.0, 0.0, std::sin(theta_rad / 2.0), std::cos(theta_rad / 2.0)};
-  // Sine and cosine are rounded; among their neighbours is a pair that gives the angle back.
-  constexpr int kReach = 3;
-  for (int dz = 0; dz <= kReach; ++dz) {
-    for (int dw = 0; dw <= kReach; ++dw) {
-      for (const int sign : {1, -1}) {
-        for (const int side : {1, -1}) {
-          const wire::Quaternion near{
-              0.0, 0.0, Neighbor(rounded.z, sign * dz), Neighbor(rounded.w, side * dw)};
-          if (YawOf(near) == theta_rad) return near;
-        }
-      }
-    }
-  }
-  return rounded;
+  const Quaternion rotation = qwsm::QuaternionOf(theta_rad);
+  return {rotation.x, rotation.y, rotation.z, rotation.w};
 }
 
-double YawOf(const wire::Quaternion& q) {
-  if (q.x == 0.0 && q.y == 0.0) return NormalizeAngle(2.0 * std::atan2(q.z, q.w));
-  return std::atan2(2.0 * (q.w * q.z + q.x * q.y), q.w * q.w + q.x * q.x - q.y * q.y - q.z * q.z);
-}
+double YawOf(const wire::Quaternion& q) { return qwsm::YawOf(Quaternion{q.x, q.y, q.z, q.w}); }
 
 double UprightnessOf(const wire::Quaternion& q) {
-  const double squared_length = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-  return (q.w * q.w + q.z * q.z - q.x * q.x - q.y * q.y) / squared_length;
+  return qwsm::UprightnessOf(Quaternion{q.x, q.y, q.z, q.w});
 }
 
 wire::Pose ToWire(const Pose2& pose) {

@@ -34,6 +34,8 @@ std::uint32_t Checksum(std::string_view bytes) {
   return crc.checksum();
 }
 
+void BinaryWriter::Add(std::uint8_t value) { AppendBytes(bytes_, value); }
+void BinaryWriter::Add(std::uint16_t value) { AppendBytes(bytes_, value); }
 void BinaryWriter::Add(std::uint32_t value) { AppendBytes(bytes_, value); }
 void BinaryWriter::Add(std::uint64_t value) { AppendBytes(bytes_, value); }
 void BinaryWriter::Add(std::int64_t value) {
@@ -46,6 +48,10 @@ void BinaryWriter::Add(std::string_view text) {
   bytes_ += text;
 }
 
+std::uint8_t BinaryReader::Unsigned8() { return Assemble<std::uint8_t>(Take(1)); }
+std::uint16_t BinaryReader::Unsigned16() {
+  return Assemble<std::uint16_t>(Take(sizeof(std::uint16_t)));
+}
 std::uint32_t BinaryReader::Unsigned32() {
   return Assemble<std::uint32_t>(Take(sizeof(std::uint32_t)));
 }
@@ -56,6 +62,11 @@ std::int64_t BinaryReader::Signed64() { return static_cast<std::int64_t>(Unsigne
 float BinaryReader::Float() { return std::bit_cast<float>(Unsigned32()); }
 double BinaryReader::Double() { return std::bit_cast<double>(Unsigned64()); }
 std::string_view BinaryReader::Text() { return Take(Unsigned32()); }
+
+std::string_view BinaryReader::Bytes(std::uint64_t size) {
+  if (size > remaining()) throw BinaryError("claims to hold more than there is");
+  return Take(static_cast<std::size_t>(size));
+}
 
 std::size_t BinaryReader::Count(std::size_t bytes_each) {
   const std::uint64_t count = Unsigned64();

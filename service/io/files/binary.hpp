@@ -13,6 +13,8 @@ namespace qwsm::io {
 /// Puts numbers one after the other, little endian and unaligned, on any machine.
 class BinaryWriter {
  public:
+  void Add(std::uint8_t value);
+  void Add(std::uint16_t value);
   void Add(std::uint32_t value);
   void Add(std::uint64_t value);
   void Add(std::int64_t value);
@@ -20,6 +22,8 @@ class BinaryWriter {
   void Add(double value);
   /// Adds a text: its length, then its bytes.
   void Add(std::string_view text);
+  /// Adds bytes as they are.
+  void AddBytes(std::string_view bytes) { bytes_ += bytes; }
 
   const std::string& bytes() const { return bytes_; }
 
@@ -42,12 +46,16 @@ class BinaryReader {
  public:
   explicit BinaryReader(std::string_view bytes) : bytes_(bytes) {}
 
+  std::uint8_t Unsigned8();
+  std::uint16_t Unsigned16();
   std::uint32_t Unsigned32();
   std::uint64_t Unsigned64();
   std::int64_t Signed64();
   float Float();
   double Double();
   std::string_view Text();
+  /// Takes so many bytes as they are.
+  std::string_view Bytes(std::uint64_t size);
   /// Takes a number of things of at least `bytes_each`, which are there: safe to allocate for.
   std::size_t Count(std::size_t bytes_each);
 

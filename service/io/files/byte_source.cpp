@@ -8,6 +8,7 @@
 #include <boost/iostreams/filter/bzip2.hpp>
 #include <boost/iostreams/filter/gzip.hpp>
 #include <boost/iostreams/filter/lzma.hpp>
+#include <boost/iostreams/filter/zstd.hpp>
 #include <boost/iostreams/filtering_streambuf.hpp>
 #include <stdexcept>
 #include <string_view>
@@ -25,6 +26,7 @@ std::string CompressionOf(std::string_view first_bytes) {
   if (first_bytes.starts_with("\x1f\x8b"sv)) return "gzip";
   if (first_bytes.starts_with("BZh"sv)) return "bzip2";
   if (first_bytes.starts_with("\xfd\x37\x7a\x58\x5a\0"sv)) return "xz";
+  if (first_bytes.starts_with("\x28\xb5\x2f\xfd"sv)) return "zstd";
   return "none";
 }
 
@@ -89,6 +91,7 @@ struct ByteSource::State {
     if (compression == "gzip") decoder.push(bio::gzip_decompressor(), kDecodedBytes);
     if (compression == "bzip2") decoder.push(bio::bzip2_decompressor(), kDecodedBytes);
     if (compression == "xz") decoder.push(bio::lzma_decompressor(), kDecodedBytes);
+    if (compression == "zstd") decoder.push(bio::zstd_decompressor(), kDecodedBytes);
     if (compression != "none") decoder.push(InputDevice<Input>(input));
   }
 

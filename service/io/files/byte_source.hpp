@@ -11,7 +11,7 @@
 
 namespace qwsm::io {
 
-/// The bytes of a stream, decompressed where they begin like gzip, bzip2 or xz.
+/// The bytes of a stream, decompressed where they begin like gzip, bzip2, xz or zstd.
 class ByteSource {
  public:
   /// Looks at the first bytes of `stream`, which must outlive this.
@@ -24,7 +24,7 @@ class ByteSource {
   ///         before has been returned.
   std::size_t Read(std::span<char> buffer);
 
-  /// "none", "gzip", "bzip2" or "xz".
+  /// "none", "gzip", "bzip2", "xz" or "zstd".
   const std::string& compression() const;
 
   /// Bytes taken from the stream, of the compressed form.

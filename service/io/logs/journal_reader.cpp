@@ -23,6 +23,7 @@ JournalReader::JournalReader(const std::filesystem::path& file)
     : journal_(Open(file)), entries_(journal_.size()) {
   report_.name = file.string();
   report_.format = "journal";
+  report_.line_name = "entries";
   report_.compression = "none";
 }
 

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <utility>
 
+#include "service/io/bags/assembly/bag_reader.hpp"
 #include "service/io/files/file_error.hpp"
 #include "service/io/journal/sqlite_database.hpp"
 #include "service/io/logs/journal_reader.hpp"
@@ -21,6 +22,7 @@ std::unique_ptr<LogReader> OpenLog(std::istream& stream,
 
 std::unique_ptr<LogReader> OpenLog(const std::filesystem::path& path, const LogOptions& options) {
   if (path == "-") return OpenLog(std::cin, "standard input", options);
+  if (IsBag(path)) return std::make_unique<BagReader>(path, options);
   if (IsSqliteDatabase(path)) return std::make_unique<JournalReader>(path);
   std::unique_ptr<std::ifstream> file;
   try {

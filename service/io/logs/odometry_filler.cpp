@@ -4,28 +4,14 @@
 
 #include <utility>
 
+#include "service/io/logs/odometry_between.hpp"
+
 namespace qwsm::io {
 namespace {
-
-using namespace std::chrono_literals;
 
 constexpr std::size_t kKeptOdometry = 256;
 constexpr std::size_t kMaxHeldRecords = 256;
 constexpr std::size_t kMaxHeldReadings = 1'000'000;
-constexpr Timestamp kLongestGap = 2s;       // Between readings; what happens within is unknown.
-constexpr Timestamp kLongestReach = 200ms;  // Beyond the first or last reading.
-
-Pose2 Between(const OdometryReading& before, const OdometryReading& after, Timestamp stamp) {
-  const Timestamp span = after.stamp - before.stamp;
-  if (span == Timestamp::zero()) return before.T_odom_robot;
-  const double share =
-      static_cast<double>((stamp - before.stamp).count()) / static_cast<double>(span.count());
-  const Pose2& a = before.T_odom_robot;
-  const Pose2& b = after.T_odom_robot;
-  return {a.x_m + share * (b.x_m - a.x_m),
-          a.y_m + share * (b.y_m - a.y_m),
-          NormalizeAngle(a.theta_rad + share * NormalizeAngle(b.theta_rad - a.theta_rad))};
-}
 
 std::size_t ReadingsOf(const LogRecord& record) {
   const auto* scan = std::get_if<ScanReading>(&record);

@@ -60,18 +60,23 @@ std::vector<std::string> LogSource::Describe() const {
   std::vector<std::string> lines;
   for (const auto& reader : readers_) {
     const io::LogReport& report = reader->report();
-    lines.push_back(fmt::format("{}: {} log, {} scans, {} odometry readings in {} lines",
+    lines.push_back(fmt::format("{}: {} log, {} scans, {} odometry readings in {} {}",
                                 report.name,
                                 report.format,
                                 report.scans,
                                 report.odometry_readings,
-                                report.lines));
+                                report.lines,
+                                report.line_name));
+    for (const std::string& note : report.notes) {
+      lines.push_back(fmt::format("{}: {}", report.name, note));
+    }
     for (const io::LogFault& fault : report.faults) {
-      lines.push_back(fmt::format("{}:{}: {} ({} lines{})",
+      lines.push_back(fmt::format("{}:{}: {} ({} {}{})",
                                   report.name,
                                   fault.first_line,
                                   fault.what,
                                   fault.count,
+                                  report.line_name,
                                   fault.line_was_skipped ? ", skipped" : ""));
     }
   }

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "qwsm/logs/log_record.hpp"
 #include "qwsm/logs/log_report.hpp"
@@ -29,6 +30,12 @@ struct LogOptions {
   bool strict = false;  ///< Throw at a malformed line instead of counting and skipping it.
   /// The laser's name or message ("rear", "RLASER"), or "all"; empty: the front one.
   std::string laser;
+  /// Of a bag: topics of scans; empty: one of each laser.
+  std::vector<std::string> scan_topics;
+  /// Of a bag: topic of odometry, or "/tf"; empty: the robot's own.
+  std::string odometry_topic;
+  /// Of a bag of several robots: the namespace of one. Where there is only one, it is read.
+  std::string robot;
   std::optional<Pose2> T_robot_laser;       ///< Replaces what the log says of the mounting.
   std::optional<float> range_max_m;         ///< Replaces what the log says or shows.
   std::optional<double> field_of_view_rad;  ///< Replaces the guess where lines do not state it.
@@ -44,9 +51,10 @@ struct LogProgress {
 
 /// Reads a robot log message by message.
 ///
-/// Memory is bounded: the reader looks some thousand sweeps ahead, to know the lasers before it
-/// delivers the first, but never keeps the whole file. What it delivers depends on nothing but the
-/// bytes: a pipe gives the same records as a file.
+/// Memory is bounded: the reader of a text looks some thousand sweeps ahead, to know the lasers
+/// before it delivers the first, but never keeps the whole file; that of a bag keeps odometry and
+/// transforms, and where the scans stand. What it delivers depends on nothing but the bytes: a pipe
+/// gives the same records as a file.
 class LogReader {
  public:
   LogReader() = default;
@@ -54,7 +62,8 @@ class LogReader {
   LogReader& operator=(const LogReader&) = delete;
   virtual ~LogReader() = default;
 
-  /// The next message, in the order of the file; nothing at the end.
+  /// The next message, in the order of the file, or that of the stamps in a bag; nothing at the
+  /// end.
   /// @throws LogError where the file is damaged, after everything before the damage was delivered;
   ///         or, when strict, at a malformed line.
   virtual std::optional<LogRecord> Next() = 0;
@@ -63,14 +72,15 @@ class LogReader {
   virtual LogProgress progress() const = 0;
 };
 
-/// Opens a log: CARMEN, Player or DP-SLAM text; plain, gzip, bzip2 or xz; or the journal of a
-/// service. All are recognised from the content, never from the name. "-" is standard input.
+/// Opens a log: CARMEN, Player or DP-SLAM text; plain, gzip, bzip2, xz or zstd; a bag of ROS 1, or
+/// of rosbag2 as a file (.mcap, .db3) or a folder; or the journal of a service. All are recognised
+/// from the content, never from the name. "-" is standard input, for texts.
 /// @throws LogError where there is no such file or it is not a log.
 std::unique_ptr<LogReader> OpenLog(const std::filesystem::path& path,
                                    const LogOptions& options = {});
 
-/// Opens a log of any of OpenLog's formats from a stream, which must outlive the reader; `name`
-/// stands for it in messages.
+/// Opens a log of any of OpenLog's formats of text from a stream, which must outlive the reader;
+/// `name` stands for it in messages.
 std::unique_ptr<LogReader> OpenLog(std::istream& stream,
                                    std::string_view name,
                                    const LogOptions& options = {});

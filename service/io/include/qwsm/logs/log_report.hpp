@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace qwsm::io {
@@ -21,11 +22,13 @@ struct LogFault {
 /// What was found in a log so far.
 struct LogReport {
   std::string name;         ///< The file, or "standard input".
-  std::string format;       ///< "CARMEN", "Player", "DP-SLAM" or "journal".
-  std::string compression;  ///< "none", "gzip", "bzip2" or "xz".
+  std::string format;       ///< "CARMEN", "Player", "DP-SLAM", "journal", "ROS 1 bag",
+                            ///< "rosbag2 (mcap)" or "rosbag2 (sqlite3)".
+  std::string compression;  ///< "none", "gzip", "bzip2", "xz" or "zstd".
   bool has_stamps = true;   ///< False where the format has no stamps and they were made up.
   std::size_t lines = 0;
-  std::size_t scans = 0;  ///< Scans delivered, like the next two counts.
+  std::string_view line_name = "lines";  ///< What is counted as such: lines, entries, messages.
+  std::size_t scans = 0;                 ///< Scans delivered, like the next two counts.
   std::size_t odometry_readings = 0;
   std::size_t true_poses = 0;
   /// Scans not delivered: of lasers that were not asked for, or repeated sweeps.
@@ -34,6 +37,8 @@ struct LogReport {
   std::size_t other_messages = 0;
   /// Unknown messages, counted by name.
   std::map<std::string, std::size_t, std::less<>> unknown_messages;
+  /// How it was understood where it leaves a choice, as "scans from /scan (laser on base_link)".
+  std::vector<std::string> notes;
   std::vector<LogFault> faults;  ///< In the order of first sight.
 
   /// Number of lines that could not be used.

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/io/bags/assembly/bag_reader.hpp"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "qwsm/sensor/scan_limits.hpp"
+#include "service/io/bags/messages/message_reader.hpp"
+
+namespace qwsm::io {
+namespace {
+
+LaserScan ScanOf(LaserScanMessage message, const LaserChoice& laser) {
+  // From above, an upside-down laser looks to the other side and turns the other way.
+  const float side = laser.is_upside_down ? -1.0F : 1.0F;
+  return {.stamp = message.header.stamp,
+          .geometry = {.first_bearing_rad = side * message.first_bearing_rad,
+                       .bearing_step_rad = side * message.bearing_step_rad,
+                       .range_min_m = message.range_min_m,
+                       .range_max_m = message.range_max_m,
+                       .T_robot_laser = laser.T_robot_laser},
+          .ranges_m = std::move(message.ranges_m)};
+}
+
+}  // namespace
+
+BagReader::BagReader(const std::filesystem::path& path, const LogOptions& options)
+    : options_(options), faults_(report_, options_) {
+  report_.name = path.string();
+  report_.line_name = "messages";
+  try {
+    contents_ = Survey(path, report_, faults_);
+  } catch (const LogError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    const std::string what = error.what();
+    throw LogError(what.starts_with(report_.name) ? what : report_.name + ": " + what);
+  }
+  report_.format = contents_.files.front().messages().format();
+  report_.compression = contents_.files.front().compression();
+  choice_ = ChooseRobot(contents_, options_, report_, faults_);
+  TakePlaces();
+  contents_.transforms.clear();
+  contents_.odometry.clear();
+  for (const auto& [type, count] : report_.unknown_messages) report_.other_messages += count;
+}
+
+/// Lists the scans of all lasers in the order of their stamps.
+void BagReader::TakePlaces() {
+  for (auto& [topic, scans] : contents_.scans) {
+    const auto laser = std::ranges::find(choice_.lasers, topic, &LaserChoice::topic);
+    if (laser == choice_.lasers.end()) {
+      report_.other_scans += scans.places.size();
+      continue;
+    }
+    const auto number = static_cast<std::size_t>(laser - choice_.lasers.begin());
+    for (const ScanPlace& place : scans.places) places_.push_back({.scan = place, .laser = number});
+  }
+  contents_.scans.clear();
+  std::ranges::sort(places_, {}, [](const Place& place) {
+    return std::tuple(place.scan.stamp, place.scan.sequence);
+  });
+}
+
+/// The next reading of a track, if it is not later than `until`.
+std::optional<OdometryReading> BagReader::NextOf(const OdometryTrack& track,
+                                                 std::size_t next,
+                                                 Timestamp until) const {
+  if (next >= track.size() || track.reading(next).stamp > until) return std::nullopt;
+  return track.reading(next);
+}
+
+std::optional<LogRecord> BagReader::Next() {
+  const Timestamp until =
+      next_scan_ < places_.size() ? places_[next_scan_].scan.stamp : Timestamp::max();
+  if (const auto truth = NextOf(choice_.truth, next_truth_, until)) {
+    ++next_truth_;
+    ++report_.true_poses;
+    return TruePoseReading{.stamp = truth->stamp,
+                           .T_world_robot = truth->T_odom_robot,
+                           .T_odom_robot = choice_.odometry.At(truth->stamp, 0)};
+  }
+  if (const auto odometry = NextOf(choice_.odometry, next_odometry_, until)) {
+    ++next_odometry_;
+    ++report_.odometry_readings;
+    return *odometry;
+  }
+  return NextScan();
+}
+
+/// The next scan that can be used.
+std::optional<LogRecord> BagReader::NextScan() {
+  while (next_scan_ < places_.size()) {
+    const Place& place = places_[next_scan_++];
+    const std::string& topic = choice_.lasers[place.laser].topic;
+    try {
+      ScanReading reading = ReadScan(place);
+      const std::string_view objection = ObjectionTo(reading.scan);
+      if (!objection.empty()) throw MessageError(std::string(objection));
+      ++report_.scans;
+      return reading;
+    } catch (const MessageError& error) {
+      faults_.OfMessage(topic, place.scan.sequence, error.what());
+    }
+  }
+  return std::nullopt;
+}
+
+ScanReading BagReader::ReadScan(const Place& place) {
+  MessageSource& messages = contents_.files[place.scan.file].messages();
+  const Encoding encoding = messages.topics()[place.scan.topic].encoding;
+  const std::string_view bytes = PlainMessage(messages.Read(place.scan.address), buffer_);
+  const LaserChoice& laser = choice_.lasers[place.laser];
+  ScanReading reading{.scan = ScanOf(DecodeLaserScan(bytes, encoding), laser),
+                      .T_odom_robot = choice_.odometry.At(place.scan.stamp, place.scan.sequence),
+                      .laser = laser.name};
+  LaserGeometry& geometry = reading.scan.geometry;
+  if (options_.range_max_m) geometry.range_max_m = *options_.range_max_m;
+  if (options_.T_robot_laser) geometry.T_robot_laser = *options_.T_robot_laser;
+  return reading;
+}
+
+LogProgress BagReader::progress() const {
+  return {.bytes_read = next_scan_, .bytes_total = places_.size()};
+}
+
+}  // namespace qwsm::io

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "qwsm/logs/log_reader.hpp"
+#include "service/io/bags/assembly/bag_survey.hpp"
+#include "service/io/bags/assembly/robot_choice.hpp"
+
+namespace qwsm::io {
+
+/// Reads a bag as a log: survey -> choice of a robot -> its scans, odometry and true poses in the
+/// order of their stamps.
+class BagReader final : public LogReader {
+ public:
+  /// Surveys a bag. @throws LogError where it is none, or the options do not fit it.
+  BagReader(const std::filesystem::path& path, const LogOptions& options);
+
+  std::optional<LogRecord> Next() override;
+  const LogReport& report() const override { return report_; }
+  /// Progress in scans, not in bytes.
+  LogProgress progress() const override;
+
+ private:
+  /// A scan, and the laser it is of.
+  struct Place {
+    ScanPlace scan;
+    std::size_t laser = 0;
+  };
+
+  void TakePlaces();
+  std::optional<LogRecord> NextScan();
+  ScanReading ReadScan(const Place& place);
+  std::optional<OdometryReading> NextOf(const OdometryTrack& track,
+                                        std::size_t next,
+                                        Timestamp until) const;
+
+  LogOptions options_;
+  LogReport report_;
+  BagFaults faults_;
+  BagContents contents_;
+  RobotChoice choice_;
+  std::vector<Place> places_;  // In the order of their stamps.
+  std::size_t next_scan_ = 0;
+  std::size_t next_odometry_ = 0;
+  std::size_t next_truth_ = 0;
+  std::string buffer_;
+};
+
+}  // namespace qwsm::io

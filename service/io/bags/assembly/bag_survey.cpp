@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/io/bags/assembly/bag_survey.hpp"
+
+#include <utility>
+
+#include "service/io/bags/containers/chunk_codec.hpp"
+#include "service/io/bags/messages/message_reader.hpp"
+
+namespace qwsm::io {
+namespace {
+
+constexpr std::size_t kMostUnknownTypes = 50;
+
+std::string_view LastPartOf(std::string_view topic) { return topic.substr(topic.rfind('/') + 1); }
+
+// A simulator knows where the robot is.
+bool IsTruth(const BagTopic& topic) { return LastPartOf(topic.name) == "ground_truth"; }
+
+/// Sorts the messages of a bag by what they are for.
+class Surveyor {
+ public:
+  Surveyor(BagContents& contents, LogReport& report, BagFaults& faults)
+      : contents_(contents), report_(report), faults_(faults) {}
+
+  void Take(const BagTopic& topic, const BagMessage& message, std::uint32_t file) {
+    ++report_.lines;
+    if (topic.encoding == Encoding::kOther) return CountUnknown(topic.type + " (not CDR)");
+    try {
+      const std::string_view bytes = PlainMessage(message.bytes, buffer_);
+      if (!TakeKnown(topic, message, bytes, file)) CountUnknown(topic.type);
+    } catch (const MessageError& error) {
+      faults_.OfMessage(topic.name, report_.lines, error.what());
+    }
+  }
+
+ private:
+  bool TakeKnown(const BagTopic& topic,
+                 const BagMessage& message,
+                 std::string_view bytes,
+                 std::uint32_t file) {
+    if (topic.type == kLaserScanMessage) {
+      TakeScan(topic, message, bytes, file);
+    } else if (topic.type == kOdometryMessage && IsTruth(topic)) {
+      TakeTruth(topic, DecodeOdometry(bytes, topic.encoding));
+    } else if (topic.type == kOdometryMessage) {
+      TakeOdometry(topic, bytes);
+    } else if (topic.type == kTransformsMessage || topic.type == kOldTransformsMessage) {
+      TakeTransforms(topic, bytes);
+    } else if (topic.type == kPoseMessage && IsTruth(topic)) {
+      TakeTruth(topic, DecodePose(bytes, topic.encoding));
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  void TakeScan(const BagTopic& topic,
+                const BagMessage& message,
+                std::string_view bytes,
+                std::uint32_t file) {
+    const RosHeader header = DecodeHeader(bytes, topic.encoding);
+    ScanTopic& scans = contents_.scans[topic.name];
+    if (scans.places.empty()) scans.frame = FrameName(header.frame);
+    scans.places.push_back({.stamp = header.stamp,
+                            .sequence = report_.lines,
+                            .address = message.address,
+                            .file = file,
+                            .topic = static_cast<std::uint32_t>(message.topic)});
+  }
+
+  void TakeOdometry(const BagTopic& topic, std::string_view bytes) {
+    const PoseMessage pose = DecodeOdometry(bytes, topic.encoding);
+    OdometryTopic& odometry = contents_.odometry[topic.name];
+    odometry.child_frame = FrameName(pose.child_frame);
+    odometry.track.Add({.stamp = pose.header.stamp, .T_odom_robot = Planar(pose.T_frame_child)},
+                       report_.lines);
+  }
+
+  void TakeTruth(const BagTopic& topic, const PoseMessage& pose) {
+    contents_.truth[topic.name].Add(
+        {.stamp = pose.header.stamp, .T_odom_robot = Planar(pose.T_frame_child)}, report_.lines);
+  }
+
+  void TakeTransforms(const BagTopic& topic, std::string_view bytes) {
+    TransformTree& tree = contents_.transforms[NamespaceOf(topic.name)];
+    const bool is_static = LastPartOf(topic.name) == "tf_static";
+    for (const TransformMessage& transform : DecodeTransforms(bytes, topic.encoding)) {
+      if (tree.Take(transform, is_static, report_.lines)) continue;
+      faults_.OfMessage(topic.name,
+                        report_.lines,
+                        "a transform is none, has no name, or has another parent than before");
+    }
+  }
+
+  void CountUnknown(const std::string& type) {
+    auto& unknown = report_.unknown_messages;
+    const bool fits = unknown.contains(type) || unknown.size() < kMostUnknownTypes;
+    ++unknown[fits ? type : "(others)"];
+  }
+
+  BagContents& contents_;
+  LogReport& report_;
+  BagFaults& faults_;
+  std::string buffer_;
+};
+
+}  // namespace
+
+std::string NamespaceOf(std::string_view topic) {
+  const std::size_t slash = topic.rfind('/');
+  return std::string(slash == std::string_view::npos ? std::string_view() : topic.substr(0, slash));
+}
+
+std::string_view PlainMessage(std::string_view bytes, std::string& buffer) {
+  if (!IsZstd(bytes)) return bytes;
+  PlainChunk plain = Decompress("zstd", bytes);
+  if (!plain.problem.empty()) throw MessageError(plain.problem);
+  buffer = std::move(plain.bytes);
+  return buffer;
+}
+
+BagContents Survey(const std::filesystem::path& path, LogReport& report, BagFaults& faults) {
+  BagContents contents;
+  Surveyor surveyor(contents, report, faults);
+  const auto tell = [&faults](const std::string& what) { faults.Doubt(what); };
+  for (const std::filesystem::path& file : FilesOfBag(path, tell)) {
+    const auto number = static_cast<std::uint32_t>(contents.files.size());
+    contents.file_names.push_back(file.string());
+    contents.files.emplace_back(file,
+                                [&faults, file](std::uint64_t where, const std::string& what) {
+                                  faults.OfFile(file.string(), where, what);
+                                });
+    MessageSource& messages = contents.files.back().messages();
+    while (const std::optional<BagMessage> message = messages.Next()) {
+      surveyor.Take(messages.topics()[message->topic], *message, number);
+    }
+  }
+  for (auto& [name, odometry] : contents.odometry) odometry.track.Sort();
+  for (auto& [name, track] : contents.truth) track.Sort();
+  return contents;
+}
+
+}  // namespace qwsm::io

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "service/io/bags/assembly/bag_faults.hpp"
+#include "service/io/bags/assembly/odometry_track.hpp"
+#include "service/io/bags/assembly/transform_tree.hpp"
+#include "service/io/bags/containers/bag_files.hpp"
+
+namespace qwsm::io {
+
+/// Where a scan stands, and when it was measured.
+struct ScanPlace {
+  Timestamp stamp{};
+  std::uint64_t sequence = 0;  ///< Number of the message in the bag, counted from 1.
+  MessageAddress address;
+  std::uint32_t file = 0;
+  std::uint32_t topic = 0;  ///< Index among the file's topics.
+};
+
+/// A topic of scans.
+struct ScanTopic {
+  std::string frame;
+  std::vector<ScanPlace> places;
+};
+
+/// A topic of odometry.
+struct OdometryTopic {
+  std::string child_frame;
+  OdometryTrack track;
+};
+
+/// What a bag holds: read once from begin to end, and kept but for the scans themselves.
+///
+/// Messages may stand in any order, and what says where a laser sits may come last: so all are
+/// seen before the first scan is given.
+struct BagContents {
+  std::vector<OpenBagFile> files;
+  std::vector<std::string> file_names;
+  std::map<std::string, ScanTopic> scans;
+  std::map<std::string, OdometryTopic> odometry;
+  std::map<std::string, OdometryTrack> truth;       ///< Topics of a simulator's ground truth.
+  std::map<std::string, TransformTree> transforms;  ///< By namespace: "" or "/robot1".
+};
+
+/// The namespace of a topic: "/robot1" of "/robot1/scan", "" of "/scan".
+std::string NamespaceOf(std::string_view topic);
+
+/// Reads all messages of a bag. What they are is counted in the report.
+/// @throws std::runtime_error naming the file where one cannot be opened or is no bag.
+BagContents Survey(const std::filesystem::path& path, LogReport& report, BagFaults& faults);
+
+/// The bytes of a message behind the compression that rosbag2 may give each.
+/// @throws MessageError where it is damaged.
+std::string_view PlainMessage(std::string_view bytes, std::string& buffer);
+
+}  // namespace qwsm::io

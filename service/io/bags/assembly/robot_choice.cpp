@@ -1,0 +1,236 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/io/bags/assembly/robot_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace qwsm::io {
+namespace {
+
+constexpr double kLevel = 0.999;  // Cosine of 2.6 degrees.
+
+std::string ListOf(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list.empty() ? "none" : list;
+}
+
+template <class Value>
+std::vector<std::string> KeysOf(const std::map<std::string, Value>& map) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : map) keys.push_back(key);
+  return keys;
+}
+
+std::string AsTopic(const std::string& name) { return name.starts_with('/') ? name : "/" + name; }
+
+bool IsWithin(const std::string& topic, const std::string& name_space) {
+  return topic.starts_with(name_space + "/");
+}
+
+class Chooser {
+ public:
+  Chooser(BagContents& contents, const LogOptions& options, LogReport& report, BagFaults& faults)
+      : contents_(contents), options_(options), report_(report), faults_(faults) {}
+
+  RobotChoice Choose() {
+    const std::vector<std::string> topics = ChooseScans();
+    RobotChoice choice;
+    if (topics.empty()) return choice;
+    const std::string robot_frame = ChooseOdometry(topics.front(), choice.odometry);
+    for (const std::string& topic : topics) {
+      choice.lasers.push_back(Mount(topic, robot_frame));
+      choice.lasers.back().name =
+          topics.size() == 1 ? "front" : "laser" + std::to_string(choice.lasers.size());
+    }
+    for (auto& [topic, track] : contents_.truth) {
+      if (RobotOf(topic) == robot_) choice.truth = std::move(track);
+    }
+    return choice;
+  }
+
+ private:
+  [[noreturn]] void Refuse(const std::string& what) const {
+    throw LogError(report_.name + ": " + what);
+  }
+
+  /// Namespaces that have odometry of their own.
+  std::set<std::string> RobotNamespaces() const {
+    std::set<std::string> robots;
+    for (const auto& [topic, odometry] : contents_.odometry) robots.insert(NamespaceOf(topic));
+    for (const auto& [name_space, tree] : contents_.transforms) {
+      if (!name_space.empty()) robots.insert(name_space);
+    }
+    std::erase_if(robots, [this](const std::string& robot) {  // Such as /wheels/odom.
+      return std::ranges::none_of(contents_.scans,
+                                  [&](const auto& scans) { return IsWithin(scans.first, robot); });
+    });
+    return robots;
+  }
+
+  /// The robot a topic belongs to: the longest namespace of those that are robots.
+  std::string RobotOf(const std::string& topic) const {
+    std::string robot;
+    if (robots_.size() < 2) return robot;
+    for (const std::string& candidate : robots_) {
+      if (IsWithin(topic, candidate) && candidate.size() > robot.size()) robot = candidate;
+    }
+    return robot;
+  }
+
+  std::vector<std::string> ChooseScans() {
+    robots_ = RobotNamespaces();
+    std::vector<std::string> topics = WantedScans();
+    std::map<std::string, std::vector<std::string>> by_robot;
+    for (const std::string& topic : topics) by_robot[RobotOf(topic)].push_back(topic);
+    if (by_robot.size() > 1) {
+      if (options_.robot.empty()) {
+        Refuse("holds several robots: " + ListOf(KeysOf(by_robot)) + "; choose one with --robot");
+      }
+      robot_ = AsTopic(options_.robot);
+      if (!by_robot.contains(robot_)) {
+        Refuse("has no scans of a robot '" + options_.robot + "'; it has " +
+               ListOf(KeysOf(by_robot)));
+      }
+    } else if (!by_robot.empty()) {
+      robot_ = by_robot.begin()->first;
+    }
+    topics = by_robot[robot_];
+    return options_.scan_topics.empty() ? OneOfEachLaser(topics) : topics;
+  }
+
+  std::vector<std::string> WantedScans() const {
+    if (options_.scan_topics.empty()) return KeysOf(contents_.scans);
+    std::vector<std::string> topics;
+    for (const std::string& name : options_.scan_topics) {
+      if (!contents_.scans.contains(AsTopic(name))) {
+        Refuse("has no scans on '" + AsTopic(name) + "'; it has them on " +
+               ListOf(KeysOf(contents_.scans)));
+      }
+      topics.push_back(AsTopic(name));
+    }
+    return topics;
+  }
+
+  std::vector<std::string> OneOfEachLaser(const std::vector<std::string>& topics) {
+    std::map<std::string, std::string> by_frame;
+    for (const std::string& topic : topics) {
+      const auto [known, is_new] = by_frame.try_emplace(contents_.scans[topic].frame, topic);
+      if (is_new) continue;
+      const bool is_better =
+          contents_.scans[topic].places.size() > contents_.scans[known->second].places.size();
+      const std::string other = is_better ? std::exchange(known->second, topic) : topic;
+      faults_.Doubt(known->second + " and " + other + " are of one laser, '" + known->first +
+                    "': the first is read; choose with --scan");
+    }
+    std::vector<std::string> chosen;
+    for (const auto& [frame, topic] : by_frame) chosen.push_back(topic);
+    std::ranges::sort(chosen);
+    return chosen;
+  }
+
+  /// The transforms of the robot: its own, or those that all share.
+  TransformTree& Transforms() {
+    TransformTree& own = contents_.transforms[robot_];
+    return own.empty() ? contents_.transforms[""] : own;
+  }
+
+  /// Chooses where odometry comes from. @return the frame whose pose it is; empty if unknown.
+  std::string ChooseOdometry(const std::string& scan_topic, OdometryTrack& track) {
+    const std::string topic = OdometryTopicOf(scan_topic);
+    if (!topic.empty()) {
+      report_.notes.push_back("odometry from " + topic);
+      track = std::move(contents_.odometry[topic].track);
+      return contents_.odometry[topic].child_frame;
+    }
+    TransformTree& tree = Transforms();
+    const std::optional<std::string> robot_frame =
+        tree.RobotFrameOf(contents_.scans[scan_topic].frame);
+    if (!robot_frame) {
+      faults_.Doubt("has neither odometry nor /tf of a robot that moves: scans are matched alone");
+      return "";
+    }
+    const TransformTree::Link* link = tree.LinkOf(*robot_frame);
+    report_.notes.push_back("odometry from /tf, of " + *robot_frame + " in " + link->parent);
+    track = link->track;
+    track.Sort();
+    return *robot_frame;
+  }
+
+  /// The topic of odometry; empty where it has to come from /tf.
+  std::string OdometryTopicOf(const std::string& scan_topic) {
+    const std::string& wanted = options_.odometry_topic;
+    if (!wanted.empty() && (AsTopic(wanted) == "/tf" || AsTopic(wanted) == robot_ + "/tf"))
+      return "";
+    if (!wanted.empty()) {
+      if (contents_.odometry.contains(AsTopic(wanted))) return AsTopic(wanted);
+      Refuse("has no odometry on '" + AsTopic(wanted) + "'; it has it on " +
+             ListOf(KeysOf(contents_.odometry)) + ", and maybe on /tf");
+    }
+    std::vector<std::string> topics;
+    for (const auto& [topic, odometry] : contents_.odometry) {
+      if (RobotOf(topic) == RobotOf(scan_topic)) topics.push_back(topic);
+    }
+    if (topics.empty()) return "";
+    const auto rank = [this](const std::string& topic) {
+      return std::pair(topic.ends_with("/odom"), contents_.odometry[topic].track.size());
+    };
+    const std::string best = *std::ranges::max_element(topics, {}, rank);
+    if (topics.size() > 1) {
+      faults_.Doubt("odometry is taken from " + best + " of " + ListOf(topics) +
+                    "; choose with --odom");
+    }
+    return best;
+  }
+
+  LaserChoice Mount(const std::string& topic, const std::string& robot_frame) {
+    const std::string& frame = contents_.scans[topic].frame;
+    LaserChoice laser{.topic = topic, .name = {}, .T_robot_laser = {}};
+    const std::optional<Transform3> T_robot_laser = Transforms().Find(robot_frame, frame);
+    if (!T_robot_laser && !robot_frame.empty()) {
+      faults_.Doubt("nothing says where the laser '" + frame + "' of " + topic + " sits on '" +
+                    robot_frame + "': taken as in its middle, looking forward");
+    }
+    if (T_robot_laser) {
+      const double uprightness = UprightnessOf(T_robot_laser->rotation);
+      laser.T_robot_laser = Planar(*T_robot_laser);
+      laser.is_upside_down = uprightness < 0.0;
+      TellTilt(topic, uprightness);
+    }
+    report_.notes.push_back("scans from " + topic + ", of '" + frame + "'" +
+                            (laser.is_upside_down ? ", which is upside down" : ""));
+    return laser;
+  }
+
+  void TellTilt(const std::string& topic, double uprightness) {
+    if (std::abs(uprightness) > kLevel) return;
+    const double tilt_deg =
+        std::acos(std::min(1.0, std::abs(uprightness))) * 180.0 / std::numbers::pi;
+    faults_.Doubt("the laser of " + topic + " is tilted by " +
+                  std::to_string(std::lround(tilt_deg)) +
+                  " degrees: its ranges are taken as level");
+  }
+
+  BagContents& contents_;
+  const LogOptions& options_;
+  LogReport& report_;
+  BagFaults& faults_;
+  std::set<std::string> robots_;
+  std::string robot_;  // Its namespace.
+};
+
+}  // namespace
+
+RobotChoice ChooseRobot(BagContents& contents,
+                        const LogOptions& options,
+                        LogReport& report,
+                        BagFaults& faults) {
+  return Chooser(contents, options, report, faults).Choose();
+}
+
+}  // namespace qwsm::io

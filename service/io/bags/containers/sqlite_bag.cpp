@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/io/bags/containers/sqlite_bag.hpp"
+
+namespace qwsm::io {
+namespace {
+
+// Rows that are left out at once, where pages of the database are damaged, at most.
+constexpr std::int64_t kLongestStride = std::int64_t{1} << 40;
+
+}  // namespace
+
+bool SqliteBag::Recognizes(const std::filesystem::path& path) {
+  try {
+    SqliteDatabase database(path, SqliteDatabase::Access::kReadOnly);
+    return database.Number(
+               "SELECT count(*) FROM sqlite_master WHERE name IN ('topics','messages')") == 2;
+  } catch (const SqliteError&) {
+    return false;
+  }
+}
+
+SqliteBag::SqliteBag(const std::filesystem::path& path, TellDamage tell)
+    : database_(path, SqliteDatabase::Access::kReadOnly),
+      tell_(std::move(tell)),
+      rows_(database_.Prepare("SELECT id, topic_id, data FROM messages WHERE id > ? ORDER BY id")),
+      message_(database_.Prepare("SELECT data FROM messages WHERE id = ?")) {
+  SqliteStatement topics =
+      database_.Prepare("SELECT id, name, type, serialization_format FROM topics ORDER BY id");
+  while (topics.Step()) {
+    topic_of_id_.emplace(topics.Integer(0), topics_.size());
+    topics_.push_back({.name = topics.Text(1),
+                       .type = PlainTypeName(topics.Text(2)),
+                       .encoding = topics.Text(3) == "cdr" ? Encoding::kCdr : Encoding::kOther});
+  }
+  rows_.Bind(1, std::int64_t{-1});
+}
+
+std::optional<BagMessage> SqliteBag::Next() {
+  for (;;) {
+    try {
+      if (!rows_.Step()) return std::nullopt;
+      if (std::optional<BagMessage> message = TakeRow()) return message;
+    } catch (const SqliteError& error) {
+      if (!GoAround(error.what())) return std::nullopt;
+    }
+  }
+}
+
+std::optional<BagMessage> SqliteBag::TakeRow() {
+  last_row_ = rows_.Integer(0);
+  stride_ = 1;
+  const auto topic = topic_of_id_.find(rows_.Integer(1));
+  if (topic == topic_of_id_.end()) {
+    tell_(static_cast<std::uint64_t>(last_row_), "a message belongs to a topic that is not listed");
+    return std::nullopt;
+  }
+  bytes_ = rows_.Blob(2);
+  return BagMessage{.topic = topic->second,
+                    .address = {.container = 0, .at = static_cast<std::uint64_t>(last_row_)},
+                    .bytes = bytes_};
+}
+
+/// Goes on behind the damaged page: a row further, then two, then four ...
+/// @return whether there may be rows behind it.
+bool SqliteBag::GoAround(const std::string& problem) {
+  tell_(static_cast<std::uint64_t>(last_row_), "the database is damaged: " + problem);
+  if (stride_ > kLongestStride) return false;
+  last_row_ += stride_;
+  stride_ *= 2;
+  rows_.Reset();
+  rows_.Bind(1, last_row_);
+  return true;
+}
+
+std::string_view SqliteBag::Read(const MessageAddress& address) {
+  message_.Reset();
+  message_.Bind(1, static_cast<std::int64_t>(address.at));
+  bytes_ = message_.Step() ? message_.Blob(0) : std::string();
+  return bytes_;
+}
+
+}  // namespace qwsm::io

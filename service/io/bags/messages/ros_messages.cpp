@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/io/bags/messages/ros_messages.hpp"
+
+#include <chrono>
+
+#include "qwsm/sensor/scan_limits.hpp"
+#include "service/io/bags/messages/message_reader.hpp"
+
+namespace qwsm::io {
+namespace {
+
+constexpr std::uint32_t kNanosecondsInSecond = 1'000'000'000;
+// A transform is never shorter than its stamp, two lengths and seven numbers.
+constexpr std::size_t kLeastTransformBytes = 72;
+
+Timestamp TakeTime(MessageReader& fields) {
+  const std::uint32_t seconds = fields.Unsigned32();
+  const std::uint32_t nanoseconds = fields.Unsigned32();
+  if (nanoseconds >= kNanosecondsInSecond) throw MessageError("its stamp is no time");
+  // ROS 2 counts seconds with a sign, ROS 1 without.
+  const std::int64_t whole = fields.encoding() == Encoding::kRos1
+                                 ? std::int64_t{seconds}
+                                 : std::int64_t{static_cast<std::int32_t>(seconds)};
+  if (whole < 0) throw MessageError("its stamp is before 1970");
+  return std::chrono::seconds(whole) + std::chrono::nanoseconds(nanoseconds);
+}
+
+RosHeader TakeHeader(MessageReader& fields) {
+  if (fields.encoding() == Encoding::kRos1) fields.Unsigned32();  // Sequence number.
+  RosHeader header;
+  header.stamp = TakeTime(fields);
+  header.frame = fields.String();
+  return header;
+}
+
+Quaternion TakeQuaternion(MessageReader& fields) {
+  Quaternion q;
+  q.x = fields.Double();
+  q.y = fields.Double();
+  q.z = fields.Double();
+  q.w = fields.Double();
+  return q;
+}
+
+Transform3 TakeTransform(MessageReader& fields) {
+  Transform3 transform;
+  transform.x_m = fields.Double();
+  transform.y_m = fields.Double();
+  transform.z_m = fields.Double();
+  transform.rotation = TakeQuaternion(fields);
+  return transform;
+}
+
+PoseMessage TakePose(MessageReader& fields, bool has_child) {
+  PoseMessage message;
+  message.header = TakeHeader(fields);
+  if (has_child) message.child_frame = fields.String();
+  message.T_frame_child = TakeTransform(fields);
+  if (!IsSound(message.T_frame_child)) throw MessageError("its pose is no position");
+  return message;
+}
+
+}  // namespace
+
+RosHeader DecodeHeader(std::string_view bytes, Encoding encoding) {
+  MessageReader fields(bytes, encoding);
+  return TakeHeader(fields);
+}
+
+LaserScanMessage DecodeLaserScan(std::string_view bytes, Encoding encoding) {
+  MessageReader fields(bytes, encoding);
+  LaserScanMessage scan;
+  scan.header = TakeHeader(fields);
+  scan.first_bearing_rad = fields.Float();
+  scan.last_bearing_rad = fields.Float();
+  scan.bearing_step_rad = fields.Float();
+  scan.time_step_s = fields.Float();
+  scan.scan_time_s = fields.Float();
+  scan.range_min_m = fields.Float();
+  scan.range_max_m = fields.Float();
+  const std::size_t count = fields.Count(sizeof(float));
+  if (count > kMostBeams) throw MessageError("it has more than 100000 ranges");
+  scan.ranges_m.resize(count);
+  for (float& range_m : scan.ranges_m) range_m = fields.Float();
+  return scan;  // Intensities are of no use here.
+}
+
+PoseMessage DecodeOdometry(std::string_view bytes, Encoding encoding) {
+  MessageReader fields(bytes, encoding);
+  return TakePose(fields, true);
+}
+
+PoseMessage DecodePose(std::string_view bytes, Encoding encoding) {
+  MessageReader fields(bytes, encoding);
+  return TakePose(fields, false);
+}
+
+std::vector<TransformMessage> DecodeTransforms(std::string_view bytes, Encoding encoding) {
+  MessageReader fields(bytes, encoding);
+  std::vector<TransformMessage> transforms(fields.Count(kLeastTransformBytes));
+  for (TransformMessage& transform : transforms) {
+    transform.header = TakeHeader(fields);
+    transform.child_frame = fields.String();
+    transform.T_frame_child = TakeTransform(fields);
+  }
+  return transforms;
+}
+
+}  // namespace qwsm::io
