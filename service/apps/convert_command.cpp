@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -12,6 +13,7 @@
 
 #include "service/apps/command.hpp"
 #include "service/apps/messages.hpp"
+#include "service/io/bags/writing/log_bag_writer.hpp"
 #include "service/io/files/atomic_file.hpp"
 #include "service/io/files/standard_output.hpp"
 #include "service/io/logs/carmen_writer.hpp"
@@ -25,7 +27,7 @@ namespace fs = std::filesystem;
 struct ConvertArguments {
   std::vector<fs::path> logs;
   fs::path output = "-";
-  std::string format = "carmen";
+  std::optional<std::string> format;
   Verbosity verbosity;
   config::OptionSources sources;
 };
@@ -61,30 +63,62 @@ RecordWriter MakeWriter(const std::string& format, std::ostream& stream) {
   return TruePoses(stream);
 }
 
-void Convert(const ConvertArguments& arguments, std::ostream& stream) {
+/// @param check is asked after every record, and throws where it could not be written.
+void Convert(const ConvertArguments& arguments,
+             const RecordWriter& write,
+             const std::function<void()>& check) {
   const auto options = config::LoadOptions<options::ProgramOptions>(arguments.sources);
-  const RecordWriter write = MakeWriter(arguments.format, stream);
   for (const fs::path& log : arguments.logs) {
     const std::unique_ptr<io::LogReader> reader = io::OpenLog(log, LogOptionsOf(options.log));
     while (const std::optional<io::LogRecord> record = reader->Next()) {
       write(*record);
-      if (stream) continue;
-      if (arguments.output == "-") throw io::StandardOutputError();
-      throw io::WriteError(arguments.output.string() + ": cannot be written");
+      check();
     }
   }
 }
 
-ExitCode RunConvert(const ConvertArguments& arguments) {
-  StartMessages(arguments.verbosity);
+void ConvertToBag(const ConvertArguments& arguments, io::BagFormat format) {
+  if (arguments.output == "-") throw UsageError("a bag is no stream: name it with --output");
+  io::BagFile bag(arguments.output, format);
+  io::LogBagWriter writer(bag);
+  Convert(
+      arguments,
+      [&](const io::LogRecord& record) { writer.Write(record); },
+      [&] { bag.ThrowIfFailed(); });
+  bag.Commit();
+}
+
+void ConvertToText(const ConvertArguments& arguments, const std::string& format) {
   if (arguments.output == "-") {
-    Convert(arguments, std::cout);
+    Convert(arguments, MakeWriter(format, std::cout), [] {
+      if (!std::cout) throw io::StandardOutputError();
+    });
     if (!std::cout.flush()) throw io::StandardOutputError();
-    return ExitCode::kDone;
+    return;
   }
   io::AtomicFile file(arguments.output);
-  Convert(arguments, file.stream());
+  Convert(arguments, MakeWriter(format, file.stream()), [&] { file.ThrowIfFailed(); });
   file.Commit();
+}
+
+/// What the name of the output asks for, where nothing else was said.
+std::string FormatOf(const ConvertArguments& arguments) {
+  if (arguments.format) return *arguments.format;
+  const std::optional<io::BagFormat> bag = io::BagFormatOf(arguments.output);
+  if (!bag) return "carmen";
+  return *bag == io::BagFormat::kMcap ? "mcap" : "db3";
+}
+
+ExitCode RunConvert(const ConvertArguments& arguments) {
+  StartMessages(arguments.verbosity);
+  const std::string format = FormatOf(arguments);
+  if (format == "mcap") {
+    ConvertToBag(arguments, io::BagFormat::kMcap);
+  } else if (format == "db3") {
+    ConvertToBag(arguments, io::BagFormat::kSqlite);
+  } else {
+    ConvertToText(arguments, format);
+  }
   return ExitCode::kDone;
 }
 
@@ -95,18 +129,23 @@ Command AddConvertCommand(CLI::App& program) {
   auto arguments = std::make_shared<ConvertArguments>();
   parser->footer(
       "  qwsm convert player.log.gz -o carmen.log           any log as CARMEN\n"
+      "  qwsm convert drive.bag -o drive.mcap               a bag of ROS 1 for ROS 2\n"
+      "  qwsm convert robot.log --to mcap -o robot          a folder, as ros2 bag makes them\n"
       "  qwsm convert robot.log --to odometry -o odom.tum   what odometry says, for eval\n"
       "  qwsm convert sim.log --to truth -o truth.tum       what the simulator knows");
-  parser->add_option("LOG", arguments->logs, "logs, one after the other; - is standard input")
+  parser
+      ->add_option("LOG", arguments->logs, "logs or bags, one after the other; - is standard input")
       ->required()
       ->type_name("");
   parser->add_option("-o,--output", arguments->output, "where to; - is standard output")
       ->type_name("FILE")
       ->capture_default_str();
-  parser->add_option("--to", arguments->format, "carmen, carmen-flaser, odometry or truth")
-      ->check(CLI::IsMember({"carmen", "carmen-flaser", "odometry", "truth"}))
-      ->type_name("FORM")
-      ->capture_default_str();
+  parser
+      ->add_option("--to",
+                   arguments->format,
+                   "carmen, carmen-flaser, mcap, db3, odometry or truth; else by the output's name")
+      ->check(CLI::IsMember({"carmen", "carmen-flaser", "mcap", "db3", "odometry", "truth"}))
+      ->type_name("FORM");
   AddTopics(*parser, arguments->sources);
   AddRobot(*parser, arguments->sources);
   AddConfiguration(*parser, arguments->sources);

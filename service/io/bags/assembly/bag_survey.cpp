@@ -47,8 +47,6 @@ class Surveyor {
       TakeOdometry(topic, bytes);
     } else if (topic.type == kTransformsMessage || topic.type == kOldTransformsMessage) {
       TakeTransforms(topic, bytes);
-    } else if (topic.type == kPoseMessage && IsTruth(topic)) {
-      TakeTruth(topic, DecodePose(bytes, topic.encoding));
     } else {
       return false;
     }
@@ -70,16 +68,16 @@ class Surveyor {
   }
 
   void TakeOdometry(const BagTopic& topic, std::string_view bytes) {
-    const PoseMessage pose = DecodeOdometry(bytes, topic.encoding);
+    const OdometryMessage pose = DecodeOdometry(bytes, topic.encoding);
     OdometryTopic& odometry = contents_.odometry[topic.name];
     odometry.child_frame = FrameName(pose.child_frame);
     odometry.track.Add({.stamp = pose.header.stamp, .T_odom_robot = Planar(pose.T_frame_child)},
                        report_.lines);
   }
 
-  void TakeTruth(const BagTopic& topic, const PoseMessage& pose) {
+  void TakeTruth(const BagTopic& topic, const OdometryMessage& truth) {
     contents_.truth[topic.name].Add(
-        {.stamp = pose.header.stamp, .T_odom_robot = Planar(pose.T_frame_child)}, report_.lines);
+        {.stamp = truth.header.stamp, .T_odom_robot = Planar(truth.T_frame_child)}, report_.lines);
   }
 
   void TakeTransforms(const BagTopic& topic, std::string_view bytes) {

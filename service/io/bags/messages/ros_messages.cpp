@@ -52,15 +52,6 @@ Transform3 TakeTransform(MessageReader& fields) {
   return transform;
 }
 
-PoseMessage TakePose(MessageReader& fields, bool has_child) {
-  PoseMessage message;
-  message.header = TakeHeader(fields);
-  if (has_child) message.child_frame = fields.String();
-  message.T_frame_child = TakeTransform(fields);
-  if (!IsSound(message.T_frame_child)) throw MessageError("its pose is no position");
-  return message;
-}
-
 }  // namespace
 
 RosHeader DecodeHeader(std::string_view bytes, Encoding encoding) {
@@ -86,14 +77,14 @@ LaserScanMessage DecodeLaserScan(std::string_view bytes, Encoding encoding) {
   return scan;  // Intensities are of no use here.
 }
 
-PoseMessage DecodeOdometry(std::string_view bytes, Encoding encoding) {
+OdometryMessage DecodeOdometry(std::string_view bytes, Encoding encoding) {
   MessageReader fields(bytes, encoding);
-  return TakePose(fields, true);
-}
-
-PoseMessage DecodePose(std::string_view bytes, Encoding encoding) {
-  MessageReader fields(bytes, encoding);
-  return TakePose(fields, false);
+  OdometryMessage message;
+  message.header = TakeHeader(fields);
+  message.child_frame = fields.String();
+  message.T_frame_child = TakeTransform(fields);
+  if (!IsSound(message.T_frame_child)) throw MessageError("its pose is no position");
+  return message;
 }
 
 std::vector<TransformMessage> DecodeTransforms(std::string_view bytes, Encoding encoding) {

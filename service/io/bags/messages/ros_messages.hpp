@@ -15,7 +15,6 @@ namespace qwsm::io {
 
 inline constexpr std::string_view kLaserScanMessage = "sensor_msgs/LaserScan";
 inline constexpr std::string_view kOdometryMessage = "nav_msgs/Odometry";
-inline constexpr std::string_view kPoseMessage = "geometry_msgs/PoseStamped";
 inline constexpr std::string_view kTransformsMessage = "tf2_msgs/TFMessage";
 inline constexpr std::string_view kOldTransformsMessage = "tf/tfMessage";
 
@@ -36,8 +35,7 @@ struct LaserScanMessage {
   std::vector<float> ranges_m;
 };
 
-/// nav_msgs/Odometry and geometry_msgs/PoseStamped, which has no child.
-struct PoseMessage {
+struct OdometryMessage {
   RosHeader header;
   std::string child_frame;
   Transform3 T_frame_child;
@@ -54,8 +52,7 @@ struct TransformMessage {
 /// The header, with which all these messages but transforms begin.
 RosHeader DecodeHeader(std::string_view bytes, Encoding encoding);
 LaserScanMessage DecodeLaserScan(std::string_view bytes, Encoding encoding);
-PoseMessage DecodeOdometry(std::string_view bytes, Encoding encoding);
-PoseMessage DecodePose(std::string_view bytes, Encoding encoding);
+OdometryMessage DecodeOdometry(std::string_view bytes, Encoding encoding);
 std::vector<TransformMessage> DecodeTransforms(std::string_view bytes, Encoding encoding);
 
 }  // namespace qwsm::io

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/io/bags/writing/message_definitions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+namespace qwsm::io {
+namespace {
+
+using Entry = std::pair<std::string_view, std::string_view>;
+
+// Types and their fields, without comments.
+constexpr std::array kDefinitions{
+    Entry{"builtin_interfaces/Time", "int32 sec\nuint32 nanosec\n"},
+    Entry{"std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id\n"},
+    Entry{"geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z\n"},
+    Entry{"geometry_msgs/Vector3", "float64 x\nfloat64 y\nfloat64 z\n"},
+    Entry{"geometry_msgs/Quaternion", "float64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n"},
+    Entry{"geometry_msgs/Pose",
+          "geometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n"},
+    Entry{"geometry_msgs/PoseWithCovariance", "geometry_msgs/Pose pose\nfloat64[36] covariance\n"},
+    Entry{"geometry_msgs/PoseWithCovarianceStamped",
+          "std_msgs/Header header\ngeometry_msgs/PoseWithCovariance pose\n"},
+    Entry{"geometry_msgs/Twist", "geometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n"},
+    Entry{"geometry_msgs/TwistWithCovariance",
+          "geometry_msgs/Twist twist\nfloat64[36] covariance\n"},
+    Entry{"geometry_msgs/Transform",
+          "geometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n"},
+    Entry{"geometry_msgs/TransformStamped",
+          "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/Transform transform\n"},
+    Entry{"tf2_msgs/TFMessage", "geometry_msgs/TransformStamped[] transforms\n"},
+    Entry{"nav_msgs/Odometry",
+          "std_msgs/Header header\nstring child_frame_id\n"
+          "geometry_msgs/PoseWithCovariance pose\ngeometry_msgs/TwistWithCovariance twist\n"},
+    Entry{"nav_msgs/MapMetaData",
+          "builtin_interfaces/Time map_load_time\nfloat32 resolution\nuint32 width\n"
+          "uint32 height\ngeometry_msgs/Pose origin\n"},
+    Entry{"nav_msgs/OccupancyGrid",
+          "std_msgs/Header header\nnav_msgs/MapMetaData info\nint8[] data\n"},
+    Entry{"sensor_msgs/LaserScan",
+          "std_msgs/Header header\nfloat32 angle_min\nfloat32 angle_max\n"
+          "float32 angle_increment\nfloat32 time_increment\nfloat32 scan_time\n"
+          "float32 range_min\nfloat32 range_max\nfloat32[] ranges\nfloat32[] intensities\n"},
+};
+
+// From the table of types in docs/dds.md.
+constexpr std::array kHashes{
+    Entry{"sensor_msgs/LaserScan",
+          "RIHS01_64c191398013af96509d518dac71d5164f9382553fce5c1f8cca5be7924bd828"},
+    Entry{"nav_msgs/Odometry",
+          "RIHS01_3cc97dc7fb7502f8714462c526d369e35b603cfc34d946e3f2eda2766dfec6e0"},
+    Entry{"nav_msgs/OccupancyGrid",
+          "RIHS01_8d348150c12913a31ee0ec170fbf25089e4745d17035792a1ba94d6f0bc0cfc7"},
+    Entry{"tf2_msgs/TFMessage",
+          "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087"},
+    Entry{"geometry_msgs/PoseWithCovarianceStamped",
+          "RIHS01_26432f9803e43727d3c8f668d1fdb3c630f548af631e2f4e31382371bfea3b6e"},
+};
+
+std::string WithoutMsg(std::string_view type) {
+  std::string name(type);
+  const std::size_t middle = name.find("/msg/");
+  if (middle != std::string::npos) name.erase(middle, std::string_view("/msg").size());
+  return name;
+}
+
+std::string_view FieldsOf(std::string_view type) {
+  const auto* const entry = std::ranges::find(kDefinitions, type, &Entry::first);
+  assert(entry != kDefinitions.end() && "only types of the table are written");
+  return entry->second;
+}
+
+/// Types in the fields of a type, and in theirs, in the order in which they are met.
+void CollectTypes(std::string_view type, std::vector<std::string>& types) {
+  std::istringstream lines{std::string(FieldsOf(type))};
+  for (std::string line; std::getline(lines, line);) {
+    const std::string field = line.substr(0, line.find_first_of(" ["));
+    const bool is_message = field.find('/') != std::string::npos;
+    if (!is_message || std::ranges::find(types, field) != types.end()) continue;
+    types.push_back(field);
+    CollectTypes(field, types);
+  }
+}
+
+}  // namespace
+
+std::string MessageDefinition(std::string_view type) {
+  const std::string name = WithoutMsg(type);
+  std::string definition(FieldsOf(name));
+  std::vector<std::string> types;
+  CollectTypes(name, types);
+  for (const std::string& part : types) {
+    definition += std::string(80, '=') + "\nMSG: " + part + "\n" + std::string(FieldsOf(part));
+  }
+  return definition;
+}
+
+std::string_view TypeHash(std::string_view type) {
+  const auto* const entry = std::ranges::find(kHashes, WithoutMsg(type), &Entry::first);
+  return entry == kHashes.end() ? std::string_view() : entry->second;
+}
+
+}  // namespace qwsm::io

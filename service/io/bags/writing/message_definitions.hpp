@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace qwsm::io {
+
+/// The definition of a type of ROS 2 ("sensor_msgs/msg/LaserScan") with those of all types in it,
+/// as MCAP and rosbag2 keep it ("ros2msg"). @pre the type is one of those that are written.
+std::string MessageDefinition(std::string_view type);
+
+/// The type's hash by REP 2016; empty where it is not known.
+std::string_view TypeHash(std::string_view type);
+
+}  // namespace qwsm::io
