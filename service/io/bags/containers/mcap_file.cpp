@@ -16,6 +16,7 @@ using std::literals::operator""sv;
 constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n"sv;
 constexpr std::size_t kRecordHead = 9;  // Opcode and length.
 constexpr std::size_t kChunkHead = 40;  // Fields of a chunk but the name of its compression.
+constexpr std::size_t kFooterSize = 20;
 constexpr std::size_t kLongestName = 8;
 constexpr std::uint64_t kMostRecordBytes = std::uint64_t{256} << 20;
 constexpr std::uint64_t kDirect = ~std::uint64_t{0};  // An address outside of all chunks.
@@ -61,7 +62,29 @@ McapFile::McapFile(const std::filesystem::path& path, TellDamage tell)
     : file_(path),
       tell_(std::move(tell)),
       chunks_([this](std::uint64_t offset) { return LoadChunk(offset); }),
-      next_(kMcapMagic.size()) {}
+      next_(kMcapMagic.size()) {
+  ReadSummary();
+}
+
+/// Takes the channels at the end of the file: they are known even where their chunk is damaged.
+void McapFile::ReadSummary() {
+  constexpr std::uint64_t kEnd = kRecordHead + kFooterSize + kMcapMagic.size();
+  if (file_.size() < kEnd) return;
+  const std::uint64_t end = file_.size() - kEnd;
+  const std::string_view footer = file_.At(end, kRecordHead + kFooterSize);
+  if (static_cast<std::uint8_t>(footer[0]) != kFooter) return;
+  std::uint64_t offset = BinaryReader(footer.substr(kRecordHead)).Unsigned64();
+  while (offset >= next_ && offset < end) {
+    const std::string_view head = file_.At(offset, kRecordHead);
+    if (offset + kRecordHead > end) return;
+    const auto opcode = static_cast<std::uint8_t>(head[0]);
+    const std::uint64_t length = LengthOfRecord(head);
+    if (length > end - offset - kRecordHead || (opcode != kSchema && opcode != kChannel)) return;
+    const std::string_view body = file_.At(offset + kRecordHead, static_cast<std::size_t>(length));
+    Take({.opcode = opcode, .body = body}, {offset, kDirect});
+    offset += kRecordHead + length;
+  }
+}
 
 std::optional<BagMessage> McapFile::Next() {
   while (!ended_ || chunk_) {

@@ -16,8 +16,9 @@
 
 namespace qwsm::io {
 
-/// Reads MCAP files (mcap.dev/spec), record after record: the index at their end is not needed, so
-/// that a file without one, or cut off, is read the same way.
+/// Reads MCAP files (mcap.dev/spec), record after record: of the summary at their end only the
+/// topics are taken, and those stand before their messages, too; so a file without one, or cut off,
+/// is read the same way.
 class McapFile final : public MessageSource {
  public:
   /// Opens a file that begins as MCAP does. @throws std::runtime_error where it cannot be opened.
@@ -43,6 +44,7 @@ class McapFile final : public MessageSource {
   std::optional<BagMessage> NextInChunk();
   std::optional<BagMessage> NextInFile();
   std::optional<BagMessage> Take(const Record& record, const MessageAddress& address);
+  void ReadSummary();
   void TakeSchema(std::string_view body);
   void TakeChannel(std::string_view body);
   std::optional<BagMessage> TakeMessage(std::string_view body, const MessageAddress& address);

@@ -19,6 +19,7 @@ constexpr std::size_t kMostBodyBytes = std::size_t{256} << 20;
 constexpr std::uint64_t kOutside = ~std::uint64_t{0};  // An address outside of all chunks.
 
 constexpr std::string_view kMessageOp = "\x02"sv;
+constexpr std::string_view kBagHeaderOp = "\x03"sv;
 constexpr std::string_view kChunkOp = "\x05"sv;
 constexpr std::string_view kConnectionOp = "\x07"sv;
 
@@ -61,6 +62,26 @@ Ros1Bag::Ros1Bag(const std::filesystem::path& path, TellDamage tell)
       next_(kBagVersion.size()) {
   if (file_.At(0, kBagVersion.size()) != kBagVersion) {
     throw BagError("is a bag of another format than 2.0; 'rosbag fix' makes a new one of it");
+  }
+  ReadIndex();
+}
+
+/// Takes the connections at the end of the bag: they are known even where their chunk is damaged.
+void Ros1Bag::ReadIndex() {
+  try {
+    const std::optional<Record> head = RecordAt(next_);
+    if (!head || FieldOf(head->header, "op") != kBagHeaderOp) return;
+    std::uint64_t offset =
+        BinaryReader(FieldOf(head->header, "index_pos").value_or(""sv)).Unsigned64();
+    if (offset < next_) return;  // The bag was never closed.
+    for (std::optional<Record> record = RecordAt(offset);
+         record && FieldOf(record->header, "op") == kConnectionOp;
+         record = RecordAt(offset)) {
+      TakeConnection(*record);
+      offset += record->size;
+    }
+  } catch (const BinaryError&) {
+    // Whatever is damaged is met, and told, again.
   }
 }
 

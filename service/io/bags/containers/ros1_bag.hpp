@@ -16,9 +16,9 @@
 
 namespace qwsm::io {
 
-/// Reads bags of ROS 1, format 2.0 (wiki.ros.org/Bags/Format/2.0), record after record: the index
-/// at their end is not needed, so that a bag that was never closed, or cut off, is read the same
-/// way.
+/// Reads bags of ROS 1, format 2.0 (wiki.ros.org/Bags/Format/2.0), record after record: of the
+/// index at their end only the topics are taken, and those stand before their messages, too; so a
+/// bag that was never closed, or cut off, is read the same way.
 class Ros1Bag final : public MessageSource {
  public:
   /// Opens a file that begins as bags do.
@@ -48,6 +48,7 @@ class Ros1Bag final : public MessageSource {
   std::optional<BagMessage> NextInFile();
   std::optional<BagMessage> Take(const Record& record, const MessageAddress& address);
   void TakeConnection(const Record& record);
+  void ReadIndex();
   std::string LoadChunk(std::uint64_t offset);
   std::optional<Record> RecordAt(std::uint64_t offset);
   void GoAround(std::uint64_t offset, const std::string& what);

@@ -48,7 +48,7 @@ constexpr std::array kDefinitions{
           "float32 range_min\nfloat32 range_max\nfloat32[] ranges\nfloat32[] intensities\n"},
 };
 
-// From the table of types in docs/dds.md.
+// As rosidl computes them since Iron.
 constexpr std::array kHashes{
     Entry{"sensor_msgs/LaserScan",
           "RIHS01_64c191398013af96509d518dac71d5164f9382553fce5c1f8cca5be7924bd828"},

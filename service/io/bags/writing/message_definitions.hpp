@@ -11,7 +11,7 @@ namespace qwsm::io {
 /// as MCAP and rosbag2 keep it ("ros2msg"). @pre the type is one of those that are written.
 std::string MessageDefinition(std::string_view type);
 
-/// The type's hash by REP 2016; empty where it is not known.
+/// The type's hash as ROS 2 has it since Iron (RIHS01); empty where it is not known.
 std::string_view TypeHash(std::string_view type);
 
 }  // namespace qwsm::io

@@ -1,0 +1,296 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <numbers>
+
+#include "qwsm/logs/log_reader.hpp"
+#include "service/io/bags/containers/chunk_codec.hpp"
+#include "tests/support/bag_maker.hpp"
+#include "tests/support/log_text.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace qwsm::io {
+namespace {
+
+using namespace std::chrono_literals;
+using test::LogContent;
+using test::MadeMessage;
+using test::Ros;
+
+const Pose2 kMounting{0.2, -0.1, 0.5};
+
+Timestamp At(int scan) { return 1000s + scan * 100ms; }
+Pose2 OdometryAt(int scan) { return {0.1 * scan, -0.05 * scan, 0.01 * scan}; }
+std::vector<float> RangesAt(int scan) {
+  return {1.0F + 0.5F * static_cast<float>(scan), 2.0F, 3.0F};
+}
+
+/// Four scans with odometry; where the laser sits comes last.
+std::vector<MadeMessage> Drive(Ros ros) {
+  std::vector<MadeMessage> drive;
+  for (int i = 0; i < 4; ++i) {
+    drive.push_back(test::OdometryMessageOf(ros, "/odom", At(i), "base_link", OdometryAt(i)));
+    drive.push_back(test::ScanMessage(ros, "/scan", At(i), "laser", RangesAt(i)));
+  }
+  drive.push_back(
+      test::TransformMessageOf(ros, "/tf_static", 0s, "base_link", "laser", Spatial(kMounting)));
+  return drive;
+}
+
+class Bag : public testing::Test {
+ protected:
+  LogContent Read(const std::string& name, const LogOptions& options = {}) {
+    LogOptions telling = options;
+    telling.on_fault = [this](const std::string& fault) { told_ += fault + "\n"; };
+    return test::ReadAll(*OpenLog(folder_.path() / name, telling));
+  }
+  LogContent ReadRos1(const std::vector<MadeMessage>& messages,
+                      std::string_view compression = "none",
+                      const LogOptions& options = {}) {
+    test::WriteBytes(folder_.path() / "t.bag", test::Ros1BagOf(messages, compression));
+    return Read("t.bag", options);
+  }
+  LogContent ReadMcap(const std::vector<MadeMessage>& messages,
+                      std::string_view compression = "zstd",
+                      const LogOptions& options = {}) {
+    test::WriteBytes(folder_.path() / "t.mcap", test::McapOf(messages, compression));
+    return Read("t.mcap", options);
+  }
+  std::string FailureOf(const std::function<void()>& action) {
+    try {
+      action();
+    } catch (const LogError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  void ExpectDrive(const LogContent& log) {
+    ASSERT_EQ(log.scans.size(), 4U);
+    for (int i = 0; i < 4; ++i) {
+      const ScanReading& reading = log.scans[static_cast<std::size_t>(i)];
+      EXPECT_EQ(reading.scan.stamp, At(i));
+      EXPECT_EQ(reading.T_odom_robot, OdometryAt(i));
+      EXPECT_EQ(reading.scan.ranges_m, RangesAt(i));
+      EXPECT_EQ(reading.scan.geometry.T_robot_laser, kMounting);
+      EXPECT_EQ(reading.scan.geometry.first_bearing_rad, -1.0F);
+    }
+    EXPECT_EQ(log.odometry.size(), 4U);
+    EXPECT_EQ(log.report.lines, 9U);
+    EXPECT_TRUE(log.report.faults.empty());
+  }
+
+  test::TemporaryFolder folder_;
+  std::string told_;
+};
+
+TEST_F(Bag, OfRos1IsReadWhateverItsChunks) {
+  for (const char* compression : {"none", "bz2", "lz4", "unchunked"}) {
+    SCOPED_TRACE(compression);
+    const LogContent log = ReadRos1(Drive(Ros::k1), compression);
+    ExpectDrive(log);
+    EXPECT_EQ(log.report.format, "ROS 1 bag");
+  }
+}
+
+TEST_F(Bag, OfMcapIsReadWhateverItsChunksAndWithoutAnIndex) {
+  for (const char* compression : {"", "zstd", "lz4", "unchunked"}) {
+    SCOPED_TRACE(compression);
+    const LogContent log = ReadMcap(Drive(Ros::k2), compression);
+    EXPECT_EQ(log.report.format, "rosbag2 (mcap)");
+    ASSERT_EQ(log.scans.size(), 4U);
+    EXPECT_EQ(log.scans[3].T_odom_robot, OdometryAt(3));
+    EXPECT_EQ(log.report.faults.size(), 1U) << "that it is cut off";
+  }
+}
+
+TEST_F(Bag, OfSqliteIsReadInAllSchemasAndWithPackedMessages) {
+  for (const int schema : {1, 2, 3, 4}) {
+    for (const bool packs : {false, true}) {
+      SCOPED_TRACE(schema);
+      const std::string name = "s" + std::to_string(schema) + (packs ? "p.db3" : ".db3");
+      test::WriteDb3(folder_.path() / name, Drive(Ros::k2), schema, packs);
+      ExpectDrive(Read(name));
+    }
+  }
+}
+
+TEST_F(Bag, IsReadFromAFolderOfSeveralFilesPackedAsAWhole) {
+  const std::vector<MadeMessage> drive = Drive(Ros::k2);
+  const std::span<const MadeMessage> all(drive);
+  for (int i = 0; i < 3; ++i) {
+    const auto part = folder_.path() / ("drive_" + std::to_string(i) + ".db3");
+    test::WriteDb3(part, all.subspan(static_cast<std::size_t>(3 * i), 3), 3);
+    test::WriteBytes(part.string() + ".zstd", CompressZstd(test::ReadBytes(part)));
+    std::filesystem::remove(part);
+  }
+  test::WriteBytes(folder_.path() / "metadata.yaml",
+                   "rosbag2_bagfile_information:\n  version: 4\n  relative_file_paths:\n"
+                   "    - drive_0.db3.zstd\n    - drive_1.db3.zstd\n    - drive_2.db3.zstd\n"
+                   "  message_count: 9\n");
+  ExpectDrive(Read(""));
+  std::filesystem::remove(folder_.path() / "metadata.yaml");
+  ExpectDrive(Read(""));
+}
+
+TEST_F(Bag, TellsWhichFileOfAFolderIsMissing) {
+  test::WriteDb3(folder_.path() / "drive_0.db3", Drive(Ros::k2), 3);
+  test::WriteBytes(folder_.path() / "metadata.yaml",
+                   "rosbag2_bagfile_information:\n  relative_file_paths:\n"
+                   "    - drive_0.db3\n    - drive_1.db3\n");
+  ExpectDrive(Read(""));
+  EXPECT_NE(told_.find("names drive_1.db3, which is missing"), std::string::npos) << told_;
+}
+
+TEST_F(Bag, GivesScansInTheOrderOfTheirStampsWhateverTheOrderOnDisk) {
+  std::vector<MadeMessage> drive = Drive(Ros::k1);
+  std::reverse(drive.begin(), drive.end());
+  ExpectDrive(ReadRos1(drive));
+}
+
+TEST_F(Bag, TakesOdometryFromTfAlone) {
+  std::vector<MadeMessage> drive;
+  for (int i = 0; i < 4; ++i) {
+    const Timestamp middle = At(i) - 50ms;
+    drive.push_back(test::TransformMessageOf(
+        Ros::k1, "/tf", middle, "/odom", "/base", Spatial({0.1 * i - 0.05, 0, 0})));
+    drive.push_back(
+        test::TransformMessageOf(Ros::k1, "/tf", middle, "/base", "/laser", Spatial({0.3, 0, 0})));
+    drive.push_back(test::ScanMessage(Ros::k1, "/scan", At(i), "laser", RangesAt(i)));
+  }
+  const LogContent log = ReadRos1(drive);
+  ASSERT_EQ(log.scans.size(), 4U);
+  EXPECT_NEAR(log.scans[1].T_odom_robot->x_m, 0.1, 1e-12);
+  EXPECT_EQ(log.scans[1].scan.geometry.T_robot_laser, (Pose2{0.3, 0, 0}));
+}
+
+TEST_F(Bag, FindsTheMountingOverSeveralFrames) {
+  std::vector<MadeMessage> drive = Drive(Ros::k2);
+  drive.pop_back();
+  drive.push_back(test::TransformMessageOf(
+      Ros::k2, "/tf_static", 0s, "base_footprint", "base_link", Spatial({0.0, 0.0, 0.0})));
+  drive.push_back(test::TransformMessageOf(
+      Ros::k2, "/tf_static", 0s, "base_link", "mast", Spatial({0.5, 0, std::numbers::pi / 2})));
+  drive.push_back(
+      test::TransformMessageOf(Ros::k2, "/tf_static", 0s, "mast", "laser", Spatial({0.1, 0, 0})));
+  const Pose2 mounting = ReadMcap(drive).scans.at(0).scan.geometry.T_robot_laser;
+  EXPECT_NEAR(mounting.x_m, 0.5, 1e-12);
+  EXPECT_NEAR(mounting.y_m, 0.1, 1e-12);
+  EXPECT_NEAR(mounting.theta_rad, std::numbers::pi / 2, 1e-12);
+}
+
+TEST_F(Bag, TurnsTheScansOfAnUpsideDownLaser) {
+  std::vector<MadeMessage> drive = Drive(Ros::k2);
+  drive.pop_back();
+  // Rolled by 180 degrees, looking to the left.
+  const Quaternion rolled = QuaternionOf(std::numbers::pi / 2) * Quaternion{1.0, 0.0, 0.0, 0.0};
+  drive.push_back(test::TransformMessageOf(
+      Ros::k2, "/tf_static", 0s, "base_link", "laser", {.rotation = rolled}));
+  const LaserGeometry geometry = ReadMcap(drive).scans.at(0).scan.geometry;
+  EXPECT_NEAR(geometry.T_robot_laser.theta_rad, std::numbers::pi / 2, 1e-12);
+  EXPECT_EQ(geometry.first_bearing_rad, 1.0F);
+  EXPECT_EQ(geometry.bearing_step_rad, -0.1F);
+}
+
+TEST_F(Bag, SaysThatNothingTellsWhereTheLaserSits) {
+  std::vector<MadeMessage> drive = Drive(Ros::k2);
+  drive.pop_back();
+  EXPECT_EQ(ReadMcap(drive).scans.at(0).scan.geometry.T_robot_laser, Pose2{});
+  EXPECT_NE(told_.find("nothing says where the laser 'laser' of /scan sits on 'base_link'"),
+            std::string::npos)
+      << told_;
+}
+
+TEST_F(Bag, ReadsAllLasersOfARobotButEachOnlyOnce) {
+  std::vector<MadeMessage> drive = Drive(Ros::k2);
+  drive.push_back(test::ScanMessage(Ros::k2, "/scan_filtered", At(1), "laser", RangesAt(1)));
+  drive.push_back(test::ScanMessage(Ros::k2, "/rear/scan", At(1) + 10ms, "rear", RangesAt(2)));
+  drive.push_back(test::TransformMessageOf(
+      Ros::k2, "/tf_static", 0s, "base_link", "rear", Spatial({-0.2, 0, std::numbers::pi})));
+  const LogContent log = ReadMcap(drive);
+  ASSERT_EQ(log.scans.size(), 5U);
+  EXPECT_EQ(log.scans[2].scan.geometry.T_robot_laser.x_m, -0.2);
+  EXPECT_NEAR(log.scans[2].T_odom_robot->x_m, 0.11, 1e-9) << "the odometry of its own moment";
+  EXPECT_EQ(log.report.other_scans, 1U);
+  EXPECT_NE(told_.find("choose with --scan"), std::string::npos) << told_;
+
+  LogOptions options;
+  options.scan_topics = {"rear/scan"};
+  EXPECT_EQ(ReadMcap(drive, "zstd", options).scans.size(), 1U);
+  options.scan_topics = {"/front"};
+  EXPECT_NE(FailureOf([&] {
+              ReadMcap(drive, "zstd", options);
+            }).find("no scans on '/front'; it has them on /rear/scan, /scan, /scan_filtered"),
+            std::string::npos);
+}
+
+TEST_F(Bag, ReadsTheRobotThatIsAskedFor) {
+  std::vector<MadeMessage> team;
+  for (const std::string robot : {"/robot1", "/robot2"}) {
+    for (MadeMessage message : Drive(Ros::k2)) {
+      if (message.topic == "/scan" || message.topic == "/odom") {
+        message.topic = robot + message.topic;
+      }
+      team.push_back(message);
+    }
+  }
+  EXPECT_NE(FailureOf([&] {
+              ReadMcap(team);
+            }).find("several robots: /robot1, /robot2; choose one with --robot"),
+            std::string::npos);
+  LogOptions options;
+  options.robot = "robot2";
+  EXPECT_EQ(ReadMcap(team, "zstd", options).scans.size(), 4U);
+  options.robot = "robot3";
+  EXPECT_NE(FailureOf([&] { ReadMcap(team, "zstd", options); }).find("robot 'robot3'"),
+            std::string::npos);
+}
+
+TEST_F(Bag, PassesOverMessagesThatAreNotWhatTheyShouldBeAndTellsOnce) {
+  std::vector<MadeMessage> drive = Drive(Ros::k2);
+  MadeMessage torn = drive[1];
+  torn.bytes.resize(20);
+  MadeMessage vast = drive[1];
+  vast.bytes[4 + 8 + 4 + 8 + 28] = '\x7F';  // The count of its ranges.
+  vast.bytes[4 + 8 + 4 + 8 + 28 + 3] = '\x7F';
+  drive.push_back(torn);
+  drive.push_back(torn);
+  drive.push_back(vast);
+  const LogContent log = ReadMcap(drive);
+  EXPECT_EQ(log.scans.size(), 4U);
+  EXPECT_NE(told_.find("message 10 (/scan): a length in it is beyond its end"), std::string::npos)
+      << told_;
+  EXPECT_GE(log.report.malformed_lines(), 3U);
+  LogOptions options;
+  options.strict = true;
+  EXPECT_NE(FailureOf([&] { ReadMcap(drive, "zstd", options); }), "");
+}
+
+TEST_F(Bag, GoesAroundADamagedChunk) {
+  for (const char* compression : {"zstd", "lz4", ""}) {
+    SCOPED_TRACE(compression);
+    std::string bytes = test::McapOf(Drive(Ros::k2), compression, 1);
+    const std::size_t chunk = bytes.find('\x06', 40);
+    bytes[chunk + 1 + 5] = '\x7F';  // Its length is absurd now.
+    test::WriteBytes(folder_.path() / "t.mcap", bytes);
+    EXPECT_GE(Read("t.mcap").scans.size(), 4U);
+    EXPECT_NE(told_.find("or the chunk is damaged"), std::string::npos) << told_;
+  }
+  std::string bytes = test::Ros1BagOf(Drive(Ros::k1), "lz4", 1);
+  const std::size_t second = bytes.find("op=\x05", bytes.find("op=\x05") + 1);
+  bytes[bytes.find("size=", second) + 12] = '\x7F';
+  test::WriteBytes(folder_.path() / "t.bag", bytes);
+  EXPECT_GE(Read("t.bag").scans.size(), 3U);
+}
+
+TEST_F(Bag, OfAnOlderFormatIsToldHowToMendIt) {
+  test::WriteBytes(folder_.path() / "old.bag", "#ROSBAG V1.2\n and more");
+  EXPECT_NE(FailureOf([&] { Read("old.bag"); }).find("rosbag fix"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace qwsm::io
