@@ -16,6 +16,7 @@
 #include "service/config/suggestion.hpp"
 #include "service/io/files/atomic_file.hpp"
 #include "service/io/maps/map_file.hpp"
+#include "service/pipeline/results/answer_bag.hpp"
 #include "service/pipeline/results/corrected_run.hpp"
 #include "service/pipeline/results/results_writer.hpp"
 #include "service/pipeline/simulation/simulator_source.hpp"
@@ -27,6 +28,7 @@ struct MapArguments {
   RunArguments run;
   std::optional<std::string> matcher;
   std::optional<std::filesystem::path> save_map;
+  bool bag = false;             ///< Whether the answers are left as a bag, too.
   ScenarioArguments simulated;  ///< Instead of logs, if it names a scenario.
   std::optional<std::string> robot;
 
@@ -83,6 +85,15 @@ Origin OpenOrigin(const MapArguments& arguments, const options::LogOptions& log)
           .scenario = scenario};
 }
 
+constexpr const char* kAnswers = "answers.mcap";
+
+void WriteAnswers(const RunSession& session,
+                  const options::ProgramOptions& options,
+                  const pipeline::AnswerBag& answers,
+                  const ScanMap& map) {
+  answers.Write(session.folder() / kAnswers, pipeline::RenderOrWarn(map, options.rendering));
+}
+
 // Incremental mapping, as in Visser et al. (2009): no pose is corrected afterwards.
 ExitCode MapOnly(const MapArguments& arguments,
                  const options::ProgramOptions& options,
@@ -90,8 +101,12 @@ ExitCode MapOnly(const MapArguments& arguments,
                  const RunSession& session) {
   Mapper mapper(options.mapper);
   pipeline::ResultsWriter results(session.folder());
-  const pipeline::ReplayResult end = session.Run("map", source, mapper, {&results});
+  pipeline::AnswerBag answers;
+  std::vector<pipeline::StepSink*> sinks{&results};
+  if (arguments.bag) sinks.push_back(&answers);
+  const pipeline::ReplayResult end = session.Run("map", source, mapper, sinks);
   results.Finish(mapper, options.rendering, source.truth());
+  if (arguments.bag) WriteAnswers(session, options, answers, mapper.map());
   if (arguments.save_map) io::SaveMap(*arguments.save_map, mapper.map());
   session.Summarize(results, mapper.map());
   return Conclude(end);
@@ -105,9 +120,16 @@ ExitCode MapAndCorrect(const MapArguments& arguments,
   Mapper mapper(options.mapper);
   pipeline::ResultsWriter results(session.folder(), "trajectory_live.tum");
   pipeline::CorrectionSink correction(options.mapper);
-  const pipeline::ReplayResult end = session.Run("map", source, mapper, {&results, &correction});
+  pipeline::AnswerBag answers;
+  std::vector<pipeline::StepSink*> sinks{&results, &correction};
+  if (arguments.bag) sinks.push_back(&answers);
+  const pipeline::ReplayResult end = session.Run("map", source, mapper, sinks);
   const pipeline::CorrectedRun corrected = correction.Correct(mapper.map());
   results.Finish(mapper, corrected, options.rendering, source.truth());
+  if (arguments.bag) {
+    answers.Correct(corrected.correction.map_robot);
+    WriteAnswers(session, options, answers, corrected.map);
+  }
   if (arguments.save_map) io::SaveMap(*arguments.save_map, corrected.map);
   session.Summarize(results, corrected.map);
   return Conclude(end);
@@ -156,6 +178,7 @@ Command AddMapCommand(CLI::App& program) {
   parser->add_option("--matcher", arguments->matcher, "q-wsm, wsm or icp")->type_name("NAME");
   parser->add_option("--save-map", arguments->save_map, "the map, for qwsm localize")
       ->type_name("FILE");
+  parser->add_flag("--bag", arguments->bag, "poses, /tf and map as answers.mcap, too, for ROS 2");
   parser
       ->add_option("--sim",
                    arguments->simulated.scenario,

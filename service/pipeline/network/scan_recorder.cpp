@@ -40,8 +40,7 @@ void ScanRecorder::Finish() {
 void ScanRecorder::WriteFirst() {
   LaserScan& scan = waiting_.front().scan;
   const std::optional<Pose2> T_odom_robot = odometry_.At(scan.stamp);
-  carmen_.Write(
-      io::ScanReading{.scan = std::move(scan), .T_odom_robot = T_odom_robot, .laser = "front"});
+  write_(io::ScanReading{.scan = std::move(scan), .T_odom_robot = T_odom_robot, .laser = "front"});
   waiting_.pop_front();
   ++scans_;
 }

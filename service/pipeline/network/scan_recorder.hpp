@@ -5,20 +5,23 @@
 #include <chrono>
 #include <cstddef>
 #include <deque>
-#include <ostream>
+#include <functional>
 #include <string_view>
+#include <utility>
 
-#include "service/io/logs/carmen_writer.hpp"
+#include "qwsm/logs/log_record.hpp"
 #include "service/team/session/odometry_buffer.hpp"
 #include "service/team/session/robot_listener.hpp"
 
 namespace qwsm::pipeline {
 
-/// Writes what a robot says as a CARMEN log, each scan with the odometry of its moment.
+/// Writes what a robot says as a log, each scan with the odometry of its moment.
 class ScanRecorder final : public team::RobotListener<team::Planar> {
  public:
-  /// Writes to a stream, which outlives this.
-  explicit ScanRecorder(std::ostream& stream) : carmen_(stream) {}
+  using Write = std::function<void(const io::LogRecord&)>;
+
+  /// Hands over what is complete. @param write puts a record into a log.
+  explicit ScanRecorder(Write write) : write_(std::move(write)) {}
 
   bool TakeScan(std::string_view robot, LaserScan scan) override;
   void TakeOdometry(std::string_view robot, Timestamp stamp, const Pose2& T_odom_robot) override;
@@ -41,7 +44,7 @@ class ScanRecorder final : public team::RobotListener<team::Planar> {
 
   void WriteFirst();
 
-  io::CarmenWriter carmen_;
+  Write write_;
   team::OdometryBuffer<Pose2> odometry_;
   bool expects_odometry_ = false;
   std::deque<Waiting> waiting_;

@@ -26,12 +26,6 @@ std::string NameFor(const std::string& laser) {
   return name.empty() || name == "front" ? "" : name;
 }
 
-void CheckTime(Timestamp stamp) {
-  if (IsRosTime(stamp)) return;
-  throw WriteError("a record has the stamp " + std::to_string(stamp.count() / 1'000'000'000) +
-                   " s: messages of ROS 2 have 0 to 2147483647 s");
-}
-
 }  // namespace
 
 void LogBagWriter::Write(const LogRecord& record) {
@@ -44,7 +38,7 @@ void LogBagWriter::Write(const LogRecord& record) {
 
 void LogBagWriter::WriteScan(const ScanReading& reading) {
   const LaserScan& scan = reading.scan;
-  CheckTime(scan.stamp);
+  CheckRosTime(scan.stamp);
   const std::string name = NameFor(reading.laser);
   const std::string frame = name.empty() ? "laser" : name;
   WriteMounting(scan.stamp, frame, scan.geometry.T_robot_laser);
@@ -55,13 +49,13 @@ void LogBagWriter::WriteScan(const ScanReading& reading) {
 }
 
 void LogBagWriter::WriteOdometry(Timestamp stamp, const Pose2& T_odom_robot) {
-  CheckTime(stamp);
+  CheckRosTime(stamp);
   bag_->Write(kOdometry, stamp, EncodeOdometry(stamp, kOdomFrame, kRobotFrame, T_odom_robot));
   bag_->Write(kTransforms, stamp, EncodeTransform(stamp, kOdomFrame, kRobotFrame, T_odom_robot));
 }
 
 void LogBagWriter::WriteTruth(const TruePoseReading& reading) {
-  CheckTime(reading.stamp);
+  CheckRosTime(reading.stamp);
   bag_->Write(kTruth,
               reading.stamp,
               EncodeOdometry(reading.stamp, "world", kRobotFrame, reading.T_world_robot));

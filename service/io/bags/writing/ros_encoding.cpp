@@ -8,6 +8,7 @@
 
 #include "service/io/bags/messages/transform3.hpp"
 #include "service/io/bags/writing/cdr_writer.hpp"
+#include "service/io/files/atomic_file.hpp"
 
 namespace qwsm::io {
 namespace {
@@ -57,9 +58,11 @@ std::uint8_t OccupancyOf(CellState state) {
 
 }  // namespace
 
-bool IsRosTime(Timestamp stamp) {
-  return stamp >= Timestamp::zero() &&
-         stamp <= std::chrono::seconds(std::numeric_limits<std::int32_t>::max());
+void CheckRosTime(Timestamp stamp) {
+  constexpr auto kLast = std::chrono::seconds(std::numeric_limits<std::int32_t>::max());
+  if (stamp >= Timestamp::zero() && stamp <= kLast) return;
+  throw WriteError("a record has the stamp " + std::to_string(stamp.count() / 1'000'000'000) +
+                   " s: messages of ROS 2 have 0 to 2147483647 s");
 }
 
 std::string EncodeLaserScan(const LaserScan& scan, std::string_view frame) {

@@ -12,8 +12,8 @@
 /// @pre stamps are not before 1970 and, as ROS 2 has 31 bits for seconds, not after 2038.
 namespace qwsm::io {
 
-/// Whether a stamp can be written.
-bool IsRosTime(Timestamp stamp);
+/// Throws where a stamp cannot be written. @throws WriteError
+void CheckRosTime(Timestamp stamp);
 
 std::string EncodeLaserScan(const LaserScan& scan, std::string_view frame);
 /// The pose of a frame in its parent as nav_msgs/Odometry; speeds are 0.
