@@ -19,6 +19,7 @@ struct LogOptions {
   bool strict = false;
   double range_max_m = 0.0;
   double field_of_view_rad = 0.0;
+  double sweep_s = -1.0;
   std::string scan;
   std::string odometry;
   std::string robot;
@@ -35,6 +36,11 @@ void Describe(Visitor& visit, LogOptions& o) {
         {.help = "of the laser; 0: as the log says or its beams suggest",
          .min = 0,
          .max = 2.0 * std::numbers::pi});
+  visit("sweep_s",
+        o.sweep_s,
+        {.help = "of a bag: time from first to last beam, as the robot moves; -1: as messages say",
+         .min = -1,
+         .max = 1});
   visit("scan", o.scan, {.help = "of a bag: topics of scans, with commas; empty: one per laser"});
   visit(
       "odometry", o.odometry, {.help = "of a bag: topic of odometry, or /tf; empty: the robot's"});

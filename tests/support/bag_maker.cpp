@@ -145,11 +145,12 @@ MadeMessage ScanMessage(Ros ros,
                         Timestamp stamp,
                         const std::string& frame,
                         const std::vector<float>& ranges_m,
-                        float bearing_step_rad) {
+                        float time_step_s) {
+  constexpr float kStep_rad = 0.1F;
   Fields fields(ros);
   fields.AddHeader(stamp, frame);
-  const auto span = bearing_step_rad * static_cast<float>(ranges_m.size() - 1);
-  for (const float value : {-1.0F, -1.0F + span, bearing_step_rad, 0.0F, 0.0F, 0.1F, 30.0F}) {
+  const auto span = kStep_rad * static_cast<float>(ranges_m.size() - 1);
+  for (const float value : {-1.0F, -1.0F + span, kStep_rad, time_step_s, 0.0F, 0.1F, 30.0F}) {
     fields.Add(value);
   }
   fields.Add(static_cast<std::uint32_t>(ranges_m.size()));

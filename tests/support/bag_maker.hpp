@@ -29,7 +29,7 @@ MadeMessage ScanMessage(Ros ros,
                         Timestamp stamp,
                         const std::string& frame,
                         const std::vector<float>& ranges_m,
-                        float bearing_step_rad = 0.1F);
+                        float time_step_s = 0.0F);
 MadeMessage OdometryMessageOf(Ros ros,
                               const std::string& topic,
                               Timestamp stamp,

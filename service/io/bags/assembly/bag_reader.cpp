@@ -3,9 +3,11 @@
 #include "service/io/bags/assembly/bag_reader.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <tuple>
 #include <utility>
 
+#include "qwsm/sensor/deskew.hpp"
 #include "qwsm/sensor/scan_limits.hpp"
 #include "service/io/bags/messages/message_reader.hpp"
 
@@ -22,6 +24,12 @@ LaserScan ScanOf(LaserScanMessage message, const LaserChoice& laser) {
                        .range_max_m = message.range_max_m,
                        .T_robot_laser = laser.T_robot_laser},
           .ranges_m = std::move(message.ranges_m)};
+}
+
+/// Time from the first beam to the last, as the message or the options tell; 0 where none does.
+double SweepOf(const LaserScanMessage& message, const LogOptions& options) {
+  const double gaps = static_cast<double>(message.ranges_m.size()) - 1.0;
+  return options.sweep_s.value_or(static_cast<double>(message.time_step_s) * gaps);
 }
 
 }  // namespace
@@ -108,17 +116,33 @@ std::optional<LogRecord> BagReader::NextScan() {
   return std::nullopt;
 }
 
+/// The scan as from the robot's place at its stamp, where beams have times and odometry tells how
+/// the robot moved meanwhile.
+LaserScan BagReader::Deskew(LaserScan scan,
+                            double sweep_s,
+                            const std::optional<Pose2>& T_odom_first) const {
+  constexpr double kLongestSweep_s = 1.0;
+  if (!(sweep_s > 0.0 && sweep_s <= kLongestSweep_s) || !T_odom_first) return scan;
+  const auto sweep =
+      std::chrono::round<std::chrono::nanoseconds>(std::chrono::duration<double>(sweep_s));
+  const std::optional<Pose2> T_odom_last = choice_.odometry.At(scan.stamp + sweep, 0);
+  return T_odom_last ? Deskewed(scan, T_odom_first->Inverse() * *T_odom_last) : scan;
+}
+
 ScanReading BagReader::ReadScan(const Place& place) {
   MessageSource& messages = contents_.files[place.scan.file].messages();
   const Encoding encoding = messages.topics()[place.scan.topic].encoding;
   const std::string_view bytes = PlainMessage(messages.Read(place.scan.address), buffer_);
   const LaserChoice& laser = choice_.lasers[place.laser];
-  ScanReading reading{.scan = ScanOf(DecodeLaserScan(bytes, encoding), laser),
+  LaserScanMessage message = DecodeLaserScan(bytes, encoding);
+  const double sweep_s = SweepOf(message, options_);
+  ScanReading reading{.scan = ScanOf(std::move(message), laser),
                       .T_odom_robot = choice_.odometry.At(place.scan.stamp, place.scan.sequence),
                       .laser = laser.name};
   LaserGeometry& geometry = reading.scan.geometry;
   if (options_.range_max_m) geometry.range_max_m = *options_.range_max_m;
   if (options_.T_robot_laser) geometry.T_robot_laser = *options_.T_robot_laser;
+  reading.scan = Deskew(std::move(reading.scan), sweep_s, reading.T_odom_robot);
   return reading;
 }
 

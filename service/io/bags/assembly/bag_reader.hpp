@@ -36,6 +36,7 @@ class BagReader final : public LogReader {
   void TakePlaces();
   std::optional<LogRecord> NextScan();
   ScanReading ReadScan(const Place& place);
+  LaserScan Deskew(LaserScan scan, double sweep_s, const std::optional<Pose2>& T_odom_first) const;
   std::optional<OdometryReading> NextOf(const OdometryTrack& track,
                                         std::size_t next,
                                         Timestamp until) const;

@@ -36,6 +36,8 @@ struct LogOptions {
   std::string odometry_topic;
   /// Of a bag of several robots: the namespace of one. Where there is only one, it is read.
   std::string robot;
+  /// Of a bag: time from a scan's first beam to its last, in seconds; else as its messages say.
+  std::optional<double> sweep_s;
   std::optional<Pose2> T_robot_laser;       ///< Replaces what the log says of the mounting.
   std::optional<float> range_max_m;         ///< Replaces what the log says or shows.
   std::optional<double> field_of_view_rad;  ///< Replaces the guess where lines do not state it.
