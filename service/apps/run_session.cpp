@@ -56,7 +56,8 @@ void AddResultArguments(CLI::App& parser, RunArguments& arguments, const std::st
 
 std::unique_ptr<LogSource> OpenLogs(const RunArguments& arguments,
                                     const options::LogOptions& options) {
-  auto source = std::make_unique<LogSource>(arguments.logs, LogOptionsOf(options));
+  auto source =
+      std::make_unique<LogSource>(arguments.logs, LogOptionsOf(options), options.mirrored);
   if (source->Peek() == nullptr) {
     throw UsageError("there is no scan in " + arguments.logs.front().string());
   }

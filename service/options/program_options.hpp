@@ -19,6 +19,7 @@ struct LogOptions {
   bool strict = false;
   double range_max_m = 0.0;
   double field_of_view_rad = 0.0;
+  bool mirrored = false;
   double sweep_s = -1.0;
   std::string scan;
   std::string odometry;
@@ -36,6 +37,9 @@ void Describe(Visitor& visit, LogOptions& o) {
         {.help = "of the laser; 0: as the log says or its beams suggest",
          .min = 0,
          .max = 2.0 * std::numbers::pi});
+  visit("mirrored",
+        o.mirrored,
+        {.help = "the laser is upside down, or counts its beams from the other side"});
   visit("sweep_s",
         o.sweep_s,
         {.help = "of a bag: time from first to last beam, as the robot moves; -1: as messages say",

@@ -22,10 +22,10 @@ struct MovedHit {
 
 using MovedHits = std::vector<std::optional<MovedHit>>;
 
-MovedHit Moved(const LaserScan& scan,
-               std::size_t beam,
-               const Pose2& T_first_now,
-               const LaserGeometry& still) {
+MovedHit MovedHitOf(const LaserScan& scan,
+                    std::size_t beam,
+                    const Pose2& T_first_now,
+                    const LaserGeometry& still) {
   const double range_m = static_cast<double>(scan.ranges_m[beam]);
   const double bearing_rad = scan.geometry.Bearing(beam);
   const Pose2& T_robot_laser = scan.geometry.T_robot_laser;
@@ -48,7 +48,7 @@ MovedHits MovedHitsOf(const LaserScan& scan,
     const Pose2 T_first_now{share * T_first_last.x_m,
                             share * T_first_last.y_m,
                             NormalizeAngle(share * T_first_last.theta_rad)};
-    hits[i] = Moved(scan, i, T_first_now, still);
+    hits[i] = MovedHitOf(scan, i, T_first_now, still);
   }
   return hits;
 }

@@ -9,9 +9,19 @@
 #include <variant>
 
 namespace qwsm::pipeline {
+namespace {
+
+void Mirror(LaserGeometry& geometry) {
+  geometry.first_bearing_rad = -geometry.first_bearing_rad;
+  geometry.bearing_step_rad = -geometry.bearing_step_rad;
+}
+
+}  // namespace
 
 LogSource::LogSource(const std::vector<std::filesystem::path>& logs,
-                     const io::LogOptions& options) {
+                     const io::LogOptions& options,
+                     bool mirrored)
+    : warn_(options.on_fault), mirrored_(mirrored) {
   for (const std::filesystem::path& log : logs) readers_.push_back(io::OpenLog(log, options));
 }
 
@@ -32,12 +42,29 @@ std::optional<Observation> LogSource::Read() {
     if (!record) {
       ++current_;
     } else if (auto* reading = std::get_if<io::ScanReading>(&*record)) {
-      return Observation{.scan = std::move(reading->scan), .T_odom_robot = reading->T_odom_robot};
+      Observation observation{.scan = std::move(reading->scan),
+                              .T_odom_robot = reading->T_odom_robot};
+      if (mirrored_) Mirror(observation.scan.geometry);
+      Check(observation);
+      return observation;
     } else if (const auto* pose = std::get_if<io::TruePoseReading>(&*record)) {
       truth_.push_back({.stamp = pose->stamp, .T_map_robot = pose->T_world_robot});
     }
   }
   return std::nullopt;
+}
+
+void LogSource::Check(const Observation& observation) {
+  if (told_of_turns_) return;
+  turns_.Add(observation.scan, observation.T_odom_robot);
+  if (!turns_.turns_against_odometry()) return;
+  told_of_turns_ = true;
+  if (!warn_) return;
+  warn_(
+      fmt::format("{}: scans and odometry turn against each other: the laser is upside down or "
+                  "counts its beams from the other side; --set log.mirrored={} mends it",
+                  readers_.front()->report().name,
+                  !mirrored_));
 }
 
 SourceProgress LogSource::progress() const {

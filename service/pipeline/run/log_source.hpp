@@ -4,11 +4,13 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "qwsm/logs/log_reader.hpp"
+#include "qwsm/sensor/turn_check.hpp"
 #include "service/pipeline/run/scan_source.hpp"
 
 namespace qwsm::pipeline {
@@ -17,8 +19,11 @@ namespace qwsm::pipeline {
 class LogSource final : public ScanSource {
  public:
   /// Opens all logs at once, so that a wrong name is found before the work begins.
+  /// @param mirrored whether beams are counted from the wrong side, and are turned.
   /// @throws io::LogError where one is no log.
-  LogSource(const std::vector<std::filesystem::path>& logs, const io::LogOptions& options);
+  LogSource(const std::vector<std::filesystem::path>& logs,
+            const io::LogOptions& options,
+            bool mirrored = false);
 
   /// Gives the next scan.
   /// @throws io::LogError where a log is damaged, after everything before the damage was given.
@@ -34,7 +39,12 @@ class LogSource final : public ScanSource {
 
  private:
   std::optional<Observation> Read();
+  void Check(const Observation& observation);
 
+  std::function<void(const std::string&)> warn_;
+  bool mirrored_;
+  TurnCheck turns_;
+  bool told_of_turns_ = false;
   std::vector<std::unique_ptr<io::LogReader>> readers_;
   std::size_t current_ = 0;
   std::size_t scans_ = 0;
