@@ -3,7 +3,7 @@
 #include "service/io/bags/assembly/odometry_track.hpp"
 
 #include <algorithm>
-#include <tuple>
+#include <utility>
 
 #include "service/io/logs/odometry_between.hpp"
 
@@ -13,20 +13,14 @@ void OdometryTrack::Add(const OdometryReading& reading, std::uint64_t sequence) 
   readings_.push_back({.reading = reading, .sequence = sequence});
 }
 
-void OdometryTrack::Sort() {
-  std::ranges::sort(readings_, {}, [](const Entry& entry) {
-    return std::tuple(entry.reading.stamp, entry.sequence);
-  });
-}
+void OdometryTrack::Sort() { std::ranges::sort(readings_, {}, OrderOf); }
 
 std::optional<Pose2> OdometryTrack::At(Timestamp stamp, std::uint64_t sequence) const {
-  const auto stamp_of = [](const Entry& entry) { return entry.reading.stamp; };
-  const auto same = std::ranges::equal_range(readings_, stamp, {}, stamp_of);
-  if (!same.empty()) {
-    const auto later = std::ranges::lower_bound(same, sequence, {}, &Entry::sequence);
-    return (later == same.begin() ? later : later - 1)->reading.T_odom_robot;
+  const auto after = std::ranges::lower_bound(readings_, std::pair(stamp, sequence), {}, OrderOf);
+  if (after != readings_.begin() && (after - 1)->reading.stamp == stamp) {
+    return (after - 1)->reading.T_odom_robot;
   }
-  const auto after = same.begin();
+  if (after != readings_.end() && after->reading.stamp == stamp) return after->reading.T_odom_robot;
   const bool has_after = after != readings_.end();
   const bool has_before = after != readings_.begin();
   if (has_after && has_before) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "qwsm/logs/log_record.hpp"
@@ -33,6 +34,9 @@ class OdometryTrack {
     OdometryReading reading;
     std::uint64_t sequence;
   };
+  static std::pair<Timestamp, std::uint64_t> OrderOf(const Entry& entry) {
+    return {entry.reading.stamp, entry.sequence};
+  }
 
   std::vector<Entry> readings_;
 };
