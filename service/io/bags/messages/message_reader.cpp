@@ -59,6 +59,21 @@ std::uint32_t MessageReader::Unsigned32() { return Take<std::uint32_t>(); }
 float MessageReader::Float() { return Take<float>(); }
 double MessageReader::Double() { return Take<double>(); }
 
+std::vector<float> MessageReader::Floats(std::size_t at_most) {
+  const std::size_t count = Count(sizeof(float));  // Behind which they are aligned.
+  if (count > at_most) {
+    throw MessageError("it has more than " + std::to_string(at_most) + " numbers in a row");
+  }
+  std::vector<float> values(count);
+  if (is_big_endian_ != (std::endian::native == std::endian::big)) {
+    for (float& value : values) value = Float();
+  } else if (count > 0) {
+    const std::string_view raw = Bytes(count * sizeof(float));
+    std::memcpy(values.data(), raw.data(), raw.size());
+  }
+  return values;
+}
+
 std::string_view MessageReader::Bytes(std::size_t size) {
   if (size > bytes_.size() - at_) throw MessageError("a length in it is beyond its end");
   const std::string_view taken = bytes_.substr(at_, size);

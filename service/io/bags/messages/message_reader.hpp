@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "qwsm/sensor/laser_scan.hpp"
 #include "service/io/bags/containers/message_source.hpp"
@@ -36,6 +37,8 @@ class MessageReader {
   /// The number of things in a sequence, of at least `bytes_each`, which are there: safe to
   /// allocate for.
   std::size_t Count(std::size_t bytes_each);
+  /// A sequence of numbers, at most so many.
+  std::vector<float> Floats(std::size_t at_most);
   /// Bytes as they are, without alignment.
   std::string_view Bytes(std::size_t size);
 

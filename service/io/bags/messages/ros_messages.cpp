@@ -70,10 +70,7 @@ LaserScanMessage DecodeLaserScan(std::string_view bytes, Encoding encoding) {
   scan.scan_time_s = fields.Float();
   scan.range_min_m = fields.Float();
   scan.range_max_m = fields.Float();
-  const std::size_t count = fields.Count(sizeof(float));
-  if (count > kMostBeams) throw MessageError("it has more than 100000 ranges");
-  scan.ranges_m.resize(count);
-  for (float& range_m : scan.ranges_m) range_m = fields.Float();
+  scan.ranges_m = fields.Floats(kMostBeams);
   return scan;  // Intensities are of no use here.
 }
 
