@@ -66,6 +66,28 @@ TEST_F(MapCommand, FollowsTheRobot) {
   EXPECT_NEAR(NormalizeAngle(T_map_end.theta_rad - T_start_end.theta_rad), 0.0, 0.01);
 }
 
+TEST_F(MapCommand, GivesTheSameFromABag) {
+  RunProgram({"map", log_, "--output", results_});
+  for (const char* name : {"room.mcap", "room.db3", "room"}) {
+    SCOPED_TRACE(name);
+    const fs::path bag = folder_.path() / name;
+    const bool is_folder = !bag.has_extension();
+    const Outcome converted = is_folder ? RunProgram({"convert", log_, "--to", "mcap", "-o", bag})
+                                        : RunProgram({"convert", log_, "-o", bag});
+    EXPECT_EQ(converted.exit_code, 0) << converted.errors;
+    const fs::path mapped = folder_.path() / (std::string("of_") + name);
+    const Outcome outcome = RunProgram({"map", bag, "--output", mapped});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+    EXPECT_EQ(outcome.errors.find("room"), std::string::npos) << "nothing is to be told";
+    EXPECT_EQ(ReadFile(mapped / "trajectory.tum"), ReadFile(results_ / "trajectory.tum"));
+  }
+}
+
+TEST_F(MapCommand, LeavesItsAnswersAsABag) {
+  RunProgram({"map", log_, "--output", results_, "--bag"});
+  EXPECT_TRUE(ReadFile(results_ / "answers.mcap").starts_with("\x89MCAP0\r\n"));
+}
+
 TEST_F(MapCommand, GivesTheSameFromAPipe) {
   RunProgram({"map", log_, "--output", results_});
   const fs::path piped = folder_.path() / "piped";
