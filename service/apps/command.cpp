@@ -61,7 +61,7 @@ void AddSetting(CLI::App& parser,
 
 void AddTopics(CLI::App& parser, config::OptionSources& sources) {
   AddSetting(
-      parser, sources, "--scan", "log.scan", "topics of scans, with commas; else all lasers");
+      parser, sources, "--scan", "log.scan", "topics of scans, with commas; else one laser's");
   AddSetting(parser, sources, "--odom", "log.odometry", "topic of odometry, or /tf; else chosen");
 }
 

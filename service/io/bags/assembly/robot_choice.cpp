@@ -101,7 +101,7 @@ class Chooser {
       robot_ = by_robot.begin()->first;
     }
     topics = by_robot[robot_];
-    return options_.scan_topics.empty() ? OneOfEachLaser(topics) : topics;
+    return options_.scan_topics.empty() ? OneLaser(topics) : topics;
   }
 
   std::vector<std::string> WantedScans() const {
@@ -117,7 +117,7 @@ class Chooser {
     return topics;
   }
 
-  std::vector<std::string> OneOfEachLaser(const std::vector<std::string>& topics) {
+  std::vector<std::string> OneLaser(const std::vector<std::string>& topics) {
     std::map<std::string, std::string> by_frame;
     for (const std::string& topic : topics) {
       const auto [known, is_new] = by_frame.try_emplace(contents_.scans[topic].frame, topic);
@@ -130,8 +130,20 @@ class Chooser {
     }
     std::vector<std::string> chosen;
     for (const auto& [frame, topic] : by_frame) chosen.push_back(topic);
-    std::ranges::sort(chosen);
-    return chosen;
+    return OneOf(std::move(chosen));
+  }
+
+  /// The laser with the most scans: matched in turns, those of several are worse than one's alone.
+  std::vector<std::string> OneOf(std::vector<std::string> topics) {
+    if (topics.size() < 2) return topics;
+    std::ranges::sort(topics);
+    const std::string best =
+        *std::ranges::max_element(topics, {}, [this](const std::string& topic) {
+          return contents_.scans[topic].places.size();
+        });
+    faults_.Doubt("has several lasers, " + ListOf(topics) + ": " + best +
+                  " is read; choose one, or several with commas, with --scan");
+    return {best};
   }
 
   /// The transforms of the robot: its own, or those that all share.

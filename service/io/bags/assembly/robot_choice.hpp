@@ -29,7 +29,8 @@ struct RobotChoice {
 ///
 /// A robot is a namespace with odometry of its own, whether nav_msgs/Odometry or /tf; where there
 /// is only one, all scans are its own. Topics of one frame are one laser told twice, as raw and
-/// filtered scans are: the one with the most messages is read.
+/// filtered scans are: of them, and of several lasers, the one with the most messages is read
+/// unless options name others.
 /// @throws LogError where an option names what is not there, or does not say which robot is meant.
 RobotChoice ChooseRobot(BagContents& contents,
                         const LogOptions& options,

@@ -30,7 +30,7 @@ struct LogOptions {
   bool strict = false;  ///< Throw at a malformed line instead of counting and skipping it.
   /// The laser's name or message ("rear", "RLASER"), or "all"; empty: the front one.
   std::string laser;
-  /// Of a bag: topics of scans; empty: one of each laser.
+  /// Of a bag: topics of scans; empty: that of one laser.
   std::vector<std::string> scan_topics;
   /// Of a bag: topic of odometry, or "/tf"; empty: the robot's own.
   std::string odometry_topic;
