@@ -3,19 +3,22 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "qwsm/geometry/angle.hpp"
 #include "qwsm/geometry/position.hpp"
-#include "qwsm/mapping/relocalization.hpp"
+#include "qwsm/mapping/localizer.hpp"
 #include "service/apps/command.hpp"
 #include "service/apps/messages.hpp"
 #include "service/apps/number_arguments.hpp"
 #include "service/apps/run_session.hpp"
 #include "service/io/maps/map_file.hpp"
+#include "service/pipeline/results/lost_and_found.hpp"
 #include "service/pipeline/results/results_writer.hpp"
 #include "service/pipeline/text/messages.hpp"
 
@@ -39,35 +42,31 @@ options::ProgramOptions LoadOptionsFor(const LocalizeArguments& arguments, const
   return options;
 }
 
-std::string PlaceText(const Pose2& pose) {
-  return fmt::format("{:.2f} {:.2f} {:.1f}", pose.x_m, pose.y_m, RadiansToDegrees(pose.theta_rad));
+/// Where the robot is at its first scan, if that was said.
+std::optional<UncertainPose2> StartOf(const LocalizeArguments& arguments) {
+  const std::vector<double>& at = arguments.at;
+  if (at.empty()) return std::nullopt;
+  constexpr double kSigma_m = 0.1;
+  const double kSigma_rad = DegreesToRadians(3.0);
+  return UncertainPose2::WithSigmas(
+      {at[0], at[1], NormalizeAngle(DegreesToRadians(at[2]))}, kSigma_m, kSigma_rad);
 }
 
-/// Where the robot is at its first scan: as was said, else where the scan fits best.
-UncertainPose2 FindStart(const LocalizeArguments& arguments,
-                         const ScanMap& map,
-                         const LaserScan& first) {
-  UncertainPose2 start;
-  start.covariance = Eigen::Vector3d(0.01, 0.01, 0.003).asDiagonal();  // 0.1 m and 3 degrees.
-  if (!arguments.at.empty()) {
-    const std::vector<double>& at = arguments.at;
-    start.T_a_b = {at[0], at[1], NormalizeAngle(DegreesToRadians(at[2]))};
-    return start;
+/// Tells where the search stands that the log ended in. @param unplaced scans of it.
+ExitCode ConcludeLost(const PlaceBelief& belief, std::size_t unplaced) {
+  if (belief.verdict == PlaceVerdict::kOneOfThese) {
+    messages::Error(
+        "the last {} scans could not be placed: they fit at {}; --at X Y DEG says where the robot "
+        "starts",
+        unplaced,
+        pipeline::PlacesText(belief));
+  } else {
+    messages::Error(
+        "the last {} scans could not be placed: they were found nowhere in the map; is it the "
+        "right map? --at X Y DEG says where the robot starts",
+        unplaced);
   }
-  const std::optional<RelocalizationResult> place = Relocalize(map, ToPoints(first));
-  if (!place) {
-    throw UsageError(
-        "the first scan fits nowhere in the map; is it the right map? --at X Y DEG says where the "
-        "robot starts");
-  }
-  messages::Info("starts at {}", PlaceText(place->best.T_map_robot));
-  if (place->rival) {
-    messages::Warn("the first scan fits at {} and nearly as well at {}; --at X Y DEG says which",
-                   PlaceText(place->best.T_map_robot),
-                   PlaceText(place->rival->T_map_robot));
-  }
-  start.T_a_b = place->best.T_map_robot;
-  return start;
+  return ExitCode::kFailed;
 }
 
 ExitCode RunLocalize(LocalizeArguments arguments) {
@@ -77,15 +76,19 @@ ExitCode RunLocalize(LocalizeArguments arguments) {
   if (map.empty()) throw UsageError(arguments.map.string() + ": is a map without scans");
   const options::ProgramOptions options = LoadOptionsFor(arguments, map);
   const auto source = OpenLogs(arguments.run, options.log);
-  const UncertainPose2 start = FindStart(arguments, map, source->Peek()->scan);
   if (arguments.run.dry_run) return TellPlan("localize", arguments.run);
 
   const RunSession session(arguments.run, options);
-  Mapper mapper(options.mapper, std::move(map), start);
+  Localizer localizer(options.mapper, std::move(map), StartOf(arguments));
   pipeline::ResultsWriter results(session.folder());
-  const pipeline::ReplayResult end = session.Run("localize", *source, mapper, {&results});
-  results.Finish(mapper, options.rendering);
-  session.Summarize(results, mapper.map());
+  pipeline::LostAndFound lost_and_found(localizer, results);
+  const pipeline::ReplayResult end = session.Run(
+      "localize", *source, std::bind_front(&Localizer::Process, &localizer), {&lost_and_found});
+  results.Finish(localizer.map(), options.mapper.matcher, options.rendering);
+  session.Summarize(results, localizer.map());
+  if (end.end == pipeline::ReplayEnd::kExhausted && lost_and_found.held() > 0) {
+    return ConcludeLost(localizer.belief(), lost_and_found.held());
+  }
   return Conclude(end);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -104,8 +105,9 @@ ExitCode MapOnly(const MapArguments& arguments,
   pipeline::AnswerBag answers;
   std::vector<pipeline::StepSink*> sinks{&results};
   if (arguments.bag) sinks.push_back(&answers);
-  const pipeline::ReplayResult end = session.Run("map", source, mapper, sinks);
-  results.Finish(mapper, options.rendering, source.truth());
+  const pipeline::ReplayResult end =
+      session.Run("map", source, std::bind_front(&Mapper::Process, &mapper), sinks);
+  results.Finish(mapper.map(), mapper.options().matcher, options.rendering, source.truth());
   if (arguments.bag) WriteAnswers(session, options, answers, mapper.map());
   if (arguments.save_map) io::SaveMap(*arguments.save_map, mapper.map());
   session.Summarize(results, mapper.map());
@@ -123,7 +125,8 @@ ExitCode MapAndCorrect(const MapArguments& arguments,
   pipeline::AnswerBag answers;
   std::vector<pipeline::StepSink*> sinks{&results, &correction};
   if (arguments.bag) sinks.push_back(&answers);
-  const pipeline::ReplayResult end = session.Run("map", source, mapper, sinks);
+  const pipeline::ReplayResult end =
+      session.Run("map", source, std::bind_front(&Mapper::Process, &mapper), sinks);
   const pipeline::CorrectedRun corrected = correction.Correct(mapper.map());
   results.Finish(mapper, corrected, options.rendering, source.truth());
   if (arguments.bag) {

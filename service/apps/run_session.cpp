@@ -87,11 +87,11 @@ RunSession::RunSession(const RunArguments& arguments, const options::ProgramOpti
 
 ReplayResult RunSession::Run(const std::string& task,
                              ScanSource& source,
-                             Mapper& mapper,
+                             const Answer& answer,
                              std::vector<StepSink*> sinks) const {
   JsonLinesSink json(stdout);
   if (verbosity_.json) sinks.push_back(&json);
-  return Run(task, source, {{.mapper = &mapper, .sinks = std::move(sinks)}});
+  return Run(task, source, {{.answer = answer, .sinks = std::move(sinks)}});
 }
 
 ReplayResult RunSession::Run(const std::string& task,

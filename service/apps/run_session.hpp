@@ -54,10 +54,10 @@ class RunSession {
 
   const pipeline::ResultsFolder& folder() const { return folder_; }
 
-  /// Runs all scans through the mapper into the sinks, with progress and messages as asked for.
+  /// Hands the answers to all scans to the sinks, with progress and messages as asked for.
   pipeline::ReplayResult Run(const std::string& task,
                              pipeline::ScanSource& source,
-                             Mapper& mapper,
+                             const pipeline::Answer& answer,
                              std::vector<pipeline::StepSink*> sinks) const;
 
   /// Runs all scans through several mappers, which take turns, with progress and messages as asked

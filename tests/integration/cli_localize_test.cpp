@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kScans = 60;
-constexpr int kFirst = 45;  // Where the second drive begins.
+constexpr int kFirst = 20;  // Where the second drive begins.
 
 class LocalizeCommand : public ::testing::Test {
  protected:
@@ -63,6 +63,17 @@ TEST_F(LocalizeCommand, FindsOutWhereItStarts) {
   const Outcome outcome = RunProgram({"localize", "--map", map_, part_, "-o", results_});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   ExpectOnThePath();
+}
+
+TEST_F(LocalizeCommand, SaysWhenTheRobotWasNotFound) {
+  std::ofstream(part_) << "FLASER 5 1 1 1 1 1 0 0 0 0 0 0 1.0 robot 1.0\n"
+                          "FLASER 5 1 1 1 1 1 2 0 0 2 0 0 2.0 robot 2.0\n";
+  const Outcome outcome = RunProgram({"localize", "--map", map_, part_, "-o", results_});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.errors.find("the last 2 scans could not be placed"), std::string::npos)
+      << outcome.errors;
+  EXPECT_NE(outcome.errors.find("--at X Y DEG says where the robot starts"), std::string::npos);
+  EXPECT_TRUE(io::ReadTumFile(results_ / "trajectory.tum").empty());
 }
 
 TEST_F(LocalizeCommand, StartsWhereItIsTold) {

@@ -2,25 +2,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "qwsm/mapping/relocalization.hpp"
 
-#include <Eigen/Geometry>
-#include <numbers>
+#include <algorithm>
 #include <vector>
+
+#include "qwsm/matching/mode_search.hpp"
 
 namespace qwsm {
 namespace {
 
-constexpr double kMargin_m = 2.0;      // The robot may stand a little off its old path.
-constexpr double kAnywhere_m2 = 1e12;  // No place is more likely than another.
+constexpr double kAroundMappedPath_m = 2.0;  // The robot may stand a little off its old path.
 
-SearchWindow WindowAround(std::span<const RelevantScan> scans) {
-  Eigen::AlignedBox2d box;
-  for (const RelevantScan& scan : scans) box.extend(scan.map_robot.T_a_b.translation_m());
-  SearchWindow window;
-  window.predicted.T_a_b = {box.center().x(), box.center().y(), 0.0};
-  window.predicted.covariance = Eigen::Matrix3d::Identity() * kAnywhere_m2;
-  window.translation_m = 0.5 * box.sizes().maxCoeff() + kMargin_m;
-  window.rotation_rad = std::numbers::pi;
-  return window;
+// The first mode that is not just another pose at the best one's place.
+std::optional<FoundPose> RivalAmong(const FoundModes& found, double rival_distance_m) {
+  const Eigen::Vector2d best_m = found.modes.front().T_map_robot.translation_m();
+  const auto rival = std::ranges::find_if(found.modes, [&](const FoundPose& mode) {
+    return (mode.T_map_robot.translation_m() - best_m).norm() > rival_distance_m;
+  });
+  if (rival != found.modes.end()) return *rival;
+  // What was not searched may be as good.
+  if (found.floor_score >= found.modes.front().score) return found.modes.front();
+  return std::nullopt;
 }
 
 }  // namespace
@@ -28,18 +29,15 @@ SearchWindow WindowAround(std::span<const RelevantScan> scans) {
 std::optional<RelocalizationResult> Relocalize(const ScanMap& map,
                                                std::span<const ScanPoint> points,
                                                const RelocalizationOptions& options) {
-  const std::vector<Eigen::Vector2d> thinned = PositionsOf(ThinOut(points, options.spacing_m));
-  if (map.empty() || thinned.empty()) return std::nullopt;
-  const LikelihoodPyramid& likelihood = map.surfaces().likelihood();
-  SearchWindow window = WindowAround(map.scans());
-  window.min_score = options.min_score;
-  const std::optional<FoundPose> best = SearchPose(likelihood, thinned, window, {});
-  if (!best) return std::nullopt;
-
-  window.min_score = best->score - options.rival_margin;
-  window.exclude = best->T_map_robot;
-  window.exclude_m = options.rival_distance_m;
-  return RelocalizationResult{.best = *best, .rival = SearchPose(likelihood, thinned, window, {})};
+  const FoundModes found = SearchModes(map.surfaces().likelihood(),
+                                       PositionsOf(ThinOut(points, options.spacing_m)),
+                                       {.places_m = PathOf(map),
+                                        .reach_m = kAroundMappedPath_m,
+                                        .min_score = options.min_score,
+                                        .margin = options.rival_margin});
+  if (found.modes.empty()) return std::nullopt;
+  return RelocalizationResult{.best = found.modes.front(),
+                              .rival = RivalAmong(found, options.rival_distance_m)};
 }
 
 }  // namespace qwsm

@@ -52,6 +52,8 @@ std::string_view Name(StepStatus status) {
       return "extended";
     case StepStatus::kDeadReckoned:
       return "dead-reckoned";
+    case StepStatus::kLost:
+      return "lost";
   }
   return "unknown";
 }

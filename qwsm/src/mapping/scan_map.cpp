@@ -109,4 +109,13 @@ FrameCovariance ScanMap::CovarianceUnder(std::span<const ScanPoint> points,
   return mean;
 }
 
+std::vector<Eigen::Vector2d> PathOf(const ScanMap& map) {
+  std::vector<Eigen::Vector2d> path_m;
+  path_m.reserve(map.scans().size());
+  for (const RelevantScan& scan : map.scans()) {
+    path_m.push_back(scan.map_robot.T_a_b.translation_m());
+  }
+  return path_m;
+}
+
 }  // namespace qwsm

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/evaluation/matcher_contest.hpp"
 
+#include <functional>
 #include <string>
 
 #include "service/io/files/atomic_file.hpp"
@@ -25,8 +26,8 @@ MatcherContest::MatcherContest(const MapperOptions& options,
 std::vector<MappingRun> MatcherContest::runs() {
   std::vector<MappingRun> runs;
   for (Contestant& contestant : contestants_) {
-    runs.push_back(
-        {.mapper = &contestant.mapper, .sinks = {&contestant.results, &contestant.figures}});
+    runs.push_back({.answer = std::bind_front(&Mapper::Process, &contestant.mapper),
+                    .sinks = {&contestant.results, &contestant.figures}});
   }
   return runs;
 }
@@ -34,7 +35,7 @@ std::vector<MappingRun> MatcherContest::runs() {
 void MatcherContest::Finish(const OccupancyGridOptions& rendering, const Trajectory& truth) {
   std::vector<io::ResidualSeries> residuals;
   for (Contestant& contestant : contestants_) {
-    contestant.results.Finish(contestant.mapper, rendering, truth);
+    contestant.results.Finish(contestant.mapper.map(), contestant.matcher(), rendering, truth);
     // The first matcher stands in front, as in Figure 4 of Visser et al. (2009).
     residuals.insert(residuals.begin(),
                      {.name = std::string(Name(contestant.matcher())),

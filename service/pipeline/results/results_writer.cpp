@@ -38,19 +38,16 @@ void ResultsWriter::Take(const TimedStep& timed) {
   history_.Take(timed);
 }
 
-void ResultsWriter::Finish(const Mapper& mapper,
+void ResultsWriter::Finish(const ScanMap& map,
+                           MatcherKind matcher,
                            const OccupancyGridOptions& rendering,
                            const Trajectory& truth) {
   trajectory_.Commit();
   table_.Commit();
-  Report({.map = mapper.map(),
-          .matcher = mapper.options().matcher,
-          .path = history_.path(),
-          .loops = {}},
-         truth);
+  Report({.map = map, .matcher = matcher, .path = history_.path(), .loops = {}}, truth);
   io::MapOverlay overlay = history_.Overlay();
   overlay.truth = truth_in_map_;
-  DrawMap(mapper.map(), rendering, overlay);
+  DrawMap(map, rendering, overlay);
 }
 
 void ResultsWriter::Finish(const Mapper& mapper,

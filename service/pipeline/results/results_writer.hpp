@@ -32,7 +32,8 @@ class ResultsWriter final : public StepSink {
 
   /// Writes what can only be known at the end. Whatever cannot be drawn is warned of.
   /// @param truth of the robot in a frame of its own; empty where it is not known.
-  void Finish(const Mapper& mapper,
+  void Finish(const ScanMap& map,
+              MatcherKind matcher,
               const OccupancyGridOptions& rendering,
               const Trajectory& truth = {});
   /// Writes what can only be known at the end of a corrected run: the corrected poses are the

@@ -46,6 +46,7 @@ Json MetricsJson(const RunStatistics& run,
   json["matched"] = run.Count(StepStatus::kMatched);
   json["extended"] = run.Count(StepStatus::kExtended);
   json["dead_reckoned"] = run.Count(StepStatus::kDeadReckoned);
+  json["lost"] = run.Count(StepStatus::kLost);
   json["relevant"] = run.relevant();
   json["path_length_m"] = run.path_length_m();
   json["mean_residual_mm"] = run.MeanResidual_mm();
@@ -93,6 +94,10 @@ std::string SummaryText(const RunStatistics& run,
                   WithThousands(run.Count(StepStatus::kMatched) + run.Count(StepStatus::kExtended)),
                   WithThousands(run.Count(StepStatus::kExtended)));
   text += fmt::format("dead-reckoned  {}\n", WithThousands(run.Count(StepStatus::kDeadReckoned)));
+  if (run.Count(StepStatus::kLost) > 0) {
+    text += fmt::format("lost           {}, and placed once the robot was found\n",
+                        WithThousands(run.Count(StepStatus::kLost)));
+  }
   text += fmt::format("mean residual  {:.2f} mm\n", run.MeanResidual_mm());
   text += fmt::format("map            {} points of {} relevant scans, {:.1f} MB\n",
                       WithThousands(points.points),

@@ -41,7 +41,7 @@ class RunStatistics final : public StepSink {
   ThinnedSeries<double> durations_ms_{kMostDurations};
   double time_sum_ms_ = 0.0;
   double longest_time_ms_ = 0.0;
-  std::vector<std::size_t> count_of_status_ = std::vector<std::size_t>(4);
+  std::vector<std::size_t> count_of_status_ = std::vector<std::size_t>(5);
   std::size_t relevant_ = 0;
   double path_length_m_ = 0.0;
   double residual_sum_mm_ = 0.0;

@@ -10,10 +10,9 @@
 namespace qwsm::pipeline {
 namespace {
 
-void Answer(const Observation& observation, const MappingRun& run) {
+void Feed(const Observation& observation, const MappingRun& run) {
   const auto start = std::chrono::steady_clock::now();
-  TimedStep timed{.step = run.mapper->Process(observation),
-                  .T_odom_robot = observation.T_odom_robot};
+  TimedStep timed{.step = run.answer(observation), .T_odom_robot = observation.T_odom_robot};
   timed.duration = std::chrono::steady_clock::now() - start;
   for (StepSink* sink : run.sinks) sink->Take(timed);
 }
@@ -31,7 +30,7 @@ ReplayResult Replay(ScanSource& source,
       return {.end = ReplayEnd::kSourceFailed, .failure = error.what()};
     }
     if (!observation) return {.end = ReplayEnd::kExhausted, .failure = {}};
-    for (const MappingRun& run : runs) Answer(*observation, run);
+    for (const MappingRun& run : runs) Feed(*observation, run);
   }
   return {.end = ReplayEnd::kInterrupted, .failure = {}};
 }

@@ -7,15 +7,19 @@
 #include <string>
 #include <vector>
 
-#include "qwsm/mapping/mapper.hpp"
+#include "qwsm/mapping/mapping_step.hpp"
+#include "qwsm/mapping/observation.hpp"
 #include "service/pipeline/run/scan_source.hpp"
 #include "service/pipeline/run/step_sink.hpp"
 
 namespace qwsm::pipeline {
 
+/// What answers to an observation, such as Mapper::Process() of some mapper.
+using Answer = std::function<MappingStep(const Observation&)>;
+
 /// A mapper, and who takes its answers.
 struct MappingRun {
-  Mapper* mapper = nullptr;
+  Answer answer;
   std::vector<StepSink*> sinks;
 };
 

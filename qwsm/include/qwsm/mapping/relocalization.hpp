@@ -40,10 +40,9 @@ struct RelocalizationResult {
   std::optional<FoundPose> rival;  ///< Another place where it fits about as well.
 };
 
-/// Finds where in a map a scan was taken, knowing nothing but the map (global localization): the
-/// best of all positions where the robot has been, give or take the distance between relevant
-/// scans, and all headings. O(area of the map) in the worst case, usually a small fraction of it
-/// (branch and bound).
+/// Finds where in a map a single scan was taken, knowing nothing but the map: the best of all
+/// positions near where a robot has been, and of all headings. Whoever can drive on finds more with
+/// a PlaceFinder.
 /// @return nothing where the scan fits nowhere.
 std::optional<RelocalizationResult> Relocalize(const ScanMap& map,
                                                std::span<const ScanPoint> points,

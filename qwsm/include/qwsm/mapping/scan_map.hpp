@@ -115,4 +115,7 @@ class ScanMap {
   std::vector<ScanError> errors_;    // By ScanId.
 };
 
+/// The positions of all scans of a map.
+std::vector<Eigen::Vector2d> PathOf(const ScanMap& map);
+
 }  // namespace qwsm

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "qwsm/mapping/mapper.hpp"
+#include "qwsm/mapping/place_finder.hpp"
+
+namespace qwsm {
+
+/// Follows a robot through a map that was made before and stays as it is. Where the robot is need
+/// not be known: until it is found, and when the map contradicts its scans for some metres, it is
+/// lost, and its answers are poses in a frame of its own. Deterministic; reads no clock.
+class Localizer {
+ public:
+  /// @param start pose at the first scan, if it is known.
+  Localizer(const MapperOptions& options,
+            ScanMap map,
+            const std::optional<UncertainPose2>& start = {});
+
+  /// Finds where the robot is. While it is lost, status is kLost, and `map_robot` is its pose in
+  /// a frame that begins where it was lost.
+  MappingStep Process(const Observation& observation);
+
+  const ScanMap& map() const { return map_; }
+  bool is_lost() const { return local_.has_value(); }
+  /// What is known of the place of the robot while it is lost.
+  const PlaceBelief& belief() const { return finder_.belief(); }
+  /// The frame of the robot's own in which it was lost last, once it is found.
+  const UncertainPose2& map_local() const { return map_local_; }
+
+ private:
+  MappingStep Search(const Observation& observation, std::span<const ScanPoint> points);
+  void LoseWhereContradicted(std::span<const ScanPoint> points, const MappingStep& step);
+  void Lose();
+
+  MapperOptions options_;
+  ScanMap map_;
+  RobotTracker tracker_;
+  std::optional<Mapper> local_;  // Maps where the robot is lost.
+  PlaceFinder finder_;
+  PlaceEvidence evidence_;
+  double nats_ = 0.0;                   // For the place where the robot is tracked, 0 at most.
+  std::optional<Pose2> T_map_weighed_;  // Where that was asked last.
+  UncertainPose2 map_local_;
+};
+
+}  // namespace qwsm

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <span>
+
+#include "qwsm/mapping/free_space.hpp"
+#include "qwsm/mapping/scan_map.hpp"
+#include "qwsm/matching/match_result.hpp"
+
+namespace qwsm {
+
+/// How the points of a scan fare at a place of a map.
+struct PlaceFit {
+  double told = 0.0;          ///< How many points tell something that no other one tells.
+  double explained = 0.0;     ///< Share of points that agree with a surface of the map.
+  double seen_through = 0.0;  ///< Share of points that end where the map's scans saw free space.
+
+  /// Evidence for the place in nats (log of the ratio of likelihoods). The alternative is the wrong
+  /// place where the scan fits best: there two points of three agree with some surface, too, but
+  /// many of the others end in free space.
+  double Nats() const;
+  /// The same from the points about which the map knows something: where the robot leaves the map,
+  /// nothing speaks against its place.
+  double NatsWithinMap() const;
+};
+
+/// Weighs what a scan tells for and against having been taken at a place of a map.
+class PlaceEvidence {
+ public:
+  explicit PlaceEvidence(const FreeSpaceOptions& options = {}) : options_(options) {}
+
+  /// @param points of the scan, thinned out.
+  /// @param match of the points at the place.
+  PlaceFit Weigh(const ScanMap& map, std::span<const ScanPoint> points, const MatchResult& match);
+
+ private:
+  double ShareSeenThrough(const ScanMap& map,
+                          std::span<const ScanPoint> points,
+                          const Pose2& T_map_robot);
+
+  FreeSpaceOptions options_;
+  std::map<ScanId, FreeRangeImage> images_;  // Of the map's scans that were asked for so far.
+};
+
+}  // namespace qwsm

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "qwsm/mapping/mapper_options.hpp"
+#include "qwsm/mapping/place_evidence.hpp"
+#include "qwsm/mapping/scan_locator.hpp"
+#include "qwsm/mapping/scan_map.hpp"
+
+namespace qwsm {
+
+/// What is known of the place of a robot that nobody placed.
+enum class PlaceVerdict : std::uint8_t {
+  kNotFound,    ///< It may well be where the map does not reach.
+  kOneOfThese,  ///< It is in the map, at one of several places.
+  kFound,       ///< It is at the first of the places.
+};
+
+std::string_view Name(PlaceVerdict verdict);
+
+/// A place where the robot may be.
+struct Place {
+  UncertainPose2 map_robot;  ///< At the last look.
+  double probability = 0.0;
+};
+
+/// What the looks so far tell.
+struct PlaceBelief {
+  PlaceVerdict verdict = PlaceVerdict::kNotFound;
+  std::vector<Place> places;  ///< The most probable one first; what is missing to 1 is elsewhere.
+};
+
+/// Finds where in a map a robot is that may be anywhere in it, or outside (global localization).
+///
+/// Now and then it looks around: it searches the whole map for places where the scan may have been
+/// taken, follows them from look to look, and weighs for each how well the scan fits by itself, and
+/// how much better than anywhere else. A place that is no more than the best of many wrong ones
+/// does neither for long: the next look is best explained somewhere else.
+class PlaceFinder {
+ public:
+  explicit PlaceFinder(const MapperOptions& options = {});
+
+  /// Looks around with a scan if the robot has moved on since the last look.
+  /// @param T_local_robot in a frame that drifts little between two looks.
+  const PlaceBelief& Look(const ScanMap& map,
+                          std::span<const ScanPoint> points,
+                          const Pose2& T_local_robot);
+
+  const PlaceBelief& belief() const { return belief_; }
+
+ private:
+  // A place of the robot, followed from look to look.
+  struct Hypothesis {
+    UncertainPose2 map_robot;
+    double score = 0.0;  // Of the last look.
+    double nats = 0.0;   // Evidence of all looks against its being elsewhere.
+    int looks = 0;       // At which it was there.
+    double way_m = 0.0;  // That it was followed for.
+    bool is_new = true;  // Since the last look.
+  };
+  struct Sight;
+
+  bool HasMovedOn(const Pose2& T_local_robot) const;
+  void Follow(const Sight& sight, const Pose2& T_last_robot);
+  void AddModes(const Sight& sight);
+  void Weigh(const Sight& sight);
+  void ForgetUnlikely();
+  double LeadNats() const;
+  PlaceBelief Belief() const;
+
+  ScanLocator locator_;
+  PlaceEvidence evidence_;
+  std::vector<Hypothesis> hypotheses_;  // The most likely one first.
+  std::optional<Pose2> T_local_last_;   // At the last look.
+  int looks_ = 0;
+  PlaceBelief belief_;
+};
+
+}  // namespace qwsm

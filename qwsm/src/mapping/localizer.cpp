@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "qwsm/mapping/localizer.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace qwsm {
+namespace {
+
+constexpr double kWeighSpacing_m = 0.15;
+constexpr double kBetweenWeighings_m = 0.5;
+constexpr double kPartedNats = -23.0;  // One in ten thousand millions: a robot in doubt is tracked.
+
+MapperOptions WithoutExtending(MapperOptions options) {
+  options.extend_map = false;
+  return options;
+}
+
+MapperOptions WithExtending(MapperOptions options) {
+  options.extend_map = true;
+  return options;
+}
+
+}  // namespace
+
+Localizer::Localizer(const MapperOptions& options,
+                     ScanMap map,
+                     const std::optional<UncertainPose2>& start)
+    : options_(options),
+      map_(std::move(map)),
+      tracker_(WithoutExtending(options)),
+      finder_(options),
+      evidence_(options.free_space) {
+  start ? tracker_.PlaceAt(*start) : Lose();
+}
+
+MappingStep Localizer::Process(const Observation& observation) {
+  const std::vector<ScanPoint> points = ToPoints(observation.scan);
+  if (local_) return Search(observation, points);
+  const MappingStep step = tracker_.Track(map_, observation, points);
+  LoseWhereContradicted(points, step);
+  return step;
+}
+
+MappingStep Localizer::Search(const Observation& observation, std::span<const ScanPoint> points) {
+  MappingStep step = local_->Process(observation);
+  const PlaceBelief& belief = finder_.Look(map_, points, step.map_robot.T_a_b);
+  if (belief.verdict == PlaceVerdict::kFound) {
+    const Pose2 T_local_robot = step.map_robot.T_a_b;
+    tracker_.PlaceAt(belief.places.front().map_robot);
+    local_.reset();
+    nats_ = 0.0;
+    step = tracker_.Track(map_, observation, points);
+    map_local_ = step.map_robot * UncertainPose2{.T_a_b = T_local_robot.Inverse()};
+    return step;
+  }
+  step.status = StepStatus::kLost;
+  step.reason = Name(belief.verdict);
+  step.relevant = false;
+  return step;
+}
+
+// Every half metre, so that what stands in the way of a waiting robot counts once.
+void Localizer::LoseWhereContradicted(std::span<const ScanPoint> points, const MappingStep& step) {
+  const Pose2& T_map_robot = step.map_robot.T_a_b;
+  if (T_map_weighed_) {
+    const Pose2 moved = T_map_weighed_->Inverse() * T_map_robot;
+    if (moved.translation_m().norm() < kBetweenWeighings_m) return;
+  }
+  T_map_weighed_ = T_map_robot;
+  MatchResult match = step.match;
+  match.T_ref_cur = T_map_robot;
+  const PlaceFit fit = evidence_.Weigh(map_, ThinOut(points, kWeighSpacing_m), match);
+  nats_ = std::min(0.0, nats_ + fit.NatsWithinMap());
+  if (nats_ < kPartedNats) Lose();
+}
+
+void Localizer::Lose() {
+  local_.emplace(WithExtending(options_));
+  finder_ = PlaceFinder(options_);
+}
+
+}  // namespace qwsm

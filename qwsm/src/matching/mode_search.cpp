@@ -1,0 +1,276 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "qwsm/matching/mode_search.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <unordered_set>
+#include <utility>
+
+#include "qwsm/search/coarse_likelihood.hpp"
+
+namespace qwsm {
+namespace {
+
+constexpr double kDistrict_m = 200.0;
+constexpr double kFarthestModePoint_m = 25.0;  // The farther points reach, the finer are headings.
+// Poses so near to each other are one mode: the exact search around one finds the other.
+constexpr double kSameMode_m = 0.3;
+constexpr double kSameMode_rad = 0.1;
+constexpr int kLevelsOfMode = 2;             // Blocks of higher levels are wider than that.
+constexpr std::size_t kMostModes = 64;       // More are no knowledge.
+constexpr std::size_t kMostBlocks = 200000;  // Where everything is alike, the search is given up.
+constexpr double kFlatVariance = 1e12;       // No pose is more likely than another.
+
+// Poses with the robot in a square of positions and the heading in an interval. Of a level of
+// CoarseLikelihood that has cells of side s, it is s / 2 wide, and turning to either end of the
+// interval moves no point by more than s / 4: a cell's maximum, which is over s offsets, bounds it.
+struct PoseBlock {
+  double bound = 0.0;
+  int level = 0;
+  std::uint32_t district = 0;
+  int heading = 0;  // Of so many of the level.
+  int x = 0;        // First position, in cells of the pyramid.
+  int y = 0;
+
+  bool operator<(const PoseBlock& other) const { return bound < other.bound; }
+};
+
+int WidthOf(int level) { return CoarseLikelihood::SideOf(level) / 2; }
+
+// Where the beams end in the frame of the robot turned to the headings of one level.
+class TurnedPoints {
+ public:
+  TurnedPoints(std::span<const Eigen::Vector2d> points_m, int headings, double cell_m)
+      : points_(points_m.size()), headings_(headings) {
+    cells_.reserve(points_ * static_cast<std::size_t>(headings));
+    for (int heading = 0; heading < headings; ++heading) {
+      const Eigen::Matrix2d R = Eigen::Rotation2Dd(Middle_rad(heading)).toRotationMatrix();
+      for (const Eigen::Vector2d& p_m : points_m) {
+        const Eigen::Vector2d cell = (R * p_m / cell_m).array().floor();
+        cells_.push_back({static_cast<int>(cell.x()), static_cast<int>(cell.y())});
+      }
+    }
+  }
+
+  int headings() const { return headings_; }
+  double HalfWidth_rad() const { return std::numbers::pi / headings_; }
+  double Middle_rad(int heading) const { return (2 * heading + 1) * HalfWidth_rad(); }
+  std::span<const GridCell> At(int heading) const {
+    return std::span(cells_).subspan(static_cast<std::size_t>(heading) * points_, points_);
+  }
+
+ private:
+  std::size_t points_;
+  int headings_;
+  std::vector<GridCell> cells_;
+};
+
+std::vector<Eigen::Vector2d> NearOnes(std::span<const Eigen::Vector2d> points_m) {
+  std::vector<Eigen::Vector2d> near_m;
+  for (const Eigen::Vector2d& p_m : points_m) {
+    if (p_m.norm() < kFarthestModePoint_m) near_m.push_back(p_m);
+  }
+  return near_m;
+}
+
+double FarthestOf(std::span<const Eigen::Vector2d> points_m) {
+  double lever_m = 1.0;
+  for (const Eigen::Vector2d& p_m : points_m) lever_m = std::max(lever_m, p_m.norm());
+  return lever_m;
+}
+
+// Places near to each other, and the map around them: maps may reach from one end of a town to the
+// other with nothing between.
+struct District {
+  std::vector<Eigen::Vector2d> places_m;
+  std::optional<CoarseLikelihood> likelihood;
+};
+
+std::vector<District> DistrictsOf(std::span<const Eigen::Vector2d> places_m) {
+  std::map<std::pair<double, double>, District> districts;
+  for (const Eigen::Vector2d& place_m : places_m) {
+    const Eigen::Vector2d district = (place_m / kDistrict_m).array().floor();
+    districts[{district.x(), district.y()}].places_m.push_back(place_m);
+  }
+  std::vector<District> list;
+  for (auto& [key, district] : districts) list.push_back(std::move(district));
+  return list;
+}
+
+Eigen::AlignedBox2d AreaAround(std::span<const Eigen::Vector2d> places_m, double reach_m) {
+  Eigen::AlignedBox2d area;
+  for (const Eigen::Vector2d& place_m : places_m) area.extend(place_m);
+  const Eigen::Vector2d around_m = Eigen::Vector2d::Constant(reach_m);
+  return {area.min() - around_m, area.max() + around_m};
+}
+
+class ModeSearch {
+ public:
+  ModeSearch(const LikelihoodPyramid& map,
+             std::vector<Eigen::Vector2d> points_m,
+             const ModeSearchWindow& window)
+      : map_(map),
+        points_m_(std::move(points_m)),
+        window_(window),
+        districts_(DistrictsOf(window.places_m)),
+        threshold_(window.min_score) {
+    const double coarsest_m = CoarseLikelihood::SideOf(kTop) * map.cell_size_m();
+    const double farthest_m = FarthestOf(points_m_);
+    for (District& district : districts_) {
+      district.likelihood.emplace(
+          map, AreaAround(district.places_m, window.reach_m + farthest_m + 2.0 * coarsest_m));
+    }
+    const double half_width_rad = 0.25 * coarsest_m / farthest_m;
+    int headings = static_cast<int>(std::ceil(std::numbers::pi / half_width_rad));
+    for (int level = kTop; level >= 0; --level, headings *= 2) {
+      turned_.emplace_back(points_m_, headings, map.cell_size_m());
+    }
+    std::ranges::reverse(turned_);
+  }
+
+  FoundModes Run() {
+    PushPlaces();
+    for (std::size_t visited = 0; !queue_.empty(); ++visited) {
+      std::pop_heap(queue_.begin(), queue_.end());
+      const PoseBlock block = queue_.back();
+      queue_.pop_back();
+      if (block.bound <= threshold_) break;
+      if (IsTried(block)) continue;
+      if (visited == kMostBlocks || found_.size() == kMostModes) return Best(block.bound);
+      block.level == 0 ? Try(block) : PushParts(block);
+    }
+    return Best(threshold_);
+  }
+
+ private:
+  static constexpr int kTop = CoarseLikelihood::kLevels - 1;
+
+  // The coarsest blocks around the places, each once.
+  void PushPlaces() {
+    std::unordered_set<std::uint64_t> seen;
+    for (std::uint32_t district = 0; district < districts_.size(); ++district) {
+      for (const Eigen::Vector2d& place_m : districts_[district].places_m) {
+        PushAround(place_m, district, seen);
+      }
+    }
+  }
+
+  void PushAround(const Eigen::Vector2d& place_m,
+                  std::uint32_t district,
+                  std::unordered_set<std::uint64_t>& seen) {
+    const int width = WidthOf(kTop);
+    const auto index = [&](double coordinate_m) {
+      return static_cast<int>(std::floor(coordinate_m / (width * map_.cell_size_m())));
+    };
+    const double reach_m = window_.reach_m;
+    for (int x = index(place_m.x() - reach_m); x <= index(place_m.x() + reach_m); ++x) {
+      for (int y = index(place_m.y() - reach_m); y <= index(place_m.y() + reach_m); ++y) {
+        const std::uint64_t key =
+            std::uint64_t{static_cast<std::uint32_t>(x)} << 32 | static_cast<std::uint32_t>(y);
+        if (!seen.insert(key).second) continue;
+        for (int heading = 0; heading < turned_.back().headings(); ++heading) {
+          Push({.level = kTop,
+                .district = district,
+                .heading = heading,
+                .x = x * width,
+                .y = y * width});
+        }
+      }
+    }
+  }
+
+  void Push(PoseBlock block) {
+    const auto ends = turned_[static_cast<std::size_t>(block.level)].At(block.heading);
+    block.bound = districts_[block.district].likelihood->Bound(
+        block.level, ends, {block.x, block.y}, threshold_);
+    if (block.bound <= threshold_) return;
+    queue_.push_back(block);
+    std::push_heap(queue_.begin(), queue_.end());
+  }
+
+  void PushParts(const PoseBlock& block) {
+    const int width = WidthOf(block.level - 1);
+    for (int part = 0; part < 8; ++part) {
+      Push({.level = block.level - 1,
+            .district = block.district,
+            .heading = 2 * block.heading + (part & 1),
+            .x = block.x + ((part >> 1) & 1) * width,
+            .y = block.y + ((part >> 2) & 1) * width});
+    }
+  }
+
+  // Finds the exact mode near one of the finest blocks.
+  void Try(const PoseBlock& block) {
+    const Pose2 middle = MiddleOf(block);
+    tried_.push_back(middle);
+    SearchWindow around{.predicted = {.T_a_b = middle},
+                        .translation_m = kSameMode_m,
+                        .rotation_rad = kSameMode_rad,
+                        .min_score = threshold_};
+    around.predicted.covariance = kFlatVariance * Eigen::Matrix3d::Identity();
+    const std::optional<FoundPose> found = SearchPose(map_, points_m_, around, {});
+    if (!found) return;
+    found_.push_back(*found);
+    threshold_ = std::max(threshold_, found->score - window_.margin);
+  }
+
+  bool IsTried(const PoseBlock& block) const {
+    if (block.level > kLevelsOfMode) return false;
+    const Pose2 middle = MiddleOf(block);
+    return std::ranges::any_of(tried_, [&](const Pose2& pose) { return IsSameMode(pose, middle); });
+  }
+
+  Pose2 MiddleOf(const PoseBlock& block) const {
+    const double half = 0.5 * WidthOf(block.level);
+    return {
+        (block.x + half) * map_.cell_size_m(),
+        (block.y + half) * map_.cell_size_m(),
+        NormalizeAngle(turned_[static_cast<std::size_t>(block.level)].Middle_rad(block.heading))};
+  }
+
+  static bool IsSameMode(const Pose2& a, const Pose2& b) {
+    return (a.translation_m() - b.translation_m()).norm() < kSameMode_m &&
+           std::abs(NormalizeAngle(a.theta_rad - b.theta_rad)) < kSameMode_rad;
+  }
+
+  // @param floor_score what was not visited scores no better.
+  FoundModes Best(double floor_score) {
+    std::ranges::stable_sort(found_, std::ranges::greater{}, &FoundPose::score);
+    FoundModes best{.modes = {}, .floor_score = floor_score};
+    for (const FoundPose& one : found_) {
+      const bool is_new = std::ranges::none_of(best.modes, [&](const FoundPose& better) {
+        return IsSameMode(better.T_map_robot, one.T_map_robot);
+      });
+      if (is_new && one.score >= threshold_) best.modes.push_back(one);
+    }
+    return best;
+  }
+
+  const LikelihoodPyramid& map_;
+  std::vector<Eigen::Vector2d> points_m_;
+  const ModeSearchWindow& window_;
+  std::vector<District> districts_;
+  std::vector<TurnedPoints> turned_;  // By level.
+  double threshold_;                  // What scores less is of no interest.
+  std::vector<PoseBlock> queue_;      // A heap, the highest bound first.
+  std::vector<Pose2> tried_;
+  std::vector<FoundPose> found_;
+};
+
+}  // namespace
+
+FoundModes SearchModes(const LikelihoodPyramid& map,
+                       std::span<const Eigen::Vector2d> points_robot_m,
+                       const ModeSearchWindow& window) {
+  std::vector<Eigen::Vector2d> near_m = NearOnes(points_robot_m);
+  if (near_m.empty() || window.places_m.empty()) return {};
+  return ModeSearch(map, std::move(near_m), window).Run();
+}
+
+}  // namespace qwsm

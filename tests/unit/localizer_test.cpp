@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A robot that nobody placed is found in a map, or is known to be lost.
+#include "qwsm/mapping/localizer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "tests/support/scenes.hpp"
+#include "tests/support/simulated_drive.hpp"
+
+namespace qwsm {
+namespace {
+
+using namespace test;
+
+SimulatedDrive DriveOf(const Scene& scene, std::uint64_t seed) {
+  DriveOptions options;
+  options.seed = seed;
+  return DriveThrough(scene, options);
+}
+
+ScanMap MapOf(const SimulatedDrive& drive) {
+  Mapper mapper({}, ScanMap(), {.T_a_b = drive.T_world_robot.front()});
+  for (const Observation& observation : drive.observations) mapper.Process(observation);
+  return mapper.map();
+}
+
+/// The part of a drive from a scan on.
+SimulatedDrive From(const SimulatedDrive& drive, std::ptrdiff_t first) {
+  return {.observations = {drive.observations.begin() + first, drive.observations.end()},
+          .T_world_robot = {drive.T_world_robot.begin() + first, drive.T_world_robot.end()}};
+}
+
+struct Answer {
+  MappingStep step;
+  double off_m = 0.0;  ///< Of the true pose, where the robot is not lost.
+};
+
+std::vector<Answer> Localized(const SimulatedDrive& drive, Localizer& localizer) {
+  std::vector<Answer> answers;
+  for (std::size_t i = 0; i < drive.observations.size(); ++i) {
+    answers.push_back({.step = localizer.Process(drive.observations[i])});
+    const Pose2& T_map_robot = answers.back().step.map_robot.T_a_b;
+    answers.back().off_m =
+        (T_map_robot.translation_m() - drive.T_world_robot[i].translation_m()).norm();
+  }
+  return answers;
+}
+
+bool IsLost(const Answer& answer) { return answer.step.status == StepStatus::kLost; }
+
+TEST(Localizer, FindsARobotThatStartsAnywhere) {
+  const ScanMap map = MapOf(DriveOf(TwoRoomsAndCorridor(), 1));
+  const SimulatedDrive again = DriveOf(TwoRoomsAndCorridor(), 2);
+  for (const std::ptrdiff_t first : {0, 25, 60}) {
+    SCOPED_TRACE(first);
+    Localizer localizer({}, map);
+    const std::vector<Answer> answers = Localized(From(again, first), localizer);
+    EXPECT_TRUE(IsLost(answers.front()));
+    EXPECT_FALSE(IsLost(answers.back()));
+    for (const Answer& answer : answers) {
+      EXPECT_TRUE(IsLost(answer) || answer.off_m < 0.25) << answer.off_m;
+    }
+  }
+}
+
+TEST(Localizer, BeginsWhereItIsTold) {
+  const SimulatedDrive drive = DriveOf(FurnishedRoom(), 1);
+  Localizer localizer({}, MapOf(drive), UncertainPose2{.T_a_b = drive.T_world_robot.front()});
+  for (const Answer& answer : Localized(drive, localizer)) {
+    EXPECT_FALSE(IsLost(answer));
+    EXPECT_LT(answer.off_m, 0.15);
+  }
+}
+
+TEST(Localizer, FindsNothingInTheMapOfAnotherPlace) {
+  Localizer localizer({}, MapOf(DriveOf(FurnishedRoom(), 1)));
+  const std::vector<Answer> answers = Localized(DriveOf(OfficeLoop(), 2), localizer);
+  EXPECT_TRUE(std::ranges::all_of(answers, IsLost));
+  EXPECT_FALSE(std::ranges::any_of(answers, [](const Answer& a) { return a.step.relevant; }));
+}
+
+// Where one place is like the next, none of them is claimed.
+TEST(Localizer, ClaimsNoPlaceInACorridorThatIsEverywhereAlike) {
+  const ScanMap map = MapOf(DriveOf(LongCorridor(), 1));
+  const SimulatedDrive again = From(DriveOf(LongCorridor(), 2), 20);
+  Localizer localizer({}, map);
+  for (const Answer& answer : Localized(again, localizer)) {
+    EXPECT_TRUE(IsLost(answer) || answer.off_m < 1.0) << answer.off_m;
+  }
+}
+
+// Somebody carries the robot elsewhere; its wheels do not turn meanwhile.
+TEST(Localizer, NoticesThatTheRobotWasCarriedAndFindsItAgain) {
+  const ScanMap map = MapOf(DriveOf(TwoRoomsAndCorridor(), 1));
+  SimulatedDrive drive = DriveOf(TwoRoomsAndCorridor(), 2);
+  const std::size_t carried_at = 30;
+  const std::size_t carried_to = drive.observations.size() / 2;
+  const Pose2 T_odom_there = *drive.observations[carried_to].T_odom_robot;
+  const Pose2 T_odom_here = *drive.observations[carried_at].T_odom_robot;
+  SimulatedDrive there = From(drive, static_cast<std::ptrdiff_t>(carried_to));
+  for (Observation& observation : there.observations) {
+    observation.T_odom_robot = T_odom_here * (T_odom_there.Inverse() * *observation.T_odom_robot);
+  }
+  drive.observations.resize(carried_at);
+  drive.T_world_robot.resize(carried_at);
+
+  Localizer localizer({}, map, UncertainPose2{.T_a_b = drive.T_world_robot.front()});
+  for (const Answer& answer : Localized(drive, localizer)) EXPECT_FALSE(IsLost(answer));
+  const std::vector<Answer> after = Localized(there, localizer);
+  EXPECT_TRUE(std::ranges::any_of(after, IsLost));
+  EXPECT_FALSE(IsLost(after.back()));
+  EXPECT_LT(after.back().off_m, 0.25);
+}
+
+TEST(Localizer, LooksOnThroughScansThatShowNothing) {
+  const SimulatedDrive drive = DriveOf(FurnishedRoom(), 1);
+  Localizer localizer({}, MapOf(drive));
+  Observation blind = drive.observations.front();
+  std::ranges::fill(blind.scan.ranges_m, std::numeric_limits<float>::infinity());
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(localizer.Process(blind).status, StepStatus::kLost);
+  EXPECT_FALSE(IsLost(Localized(drive, localizer).back()));
+}
+
+}  // namespace
+}  // namespace qwsm
