@@ -65,11 +65,11 @@ Outcome AlignOnNanoflann(const ScanPair& pair, const IcpOptions& options) {
   return outcome;
 }
 
-Outcome AlignOurs(const ScanPair& pair, const IcpOptions& options) {
+Outcome AlignOurs(const ScanPair& pair, const KdTreeOptions& tree, const IcpOptions& options) {
   Outcome outcome;
   outcome.ms = Milliseconds([&] {
-    const ScanModel ref(pair.ref);
-    const ScanModel cur(pair.cur);
+    const ScanModel ref(pair.ref, tree);
+    const ScanModel cur(pair.cur, tree);
     const IcpResult result = Align(ref, cur, pair.T_ref_cur_guess, options);
     outcome.T_ref_cur = result.T_ref_cur;
     outcome.iterations = result.iterations;
@@ -97,15 +97,15 @@ void Print(const ScanPair& pair, const char* method, const Outcome& outcome, con
       " %10.1e %10.1e\n", difference.translation_m.norm(), RotationAngle(difference.rotation));
 }
 
-void Compare(const ScanPair& pair) {
+void Compare(const ScanPair& pair, const KdTreeOptions& tree) {
   IcpOptions options{.metric = IcpMetric::kPointToPoint};
   const Outcome base = AlignOnNanoflann(pair, options);
   Print(pair, "point-to-point, nanoflann", base, base);
-  Print(pair, "point-to-point", AlignOurs(pair, options), base);
+  Print(pair, "point-to-point", AlignOurs(pair, tree, options), base);
   options.metric = IcpMetric::kPointToPlane;
-  Print(pair, "point-to-plane", AlignOurs(pair, options), base);
+  Print(pair, "point-to-plane", AlignOurs(pair, tree, options), base);
   options.metric = IcpMetric::kPlaneToPlane;
-  Print(pair, "plane-to-plane", AlignOurs(pair, options), base);
+  Print(pair, "plane-to-plane", AlignOurs(pair, tree, options), base);
 }
 
 }  // namespace
@@ -113,11 +113,12 @@ void Compare(const ScanPair& pair) {
 
 int main(int argc, char** argv) {
   const std::vector<slam6d::bench::ScanPair> pairs = slam6d::bench::ReadPairs(argc, argv);
+  const slam6d::KdTreeOptions tree = slam6d::bench::ReadTreeOptions(argc, argv);
   std::puts("registration with trees and surfels, CPU ms, one thread; ratio = nanoflann / method;");
   std::puts("error against the truth, then difference from the first line of the pair");
   std::puts(
       "                                     iterations        ms  ratio  error cm       deg "
       "    diff m        rad");
-  for (const slam6d::bench::ScanPair& pair : pairs) slam6d::bench::Compare(pair);
+  for (const slam6d::bench::ScanPair& pair : pairs) slam6d::bench::Compare(pair, tree);
   return pairs.empty() ? 1 : 0;
 }

@@ -42,9 +42,9 @@ std::size_t CountWrong(const std::vector<double>& distances2_m2,
   return wrong;
 }
 
-Times Replay(const ScanPair& pair, int bucket_size, const NanoflannTree* nanoflann) {
-  const ScanModel ref(pair.ref, {.bucket_size = bucket_size});
-  const ScanModel cur(pair.cur, {.bucket_size = bucket_size});
+Times Replay(const ScanPair& pair, const KdTreeOptions& tree, const NanoflannTree* nanoflann) {
+  const ScanModel ref(pair.ref, tree);
+  const ScanModel cur(pair.cur, tree);
   IcpTrace trace;
   const IcpOptions options{.metric = IcpMetric::kPointToPoint, .max_distance_m = kMaxDistance_m};
   static_cast<void>(Align(ref, cur, pair.T_ref_cur_guess, options, &trace));
@@ -77,12 +77,12 @@ Times Replay(const ScanPair& pair, int bucket_size, const NanoflannTree* nanofla
   return times;
 }
 
-void CompareWithNanoflann(const std::vector<ScanPair>& pairs) {
+void CompareWithNanoflann(const std::vector<ScanPair>& pairs, const KdTreeOptions& tree) {
   std::puts("search over a registration, CPU ms, one thread; ratio = nanoflann / cached");
   std::puts("          iterations nanoflann     root   cached  ratio  first: ratio  proven  wrong");
   for (const ScanPair& pair : pairs) {
     const NanoflannTree nanoflann(pair.ref);
-    const Times t = Replay(pair, KdTreeOptions{}.bucket_size, &nanoflann);
+    const Times t = Replay(pair, tree, &nanoflann);
     const auto queries = static_cast<double>(t.cached.queries);
     std::printf("%-10s %10.0f %9.1f %8.1f %8.1f %6.2f %13.2f %6.1f%% %6zu\n",
                 pair.name.c_str(),
@@ -97,14 +97,15 @@ void CompareWithNanoflann(const std::vector<ScanPair>& pairs) {
   }
 }
 
-void CompareWithRoot(const std::vector<ScanPair>& pairs) {
+void CompareWithRoot(const std::vector<ScanPair>& pairs, KdTreeOptions tree) {
   std::puts("\ncached against own search from the root: time saved per registration");
   std::printf("bucket size");
   for (const ScanPair& pair : pairs) std::printf(" %9s", pair.name.c_str());
   for (const int bucket_size : {1, 2, 4, 8, 16, 25, 35, 50}) {
     std::printf("\n%11d", bucket_size);
+    tree.bucket_size = bucket_size;
     for (const ScanPair& pair : pairs) {
-      const Times t = Replay(pair, bucket_size, nullptr);
+      const Times t = Replay(pair, tree, nullptr);
       std::printf(" %8.0f%%", 100.0 * (1.0 - t.cached_ms / t.root_ms));
     }
   }
@@ -116,7 +117,8 @@ void CompareWithRoot(const std::vector<ScanPair>& pairs) {
 
 int main(int argc, char** argv) {
   const std::vector<slam6d::bench::ScanPair> pairs = slam6d::bench::ReadPairs(argc, argv);
-  slam6d::bench::CompareWithNanoflann(pairs);
-  slam6d::bench::CompareWithRoot(pairs);
+  const slam6d::KdTreeOptions tree = slam6d::bench::ReadTreeOptions(argc, argv);
+  slam6d::bench::CompareWithNanoflann(pairs, tree);
+  slam6d::bench::CompareWithRoot(pairs, tree);
   return pairs.empty() ? 1 : 0;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdio>
 #include <ctime>
 #include <filesystem>
 #include <optional>
@@ -60,6 +61,21 @@ inline ScanPair ReadPair(const std::filesystem::path& data, const std::string& n
                 .T_ref_cur_truth = {}};
   if (std::filesystem::exists(folder / "gt")) pair.T_ref_cur_truth = RelativePose(folder / "gt");
   return pair;
+}
+
+/// The instructions named by the second argument, or the best of this machine; printed, as all
+/// ratios depend on them.
+inline KdTreeOptions ReadTreeOptions(int argc, char** argv) {
+  KdTreeOptions options;
+  const std::string wanted = argc > 2 ? argv[2] : "best";
+  for (const auto& [name, level] : Names(SimdLevel{})) {
+    if (name == wanted) options.simd = level;
+  }
+  const SimdLevel used = AvailableSimd(options.simd);
+  for (const auto& [name, level] : Names(SimdLevel{})) {
+    if (level == used) std::printf("instructions: %s\n", std::string(name).c_str());
+  }
+  return options;
 }
 
 /// The pairs that exist under the data folder named by the first argument, or QWSM_DATA_DIR.
