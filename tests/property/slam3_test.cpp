@@ -26,7 +26,7 @@ TEST(Slam3, RegistersADriveThatOdometryLoses) {
     SCOPED_TRACE(seed);
     const Drive3 drive = DriveInCircle(14, 4000, seed);
     ASSERT_GT(LargestErrorM(drive.T_odom_scan, drive.T_room_scan), 0.1);
-    Slam slam({}, kCloser);
+    Slam slam({.refinement = {.enabled = true}}, kCloser);
     const std::vector<SlamStep> steps = AddAll(slam, drive);
     EXPECT_EQ(steps.front().status, SlamStatus::kFirst);
     for (std::size_t i = 1; i < steps.size(); ++i) {
@@ -50,6 +50,7 @@ TEST(Slam3, GivesTheSameBitsForAnyNumberOfThreads) {
       options.icp.metric = metric;
       options.icp.max_iterations = 15;
       options.icp.threads = threads;
+      options.refinement.enabled = true;
       Slam slam(options, kCloser);
       static_cast<void>(AddAll(slam, drive));
       static_cast<void>(slam.Refine());
@@ -115,7 +116,7 @@ TEST(Slam3, RefinementGathersScansThatWereLeftApart) {
 
 TEST(Slam3, FitsNothingWhereThatIsNotWanted) {
   const Drive3 drive = DriveInCircle(4, 3000, 10);
-  Slam slam({.refinement = {.enabled = false}}, kCloser);
+  Slam slam({}, kCloser);
   static_cast<void>(AddAll(slam, drive));
   const Pose3 before = slam.T_map_scan().back();
   const RefinementResult result = slam.Refine();

@@ -69,7 +69,7 @@ TEST(Registration, PlanesAlignTheScansOfACarAsWell) {
   const std::filesystem::path folder = std::filesystem::path(QWSM_DATA_DIR) / "scans3d/car";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no scans in " << folder;
   const PathLoopCloser closer;
-  Slam slam({}, closer);
+  Slam slam({.refinement = {.enabled = true}}, closer);
   for (const char* name : {"scan000", "scan001"}) {
     const std::filesystem::path scan = folder / name;
     static_cast<void>(slam.Add(io::ReadUosPoints(scan.string() + ".3d").cloud,

@@ -100,11 +100,12 @@ void WarnOfDoubtfulScans(const pipeline::Registration& registration) {
   for (const pipeline::RegisteredScan& scan : registration.scans) {
     if (scan.step.status == SlamStatus::kDeadReckoned) {
       qwsm::messages::Warn(
-          "{}: could not be registered with the scans before it ({}, overlap {:.0f} %); it "
-          "is where odometry has it",
+          "{}: could not be registered with the scans before it ({}, overlap {:.0f} %, of which "
+          "{:.0f} % contradicts them); it is where odometry has it",
           scan.file.string(),
           Name(scan.step.match.status),
-          100.0 * scan.step.overlap);
+          100.0 * scan.step.overlap,
+          100.0 * scan.step.contradiction);
     } else if (scan.step.status == SlamStatus::kUnusable) {
       qwsm::messages::Warn(
           "{}: has fewer than three different points that count; it is where odometry has it",

@@ -16,6 +16,9 @@ using qwsm::pipeline::Json;
 /// What is counted over all scans.
 struct Figures {
   std::size_t points = 0;
+  std::size_t kept_points = 0;  ///< After the thinning of the scans.
+  double mean_voxel_m = 0.0;    ///< Of the scans that were thinned.
+  std::size_t thinned = 0;
   std::size_t loops = 0;
   double path_m = 0.0;
   double mean_overlap = 0.0;
@@ -35,6 +38,9 @@ Figures FiguresOf(const Registration& registration) {
       static_cast<double>(std::max<std::size_t>(Count(registration, SlamStatus::kMatched), 1));
   for (const RegisteredScan& scan : registration.scans) {
     figures.points += scan.cloud.size();
+    figures.kept_points += scan.step.points;
+    figures.thinned += scan.step.voxel_m > 0.0 ? 1 : 0;
+    figures.mean_voxel_m += scan.step.voxel_m;
     figures.loops += scan.step.loops_to.size();
     figures.time_s += scan.time_s;
     figures.longest_s = std::max(figures.longest_s, scan.time_s);
@@ -42,6 +48,7 @@ Figures FiguresOf(const Registration& registration) {
     figures.mean_overlap += scan.step.overlap / matched;
     figures.mean_rms_m += scan.step.match.rms_residual_m / matched;
   }
+  figures.mean_voxel_m /= static_cast<double>(std::max<std::size_t>(figures.thinned, 1));
   const std::vector<Pose3>& poses = registration.T_map_scan;
   for (std::size_t i = 1; i < poses.size(); ++i) {
     figures.path_m += (poses[i].translation_m - poses[i - 1].translation_m).norm();
@@ -61,6 +68,8 @@ std::string MetricsJson(const Registration& registration) {
   json["unusable"] = Count(registration, SlamStatus::kUnusable);
   json["loops_closed"] = figures.loops;
   json["points"] = figures.points;
+  json["points_kept"] = figures.kept_points;
+  json["mean_voxel_m"] = figures.mean_voxel_m;
   json["path_length_m"] = figures.path_m;
   json["mean_overlap"] = figures.mean_overlap;
   json["mean_rms_residual_m"] = figures.mean_rms_m;
@@ -79,6 +88,12 @@ std::string SummaryText(const Registration& registration) {
                                  registration.scans.size(),
                                  registration.series_size,
                                  WithThousands(figures.points));
+  if (figures.thinned > 0) {
+    text += fmt::format("thinned        {} scans to cubes of {:.2f} m, {} points left of all\n",
+                        figures.thinned,
+                        figures.mean_voxel_m,
+                        WithThousands(figures.kept_points));
+  }
   text += fmt::format("matched        {}, mean overlap {:.0f} %, mean residual {:.1f} mm\n",
                       Count(registration, SlamStatus::kMatched),
                       100.0 * figures.mean_overlap,
@@ -88,14 +103,15 @@ std::string SummaryText(const Registration& registration) {
   text += fmt::format("loops          {} closed\n", figures.loops);
   text += fmt::format("path           {:.1f} m\n", figures.path_m);
   text += fmt::format(
-      "time           {:.2f} s registration (longest {:.2f} s), {:.2f} s refinement "
-      "({} fits, {})\n",
-      figures.time_s,
-      figures.longest_s,
-      registration.refinement_time_s,
-      registration.refinement.fits,
-      registration.refinement.settled ? "settled" : "not settled");
-  return text;
+      "time           {:.2f} s registration (longest {:.2f} s)", figures.time_s, figures.longest_s);
+  const RefinementResult& refinement = registration.refinement;
+  if (refinement.fits > 0) {
+    text += fmt::format(", {:.2f} s refinement ({} fits, {})",
+                        registration.refinement_time_s,
+                        refinement.fits,
+                        refinement.settled ? "settled" : "not settled");
+  }
+  return text + "\n";
 }
 
 }  // namespace slam6d::pipeline

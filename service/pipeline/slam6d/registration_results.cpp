@@ -55,13 +55,14 @@ std::string LoopsText(const std::vector<std::size_t>& loops) {
 std::string Table(const Registration& registration) {
   std::string text =
       "scan,name,status,points,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg,iterations,pairs,"
-      "rms_residual_m,overlap,loops_to,time_s\n";
+      "rms_residual_m,overlap,contradiction,loops_to,time_s\n";
   for (std::size_t i = 0; i < registration.scans.size(); ++i) {
     const RegisteredScan& scan = registration.scans[i];
     const Pose3& pose = registration.T_map_scan[i];
     const Eigen::Vector3d angles_deg = RollPitchYaw(pose.rotation) * 180.0 / std::numbers::pi;
     text += fmt::format(
-        "{},{},{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{},{},{:.6f},{:.3f},{},{:.4f}\n",
+        "{},{},{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{},{},{:.6f},{:.3f},{:.4f},{},{:.4f}"
+        "\n",
         i,
         scan.name,
         Name(scan.step.status),
@@ -76,6 +77,7 @@ std::string Table(const Registration& registration) {
         scan.step.match.pairs,
         scan.step.match.rms_residual_m,
         scan.step.overlap,
+        scan.step.contradiction,
         LoopsText(scan.step.loops_to),
         scan.time_s);
   }

@@ -21,6 +21,10 @@ std::unique_ptr<IcpMinimizer> MakeMinimizer(std::span<const IcpReference> refere
   return std::make_unique<JointMinimizer<SurfelPairs>>(references, cur, T_map_guess, options);
 }
 
+/// A hundredth of what the pose is known to, squared: among trees pairs change to and fro for ever,
+/// and move the pose by no more.
+constexpr double kSmallChi2 = 1e-4;
+
 bool IsSmall(const Pose3& before, const Pose3& after, const IcpOptions& options) {
   return (after.translation_m - before.translation_m).norm() < options.translation_tolerance_m &&
          RotationAngle(before.rotation.transpose() * after.rotation) <
@@ -66,11 +70,19 @@ IcpResult Align(std::span<const IcpReference> references,
                 const Pose3& T_map_cur_guess,
                 const IcpOptions& options,
                 IcpTrace* trace) {
-  assert(IsFinite(T_map_cur_guess) && "the guess is a pose");
+  return Align(references, cur, {.now = T_map_cur_guess, .guess = T_map_cur_guess}, options, trace);
+}
+
+IcpResult Align(std::span<const IcpReference> references,
+                const ScanModel& cur,
+                const PoseAndGuess& T_map_cur,
+                const IcpOptions& options,
+                IcpTrace* trace) {
+  assert(IsFinite(T_map_cur.now) && IsFinite(T_map_cur.guess) && "the guess is a pose");
   const std::unique_ptr<IcpMinimizer> minimizer =
-      MakeMinimizer(references, cur, T_map_cur_guess, options);
-  IcpResult result{.T_ref_cur = T_map_cur_guess};
-  if (trace != nullptr) trace->assign(1, T_map_cur_guess);
+      MakeMinimizer(references, cur, T_map_cur.guess, options);
+  IcpResult result{.T_ref_cur = T_map_cur.now};
+  if (trace != nullptr) trace->assign(1, T_map_cur.now);
   for (result.iterations = 1; result.iterations <= options.max_iterations; ++result.iterations) {
     // Nüchter et al. (2007), Algorithm 1, lines 2-13: pairs, from the root in the first iteration
     // and from the cache in later ones, and the motion that they ask for.
@@ -86,7 +98,9 @@ IcpResult Align(std::span<const IcpReference> references,
     result.T_ref_cur = *step.motion_map * before;  // Line 14.
     result.T_ref_cur.rotation = NearestRotation(result.T_ref_cur.rotation);
     if (trace != nullptr) trace->push_back(result.T_ref_cur);
-    if (step.settled && IsSmall(before, result.T_ref_cur, options)) {
+    const bool is_small =
+        step.motion_chi2 < kSmallChi2 || IsSmall(before, result.T_ref_cur, options);
+    if (step.settled && is_small) {
       return Stop(result, IcpStatus::kConverged, *minimizer);
     }
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -20,12 +21,8 @@ struct IcpStep {
   /// leave it open.
   std::optional<Pose3> motion_map{};
   bool settled = true;  ///< False while the weights still change by themselves.
-};
-
-/// Where the current scan is thought to be, now and when the registration began.
-struct PoseAndGuess {
-  Pose3 now;
-  Pose3 guess;
+  /// Squared length of the motion over its covariance; infinite where no covariance is known.
+  double motion_chi2 = std::numeric_limits<double>::infinity();
 };
 
 /// Pairs, and the step they ask for, under one metric. Each object serves one registration.

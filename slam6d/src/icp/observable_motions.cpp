@@ -15,6 +15,10 @@ constexpr double kOpenShare = 1e-9;
 /// normals would by themselves.
 constexpr double kObservableShare = 3.0;
 
+/// The residuals of a few pairs may agree by chance: no less of the scatter that their weights
+/// promise is taken for granted.
+constexpr double kLeastScatter = 0.1;
+
 }  // namespace
 
 bool LeavesMotionOpen(const Matrix6d& A) {
@@ -28,19 +32,29 @@ bool LeavesMotionOpen(const Matrix6d& A) {
   return !(eigenvalues(0) > kOpenShare * eigenvalues(5));
 }
 
-ObservableMotions::ObservableMotions(const Matrix6d& A, const Matrix6d& A_noise)
-    : eigen_(GeneralizedEigenOf(A, A_noise)),
-      to_gradient_(A_noise * eigen_.vectors),
-      is_observable_(eigen_.values.array() > kObservableShare) {}
-
-Matrix6d ObservableMotions::Information() const {
-  const Vector6d told = is_observable_.select(eigen_.values.array() - 1.0, 0.0);
-  return to_gradient_ * told.asDiagonal() * to_gradient_.transpose();
+ObservableMotions::ObservableMotions(const Matrix6d& A,
+                                     const Matrix6d& A_noise,
+                                     const Matrix6d& scatter)
+    : eigen_(GeneralizedEigenOf(A, A_noise)), to_gradient_(A_noise * eigen_.vectors) {
+  const Eigen::Array<bool, 6, 1> is_observable = eigen_.values.array() > kObservableShare;
+  told_ = is_observable.select(eigen_.values.array() - 1.0, 0.0);
+  Matrix6d S = eigen_.vectors.transpose() * scatter * eigen_.vectors;
+  for (int k = 0; k < 6; ++k) {
+    S(k, k) += kLeastScatter * eigen_.values(k);
+    if (is_observable(k)) continue;
+    S.row(k).setZero();
+    S.col(k).setZero();
+    S(k, k) = 1.0;
+  }
+  weighted_ = told_.asDiagonal() * InverseOf(S);
 }
 
-Vector6d ObservableMotions::Project(const Vector6d& b) const {
-  const Vector6d along = eigen_.vectors.transpose() * b;
-  return to_gradient_ * is_observable_.select(along.array(), 0.0).matrix();
+Matrix6d ObservableMotions::Information() const {
+  return to_gradient_ * (weighted_ * told_.asDiagonal()) * to_gradient_.transpose();
+}
+
+Vector6d ObservableMotions::Weigh(const Vector6d& b) const {
+  return to_gradient_ * (weighted_ * (eigen_.vectors.transpose() * b));
 }
 
 }  // namespace slam6d

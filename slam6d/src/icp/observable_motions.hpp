@@ -23,17 +23,21 @@ class ObservableMotions {
   /// Compares what pairs tell with noise.
   /// @param A of the normal equations.
   /// @param A_noise what the errors of the normals add to A on average; positive definite.
-  ObservableMotions(const Matrix6d& A, const Matrix6d& A_noise);
+  /// @param scatter covariance of the gradient, from the residuals.
+  ObservableMotions(const Matrix6d& A, const Matrix6d& A_noise, const Matrix6d& scatter);
 
-  /// A without noise, and without the motions that are not observable.
+  /// What the pairs tell of the motions: A S^-1 A with S the scatter of the gradient (the sandwich
+  /// of Huber 1967), without noise, and without the motions that are not observable. It is A where
+  /// the residuals are as large as their weights promise, and less where they are larger.
   Matrix6d Information() const;
-  /// The part of a gradient, noise taken out, that belongs to observable motions.
-  Vector6d Project(const Vector6d& b) const;
+  /// The gradient that belongs to this information.
+  Vector6d Weigh(const Vector6d& b) const;
 
  private:
   GeneralizedEigen6 eigen_;  ///< A v = share A_noise v.
-  Matrix6d to_gradient_;     ///< From coordinates along those v.
-  Eigen::Array<bool, 6, 1> is_observable_;
+  Matrix6d weighted_;        ///< A S^-1 in coordinates along those v.
+  Matrix6d to_gradient_;     ///< From these coordinates.
+  Vector6d told_;            ///< Shares of the observable motions, less noise.
 };
 
 }  // namespace slam6d

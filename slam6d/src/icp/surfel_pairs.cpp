@@ -15,6 +15,10 @@ namespace {
 
 constexpr std::size_t kSurfelsPerChunk = 512;
 
+/// So many surfels next to each other in the tree count as one observation when it is asked how far
+/// the observations scatter.
+constexpr std::size_t kSurfelsPerCluster = 16;
+
 /// Surfels whose normals differ more than this (37 degrees) are different surfaces.
 constexpr double kMinNormalCosine = 0.8;
 
@@ -52,6 +56,20 @@ Matrix6d GuessInformation(const IcpOptions& options) {
   sigmas << Eigen::Vector3d::Constant(options.guess_sigma_m),
       Eigen::Vector3d::Constant(options.guess_sigma_rad);
   return sigmas.cwiseAbs2().cwiseInverse().asDiagonal();
+}
+
+/// The covariance of the gradient b, from how far the clusters scatter about the common pose: each
+/// is held against the pose that all others find (the jackknife), so that a motion that hangs on
+/// one cluster alone counts as not known.
+Matrix6d ScatterOf(const NormalEquations& sums, const Matrix6d& prior) {
+  const Matrix6d A = sums.A + prior;
+  Matrix6d scatter = Matrix6d::Zero();
+  for (const ClusterEquations& cluster : sums.clusters) {
+    if (cluster.b.isZero(0.0)) continue;
+    const Vector6d g = A * SolvePositive(A - cluster.A, cluster.b);
+    scatter.noalias() += g * g.transpose();
+  }
+  return scatter;
 }
 
 PointCloud MeansOf(const SurfelMap& map) {
@@ -95,6 +113,11 @@ NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
   weighted_residual2 += other.weighted_residual2;
   residual2_m2 += other.residual2_m2;
   pairs += other.pairs;
+  if (clusters.empty()) clusters.resize(other.clusters.size());
+  for (std::size_t i = 0; i < other.clusters.size(); ++i) {
+    clusters[i].A += other.clusters[i].A;
+    clusters[i].b += other.clusters[i].b;
+  }
   settled = settled && other.settled;
   return *this;
 }
@@ -106,6 +129,10 @@ NormalEquations NormalEquations::In(const Pose3& T_map_ref) const {
   moved.b = R * b;
   moved.A_noise = R * A_noise * R.transpose();
   moved.b_noise = R * b_noise;
+  for (ClusterEquations& cluster : moved.clusters) {
+    cluster.A = R * cluster.A * R.transpose();
+    cluster.b = R * cluster.b;
+  }
   return moved;
 }
 
@@ -169,6 +196,19 @@ NormalEquations SurfelPairs::Sum(const Rules& rules, std::size_t first, std::siz
   return equations;
 }
 
+/// The sums of a chunk, and of each of its clusters.
+NormalEquations SurfelPairs::SumClusters(const Rules& rules, std::size_t first, std::size_t last) {
+  NormalEquations total;
+  std::vector<ClusterEquations> clusters;
+  for (std::size_t begin = first; begin < last; begin += kSurfelsPerCluster) {
+    const NormalEquations sum = Sum(rules, begin, std::min(last, begin + kSurfelsPerCluster));
+    total += sum;
+    clusters.push_back({.A = sum.A, .b = sum.b - sum.b_noise});
+  }
+  total.clusters = std::move(clusters);
+  return total;
+}
+
 /// @return whether the scale has changed.
 bool SurfelPairs::ShrinkScale() {
   const double before_m = scale_m_;
@@ -187,12 +227,18 @@ NormalEquations SurfelPairs::Collect(const Pose3& T_ref_cur, int iteration) {
   const auto work = [&](std::size_t chunk, std::size_t first, std::size_t last) {
     TransformRange(T_ref_cur, cur_, first, last, cur_ref_);
     statistics[chunk] = search_.Find(cur_ref_, first, last);
-    sums[chunk] = Sum(rules, first, last);
+    sums[chunk] = SumClusters(rules, first, last);
   };
   ForChunks(cur_.size(), kSurfelsPerChunk, options_.threads, work);
   for (const SearchStatistics& part : statistics) statistics_ += part;
   NormalEquations total;
-  for (const NormalEquations& part : sums) total += part;
+  std::vector<ClusterEquations> clusters;
+  for (NormalEquations& part : sums) {
+    clusters.insert(clusters.end(), part.clusters.begin(), part.clusters.end());
+    part.clusters.clear();
+    total += part;
+  }
+  total.clusters = std::move(clusters);
   total.settled = settled;
   information_ = total.A;
   return total;
@@ -204,13 +250,15 @@ IcpStep SurfelPairs::Step(const Sums& sums, const PoseAndGuess& T_map, const Icp
                .rms_residual_m = std::sqrt(sums.residual2_m2 / count),
                .settled = sums.settled};
   if (sums.pairs < 6 || LeavesMotionOpen(sums.A)) return step;
-  const ObservableMotions observable(sums.A, sums.A_noise);
   Vector6d to_guess;
   to_guess << T_map.guess.translation_m - T_map.now.translation_m,
       RotationVector(T_map.guess.rotation * T_map.now.rotation.transpose());
   const Matrix6d prior = GuessInformation(options);
-  const Vector6d x = SolvePositive(observable.Information() + prior,
-                                   observable.Project(sums.b - sums.b_noise) + prior * to_guess);
+  const ObservableMotions observable(sums.A, sums.A_noise, ScatterOf(sums, prior));
+  const Matrix6d information = observable.Information() + prior;
+  const Vector6d x =
+      SolvePositive(information, observable.Weigh(sums.b - sums.b_noise) + prior * to_guess);
+  step.motion_chi2 = x.dot(information * x);
   // The rotation is about the origin of cur: T <- (x, R(x) about t).
   const Eigen::Matrix3d rotation = RotationFromVector(x.tail<3>());
   const Eigen::Vector3d& center_m = T_map.now.translation_m;
@@ -222,10 +270,9 @@ IcpStep SurfelPairs::Step(const Sums& sums, const PoseAndGuess& T_map, const Icp
 Matrix6d SurfelPairs::Covariance(const Sums& sums,
                                  const Matrix6d& information,
                                  const IcpOptions& options) {
-  const double freedom = std::max(static_cast<double>(sums.pairs) - 6.0, 1.0);
-  const double reduced_chi2 = std::max(sums.weighted_residual2 / freedom, 1.0);
-  const ObservableMotions observable(information, sums.A_noise);
-  return InverseOf(observable.Information() / reduced_chi2 + GuessInformation(options));
+  const Matrix6d prior = GuessInformation(options);
+  const ObservableMotions observable(information, sums.A_noise, ScatterOf(sums, prior));
+  return InverseOf(observable.Information() + prior);
 }
 
 }  // namespace slam6d

@@ -6,6 +6,13 @@
 
 namespace slam6d {
 
+/// What neighbouring surfels of the current scan say together: their errors are not independent of
+/// each other, as they lie on the same few things.
+struct ClusterEquations {
+  Matrix6d A = Matrix6d::Zero();
+  Vector6d b = Vector6d::Zero();  ///< Without what the errors of the normals add on average.
+};
+
 /// The normal equations of one Gauss-Newton step over (x, y, z, roll, pitch, yaw).
 struct NormalEquations {
   Matrix6d A = Matrix6d::Zero();
@@ -16,6 +23,8 @@ struct NormalEquations {
   double weighted_residual2 = 0.0;  ///< Squared residuals over their variances.
   double residual2_m2 = 0.0;
   std::size_t pairs = 0;
+  /// The same by clusters of the current scan's surfels.
+  std::vector<ClusterEquations> clusters{};
   bool settled = true;  ///< Whether the scale of the residuals has its final value.
 
   NormalEquations In(const Pose3& T_map_ref) const;
@@ -49,6 +58,7 @@ class SurfelPairs {
 
   bool ShrinkScale();
   NormalEquations Sum(const Rules& rules, std::size_t first, std::size_t last);
+  NormalEquations SumClusters(const Rules& rules, std::size_t first, std::size_t last);
   void AddPair(const Rules& rules, std::size_t i, NormalEquations& equations);
 
   const SurfelMap& ref_;

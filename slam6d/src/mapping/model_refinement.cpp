@@ -8,6 +8,9 @@
 namespace slam6d {
 namespace {
 
+/// Iterations of one fit, at most: a scan that still moves comes to its turn again.
+constexpr int kMostIterations = 20;
+
 /// The queue of scans to be fitted, each in it once.
 class FitQueue {
  public:
@@ -130,6 +133,7 @@ RefinementResult RefineModel(std::span<const ModelScan> scans,
                              const RefinementObserver& observer) {
   IcpOptions fit = icp;
   fit.max_distance_m = options.max_distance_m;
+  fit.max_iterations = std::min(fit.max_iterations, kMostIterations);
   std::vector<ModelScan> model(scans.begin(), scans.end());
   FitQueue queue(scans.size(), options.max_visits);
   for (std::size_t scan = 0; scan < scans.size(); ++scan) {

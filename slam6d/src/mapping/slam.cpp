@@ -15,19 +15,19 @@ namespace {
 constexpr std::size_t kLeastPoints = 3;
 
 /// The covariance of a registration assumes independent errors; nothing is better than this.
-constexpr double kLeastSigma_m = 1e-3;
-constexpr double kLeastSigma_rad = 1e-4;
+constexpr double kLeastSigma_m = 3e-4;
+constexpr double kLeastSigma_rad = 3e-5;
 
-/// The search tries motions within its ranges; a registration from there may lead so many times as
-/// far.
-constexpr double kReachFactor = 2.0;
+/// How far the scanner sees: nearly all points lie within, but for stray ones.
+constexpr double kRangeShare = 0.95;
+
+/// Only a quarter of the points lie beyond what is far off, and cubes are so many times as large as
+/// the points lie apart there. (Twice as large is too large for things that stand about.)
+constexpr double kFarShare = 0.75;
+constexpr double kCubesPerSpacing = 1.3;
 
 /// On the way round a loop more error gathers than from one scan to the next.
 constexpr double kLoopSearchFactor = 2.0;
-
-/// Where planes failed, points are first paired so many times farther off than else: a turn of 15
-/// degrees moves what is 5 m away by more than the usual pair is long, and ICP stops on the way.
-constexpr double kWidePairsFactor = 3.0;
 
 Matrix6d CovarianceOf(double sigma_m, double sigma_rad) {
   Vector6d variances;
@@ -36,26 +36,46 @@ Matrix6d CovarianceOf(double sigma_m, double sigma_rad) {
   return variances.asDiagonal();
 }
 
-/// How far the scanner saw: all but the last few of the points, which may be stray.
-double RangeOf(const PointCloud& points) {
+/// The distance within which this share of the points lies.
+double RangeOf(const PointCloud& points, double share) {
   if (points.empty()) return 0.0;
   std::vector<double> ranges2_m2;
   ranges2_m2.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) ranges2_m2.push_back(points[i].squaredNorm());
-  const auto at = ranges2_m2.begin() + static_cast<std::ptrdiff_t>(ranges2_m2.size() * 95 / 100);
+  const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(points.size() - 1));
+  const auto at = ranges2_m2.begin() + place;
   std::nth_element(ranges2_m2.begin(), at, ranges2_m2.end());
   return std::sqrt(*at);
 }
 
-PointCloud Prepare(const PointCloud& scan, const SlamOptions& options) {
+PointCloud WithinRange(const PointCloud& scan, const SlamOptions& options) {
   const double max_range_m =
       options.max_range_m > 0.0 ? options.max_range_m : std::numeric_limits<double>::max();
-  return Reduce(InRange(scan, options.min_range_m, max_range_m), options.reduction);
+  return InRange(scan, options.min_range_m, max_range_m);
 }
 
-OverlapOptions Widened(OverlapOptions options, double factor) {
-  options.translation_range_m *= factor;
-  options.rotation_range_rad = std::min(options.rotation_range_rad * factor, std::numbers::pi);
+/// How far the points lie apart where the scanner sees far.
+double SpacingFarOff(const PointCloud& points, const RangeImage& image) {
+  const double sr_per_point = image.seen_sr() / static_cast<double>(points.size());
+  return std::sqrt(sr_per_point) * RangeOf(points, kFarShare);
+}
+
+/// Edge of the cubes by which a scan is to be thinned; 0 if it is not.
+double VoxelFor(const PointCloud& points, const RangeImage& image, const SlamOptions& options) {
+  const auto few = static_cast<std::size_t>(options.thin_above_points);
+  if (options.reduction.voxel_m > 0.0 || few == 0 || points.size() <= few) {
+    return options.reduction.voxel_m;
+  }
+  return kCubesPerSpacing * SpacingFarOff(points, image);
+}
+
+/// For guesses that are worse by a factor.
+RegistrationOptions Widened(RegistrationOptions options, double factor) {
+  OverlapOptions& search = options.guess;
+  search.translation_range_m *= factor;
+  search.rotation_range_rad = std::min(search.rotation_range_rad * factor, std::numbers::pi);
+  options.icp.guess_sigma_m *= factor;
+  options.icp.guess_sigma_rad *= factor;
   return options;
 }
 
@@ -68,21 +88,14 @@ Matrix6d CovarianceOf(const IcpResult& result) {
   return result.covariance + CovarianceOf(kLeastSigma_m, kLeastSigma_rad);
 }
 
-/// Whether a registration stayed near the guess. What slides farther found other surfaces.
-bool IsWithinReach(const Pose3& T_map_guess, const Pose3& T_map_cur, const OverlapOptions& search) {
-  const Pose3 T_guess_cur = T_map_guess.Inverse() * T_map_cur;
-  return T_guess_cur.translation_m.norm() <= kReachFactor * search.translation_range_m &&
-         RotationAngle(T_guess_cur.rotation) <= kReachFactor * search.rotation_range_rad;
+RegistrationOptions HowToRegister(const SlamOptions& options) {
+  return {.icp = options.icp, .guess = options.guess, .evidence = options.evidence};
 }
 
 /// The same covariance along the axes of another frame.
 Matrix6d Turned(const Eigen::Matrix3d& R_a_b, const Matrix6d& covariance_b) {
   const Matrix6d R = BlockRotation(R_a_b);
   return R * covariance_b * R.transpose();
-}
-
-bool HasPose(const IcpResult& result) {
-  return result.status == IcpStatus::kConverged || result.status == IcpStatus::kIterationLimit;
 }
 
 }  // namespace
@@ -102,15 +115,19 @@ Slam::Slam(const SlamOptions& options, const LoopCloser& closer)
     : options_(options), closer_(closer) {}
 
 SlamStep Slam::Add(const PointCloud& scan, const Pose3& T_odom_scan) {
-  const PointCloud points = Prepare(scan, options_);
-  SlamStep step{.T_map_scan = T_odom_scan, .points = points.size()};
+  const PointCloud all = WithinRange(scan, options_);
+  RangeImage image(all);
+  ReductionOptions reduction = options_.reduction;
+  reduction.voxel_m = VoxelFor(all, image, options_);
+  const PointCloud points = Reduce(all, reduction);
+  SlamStep step{.T_map_scan = T_odom_scan, .voxel_m = reduction.voxel_m, .points = points.size()};
   if (!graph_.T_map_scan.empty()) {
     step.T_map_scan = ExtrapolateOdometry(graph_.T_map_scan.back(), T_odom_last_, T_odom_scan);
   }
   T_odom_last_ = T_odom_scan;
-  Entry entry{.range_m = RangeOf(points),
+  Entry entry{.range_m = RangeOf(points, kRangeShare),
               .model = ScanModel(points, options_.tree),
-              .overlap = OverlapModel(points, options_.guess),
+              .image = std::move(image),
               .metric = options_.icp.metric};
   const bool usable = entry.model.tree.size() >= kLeastPoints;
   if (!graph_.T_map_scan.empty()) {
@@ -128,66 +145,17 @@ SlamStep Slam::Add(const PointCloud& scan, const Pose3& T_odom_scan) {
   return step;
 }
 
-std::vector<IcpReference> Slam::ModelsOf(std::span<const std::size_t> scans) const {
-  std::vector<IcpReference> models;
-  for (const std::size_t scan : scans) {
-    models.push_back({.model = &entries_[scan]->model, .T_map_ref = graph_.T_map_scan[scan]});
-  }
-  return models;
+PlacedScan Slam::Placed(std::size_t scan) const {
+  const Entry& entry = *entries_[scan];
+  return {.model = &entry.model, .image = &entry.image, .T_map_scan = graph_.T_map_scan[scan]};
 }
 
-/// Nüchter et al. (2007), sections 3.2 and 3.3. ICP comes first here, and the octrees are asked for
-/// a better guess only where it does not convince: they cost four times as much as all the rest of
-/// a scan
-/// (`slam6d register --set slam.guess.needed_below=1` asks them every time).
-Slam::Registration Slam::Register(std::span<const std::size_t> references,
-                                  const Entry& cur,
-                                  const Pose3& T_map_cur_guess,
-                                  const OverlapOptions& search,
-                                  const IcpOptions& icp) const {
-  const std::vector<IcpReference> models = ModelsOf(references);
-  std::vector<OverlapReference> cubes;
-  for (const std::size_t scan : references) {
-    cubes.push_back({.model = &entries_[scan]->overlap, .T_map_ref = graph_.T_map_scan[scan]});
-  }
-  const auto align = [&](const Pose3& T_map_cur) {
-    Registration result{.icp = Align(models, cur.model, T_map_cur, icp)};
-    result.overlap = Overlap(cubes, cur.overlap, result.icp.T_ref_cur, search);
-    result.trusted = HasPose(result.icp) && result.overlap >= options_.min_overlap &&
-                     IsWithinReach(T_map_cur_guess, result.icp.T_ref_cur, search);
-    return result;
-  };
-  const Registration first = align(T_map_cur_guess);
-  if (first.trusted && first.overlap >= search.needed_below) return first;
-  const OverlapGuess guess = GuessByOverlap(cubes, cur.overlap, T_map_cur_guess, search);
-  const Registration second = align(guess.T_map_cur);
-  if (first.trusted != second.trusted) return first.trusted ? first : second;
-  // Sliding back along a corridor makes more cubes overlap, but fewer surfaces agree.
-  const bool is_better = second.overlap > first.overlap && second.icp.pairs > first.icp.pairs;
-  return is_better ? second : first;
-}
-
-/// Points find together from farther off than planes, which are asked again from there. Among
-/// trees, where the little that is flat leads astray, points have the last word.
-Slam::Registration Slam::RegisterByPoints(std::span<const std::size_t> references,
-                                          Entry& cur,
-                                          const Pose3& T_map_cur_guess,
-                                          const Registration& by_planes) const {
-  IcpOptions icp = options_.icp;
-  icp.metric = IcpMetric::kPointToPoint;
-  icp.max_distance_m *= kWidePairsFactor;
-  const IcpResult coarse = Align(ModelsOf(references), cur.model, T_map_cur_guess, icp);
-  const Pose3 T_map_cur = IsWithinReach(T_map_cur_guess, coarse.T_ref_cur, options_.guess)
-                              ? coarse.T_ref_cur
-                              : T_map_cur_guess;
-  icp.max_distance_m = options_.icp.max_distance_m;
-  const Registration by_points = Register(references, cur, T_map_cur, options_.guess, icp);
-  if (!by_points.trusted) return by_planes;
-  const Registration again =
-      Register(references, cur, by_points.icp.T_ref_cur, options_.guess, options_.icp);
-  if (again.trusted && again.overlap > by_points.overlap) return again;
-  cur.metric = IcpMetric::kPointToPoint;
-  return by_points;
+Registration Slam::Register(std::span<const std::size_t> references,
+                            const PlacedScan& cur,
+                            const RegistrationOptions& options) const {
+  std::vector<PlacedScan> placed;
+  for (const std::size_t scan : references) placed.push_back(Placed(scan));
+  return RegisterScan(placed, cur, options);
 }
 
 std::vector<std::size_t> Slam::LastUsable(int count) const {
@@ -204,16 +172,16 @@ void Slam::Match(Entry& entry, SlamStep& step) {
     step.status = SlamStatus::kFirst;
     return;
   }
-  Registration match = Register(references, entry, step.T_map_scan, options_.guess, options_.icp);
-  if (!match.trusted && options_.icp.metric != IcpMetric::kPointToPoint) {
-    match = RegisterByPoints(references, entry, step.T_map_scan, match);
-  }
+  const PlacedScan cur{.model = &entry.model, .image = &entry.image, .T_map_scan = step.T_map_scan};
+  const Registration match = Register(references, cur, HowToRegister(options_));
+  entry.metric = match.metric;
   step.match = match.icp;
-  step.overlap = match.overlap;
-  step.status = match.trusted ? SlamStatus::kMatched : SlamStatus::kDeadReckoned;
-  if (match.trusted) step.T_map_scan = match.icp.T_ref_cur;
+  step.overlap = match.agreement.Overlap();
+  step.contradiction = match.agreement.Contradiction();
+  step.status = match.convinces ? SlamStatus::kMatched : SlamStatus::kDeadReckoned;
+  if (match.convinces) step.T_map_scan = match.icp.T_ref_cur;
   const Matrix6d covariance =
-      match.trusted ? CovarianceOf(match.icp) : CovarianceOfGuess(options_.icp);
+      match.convinces ? CovarianceOf(match.icp) : CovarianceOfGuess(options_.icp);
   Constrain(references.front(), entries_.size(), {step.T_map_scan, covariance});
   step.covariance = ByLastConstraint().covariance;
 }
@@ -238,19 +206,17 @@ void Slam::Constrain(std::size_t from, std::size_t to, const UncertainPose3& T_m
        .covariance = Turned(T_map_from.rotation.transpose(), T_map_to.covariance)});
 }
 
-/// Nüchter et al. (2007), section 3.4: hypotheses from range and pose, revised by the octrees, then
-/// registered; the error of each loop found is spread over all scans.
+/// Nüchter et al. (2007), section 3.4: hypotheses from range and pose, registered; the error of
+/// each loop found is spread over all scans.
 void Slam::CloseLoops(SlamStep& step) {
   const std::size_t scan = entries_.size() - 1;
   const Entry& cur = *entries_[scan];
-  const OverlapOptions search = Widened(options_.guess, kLoopSearchFactor);
-  IcpOptions icp = options_.icp;
-  icp.metric = cur.metric;
+  RegistrationOptions how = Widened(HowToRegister(options_), kLoopSearchFactor);
+  how.icp.metric = cur.metric;
   for (const std::size_t earlier : LoopHypotheses(graph_.T_map_scan, cur.range_m, options_.loop)) {
     if (!entries_[earlier]) continue;
-    const Registration match =
-        Register(std::span(&earlier, 1), cur, graph_.T_map_scan[scan], search, icp);
-    if (!match.trusted || match.overlap < options_.loop.min_overlap) continue;
+    const Registration match = Register(std::span(&earlier, 1), Placed(scan), how);
+    if (!match.convinces) continue;
     Constrain(earlier, scan, {match.icp.T_ref_cur, CovarianceOf(match.icp)});
     const Matrix6d covariance = ByLastConstraint().covariance;
     if (covariance.trace() < covariances_[scan].trace()) covariances_[scan] = covariance;

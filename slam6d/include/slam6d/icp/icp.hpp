@@ -146,4 +146,18 @@ IcpResult Align(std::span<const IcpReference> references,
                 const IcpOptions& options,
                 IcpTrace* trace = nullptr);
 
+/// Where the current scan is thought to be by now, and where it was thought to be before anything
+/// was known of its points: what these leave open is left to the guess.
+struct PoseAndGuess {
+  Pose3 now;
+  Pose3 guess;
+};
+
+/// The same, beginning somewhere else than at the guess.
+IcpResult Align(std::span<const IcpReference> references,
+                const ScanModel& cur,
+                const PoseAndGuess& T_map_cur,
+                const IcpOptions& options,
+                IcpTrace* trace = nullptr);
+
 }  // namespace slam6d

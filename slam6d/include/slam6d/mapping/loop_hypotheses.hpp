@@ -17,8 +17,7 @@ struct LoopOptions {
   double max_distance_m = 15.0;
   /// Scans farther apart than this share of the scanner's range are no loop.
   double max_range_share = 0.5;
-  int max_hypotheses = 3;    ///< So many of the nearest scans are tried.
-  double min_overlap = 0.4;  ///< A loop is believed if so many of the cubes overlap, as a share.
+  int max_hypotheses = 3;  ///< So many of the nearest scans are tried.
 };
 
 template <class Visitor>
@@ -38,9 +37,6 @@ void Describe(Visitor& visit, LoopOptions& o) {
   visit("max_hypotheses",
         o.max_hypotheses,
         {.help = "earlier scans tried, the nearest first", .min = 0, .max = 1000});
-  visit("min_overlap",
-        o.min_overlap,
-        {.help = "share of overlapping cubes for a loop to be believed", .min = 0, .max = 1});
 }
 
 /// The earlier scans that the last of the poses may have come back to, nearest first.

@@ -13,7 +13,7 @@ namespace slam6d {
 
 /// When and how scans are fitted to each other (Nüchter et al. 2007, section 3.5).
 struct RefinementOptions {
-  bool enabled = true;
+  bool enabled = false;
   int min_pairs = 250;           ///< Scans with more pairs overlap: p in section 3.5.
   double max_distance_m = 0.25;  ///< Longer pairs do not count; the poses are good by now.
   int max_neighbors = 8;  ///< A scan is fitted to so many of the nearest scans that overlap it.

@@ -23,7 +23,6 @@ struct OverlapOptions {
   double rotation_range_rad = 10.0 * std::numbers::pi / 180.0;
   int max_cubes = 800;    ///< Most cubes of the current scan that are looked up for each motion.
   double min_gain = 0.1;  ///< The guess is left only for an overlap larger by this share.
-  double needed_below = 0.4;  ///< Nothing is searched where ICP alone reaches this overlap.
 };
 
 template <class Visitor>
@@ -47,11 +46,6 @@ void Describe(Visitor& visit, OverlapOptions& o) {
       "min_gain",
       o.min_gain,
       {.help = "the guess is left only for an overlap larger by this share", .min = 0, .max = 10});
-  visit("needed_below",
-        o.needed_below,
-        {.help = "nothing is searched where registration alone reaches this overlap",
-         .min = 0,
-         .max = 1});
 }
 
 /// The occupied cubes of one size, for asking whether a point lies in one. Expected O(1).

@@ -14,20 +14,25 @@
 #include "slam6d/icp/icp.hpp"
 #include "slam6d/mapping/loop_hypotheses.hpp"
 #include "slam6d/mapping/model_refinement.hpp"
-#include "slam6d/mapping/octree_overlap.hpp"
 #include "slam6d/mapping/pose_graph.hpp"
+#include "slam6d/mapping/scan_registration.hpp"
 
 namespace slam6d {
 
 struct SlamOptions {
   double min_range_m = 0.0;
   double max_range_m = 0.0;  ///< Points farther off are misses; 0: there are no misses.
+  /// Thinning of the scans; where it names no size, `thin_above_points` decides.
   ReductionOptions reduction{};
+  /// A scan with more points is thinned to cubes as large as its points lie apart where it sees
+  /// far: points nearer to each other tell the same of the same surface, errors included. 0 keeps
+  /// them all.
+  int thin_above_points = 26'000;
   KdTreeOptions tree{};
   OverlapOptions guess{};
   IcpOptions icp{};
-  int references = 3;        ///< A scan is registered with so many scans before it at once.
-  double min_overlap = 0.2;  ///< A match is believed if so many of the cubes overlap, as a share.
+  EvidenceOptions evidence{};
+  int references = 3;  ///< A scan is registered with so many scans before it at once.
   LoopOptions loop{};
   RefinementOptions refinement{};
 };
@@ -39,17 +44,21 @@ void Describe(Visitor& visit, SlamOptions& o) {
         o.max_range_m,
         {.help = "farther points are dropped; 0 keeps all", .min = 0, .max = 1e6});
   visit("reduction", o.reduction, {.help = "thinning of the scans by an octree"});
+  visit("thin_above_points",
+        o.thin_above_points,
+        {.help = "without a voxel_m, scans with more points are thinned to the spacing that they "
+                 "have far off; 0 keeps all",
+         .min = 0,
+         .max = 1e9});
   visit("tree", o.tree, {.help = "the kd-tree of a scan"});
   visit("guess", o.guess, {.help = "initial guess by overlapping octrees"});
   visit("icp", o.icp, {.help = "registration of two scans"});
+  visit("evidence", o.evidence, {.help = "when a registration is believed"});
   visit("references",
         o.references,
         {.help = "scans before, with all of which a scan is registered at once",
          .min = 1,
          .max = 1000});
-  visit("min_overlap",
-        o.min_overlap,
-        {.help = "share of overlapping cubes for a match to be believed", .min = 0, .max = 1});
   visit("loop", o.loop, {.help = "closing of loops"});
   visit("refinement", o.refinement, {.help = "fit of all scans to each other at the end"});
 }
@@ -72,9 +81,14 @@ struct SlamStep {
   /// Covariance of the pose as in UncertainPose3, with all error since the first scan but what
   /// loops have taken out.
   Matrix6d covariance = Matrix6d::Zero();
-  std::size_t points = 0;               ///< Points of the scan after its reduction.
-  IcpResult match{};                    ///< Match with the scans before; its `ref` is the map.
-  double overlap = 0.0;                 ///< Overlap with the scans before, after the match.
+  double voxel_m = 0.0;    ///< Cubes by which the scan was thinned; 0 if it was not.
+  std::size_t points = 0;  ///< Points of the scan after its reduction.
+  IcpResult match{};       ///< Match with the scans before; its `ref` is the map.
+  /// Share of the scan's points that lie on what the scans before saw, after the match.
+  double overlap = 0.0;
+  /// Share of the points told about by two scans that contradict the other: solid for one, air for
+  /// the other.
+  double contradiction = 0.0;
   std::vector<std::size_t> loops_to{};  ///< Earlier scans with which a loop was closed.
 };
 
@@ -107,25 +121,14 @@ class Slam {
   struct Entry {
     double range_m;  ///< How far the scanner sees.
     ScanModel model;
-    OverlapModel overlap;
+    RangeImage image;
     IcpMetric metric;  ///< Metric by which the scan was registered.
   };
-  struct Registration {
-    IcpResult icp;  ///< The registration; its `ref` is the map.
-    double overlap = 0.0;
-    bool trusted = false;
-  };
 
-  std::vector<IcpReference> ModelsOf(std::span<const std::size_t> scans) const;
+  PlacedScan Placed(std::size_t scan) const;
   Registration Register(std::span<const std::size_t> references,
-                        const Entry& cur,
-                        const Pose3& T_map_cur_guess,
-                        const OverlapOptions& search,
-                        const IcpOptions& icp) const;
-  Registration RegisterByPoints(std::span<const std::size_t> references,
-                                Entry& cur,
-                                const Pose3& T_map_cur_guess,
-                                const Registration& by_planes) const;
+                        const PlacedScan& cur,
+                        const RegistrationOptions& options) const;
   std::vector<std::size_t> LastUsable(int count) const;
   void Constrain(std::size_t from, std::size_t to, const UncertainPose3& T_map_to);
   void Match(Entry& entry, SlamStep& step);

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slam6d/mapping/scan_registration.hpp"
+
+#include <cmath>
+#include <deque>
+#include <vector>
+
+namespace slam6d {
+namespace {
+
+/// Squared deviations from the guess over its variances that one pose in a thousand exceeds: chi2
+/// of six degrees of freedom. What slides farther found other surfaces.
+constexpr double kMostGuessChi2 = 22.5;
+
+/// Where planes fail, points are first paired so many times farther off than else: a turn of 15
+/// degrees moves what is 5 m away by more than the usual pair is long, and ICP stops on the way.
+constexpr double kWidePairsFactor = 3.0;
+
+/// One registration, tried from several places.
+class Attempts {
+ public:
+  Attempts(std::span<const PlacedScan> references,
+           const PlacedScan& cur,
+           const RegistrationOptions& options)
+      : references_(references), cur_(cur), options_(options) {
+    for (const PlacedScan& scan : references) {
+      models_.push_back({.model = scan.model, .T_map_ref = scan.T_map_scan});
+      images_.push_back({.image = scan.image, .T_map_ref = scan.T_map_scan});
+    }
+  }
+
+  Registration From(const Pose3& T_map_cur, const IcpOptions& icp) const {
+    const PoseAndGuess start{.now = T_map_cur, .guess = cur_.T_map_scan};
+    Registration result{.icp = Align(models_, *cur_.model, start, icp), .metric = icp.metric};
+    result.agreement = Compare(images_, *cur_.image, result.icp.T_ref_cur);
+    result.convinces = HasPose(result.icp) && IsWithinReach(result.icp.T_ref_cur) &&
+                       result.agreement.Contradiction() <= options_.evidence.max_contradiction;
+    return result;
+  }
+
+  Pose3 GuessByOctrees() const {
+    std::deque<OverlapModel> models;
+    std::vector<OverlapReference> cubes;
+    for (const PlacedScan& scan : references_) {
+      models.emplace_back(scan.model->points, options_.guess);
+      cubes.push_back({.model = &models.back(), .T_map_ref = scan.T_map_scan});
+    }
+    const OverlapModel cur(cur_.model->points, options_.guess);
+    return GuessByOverlap(cubes, cur, cur_.T_map_scan, options_.guess).T_map_cur;
+  }
+
+  /// Points from far off, then planes from there; among trees, where the little that is flat leads
+  /// astray, points have the last word.
+  Registration ByPoints() const {
+    IcpOptions points = options_.icp;
+    points.metric = IcpMetric::kPointToPoint;
+    points.max_distance_m *= kWidePairsFactor;
+    const Registration coarse = From(cur_.T_map_scan, points);
+    if (!IsWithinReach(coarse.icp.T_ref_cur)) return coarse;
+    const Registration planes = From(coarse.icp.T_ref_cur, options_.icp);
+    if (planes.convinces) return planes;
+    points.max_distance_m = options_.icp.max_distance_m;
+    return From(coarse.icp.T_ref_cur, points);
+  }
+
+ private:
+  static bool HasPose(const IcpResult& result) {
+    return result.status == IcpStatus::kConverged || result.status == IcpStatus::kIterationLimit;
+  }
+
+  bool IsWithinReach(const Pose3& T_map_cur) const {
+    const Pose3& guess = cur_.T_map_scan;
+    const double moved =
+        (T_map_cur.translation_m - guess.translation_m).norm() / options_.icp.guess_sigma_m;
+    const double turned = RotationAngle(guess.rotation.transpose() * T_map_cur.rotation) /
+                          options_.icp.guess_sigma_rad;
+    return moved * moved + turned * turned <= kMostGuessChi2;
+  }
+
+  std::span<const PlacedScan> references_;
+  const PlacedScan& cur_;
+  const RegistrationOptions& options_;
+  std::vector<IcpReference> models_;
+  std::vector<RangeImageReference> images_;
+};
+
+}  // namespace
+
+Registration RegisterScan(std::span<const PlacedScan> references,
+                          const PlacedScan& cur,
+                          const RegistrationOptions& options) {
+  const Attempts attempts(references, cur, options);
+  const Registration first = attempts.From(cur.T_map_scan, options.icp);
+  if (first.convinces) return first;
+  const Registration second = attempts.From(attempts.GuessByOctrees(), options.icp);
+  if (second.convinces) return second;
+  if (options.icp.metric == IcpMetric::kPointToPoint) return first;
+  const Registration third = attempts.ByPoints();
+  return third.convinces ? third : first;
+}
+
+}  // namespace slam6d
