@@ -65,6 +65,19 @@ class Projection {
   Eigen::Vector2d size_px_;
 };
 
+/// The colour of a pixel by how many points fall into it, up to the most: the logarithm of it.
+std::vector<std::uint32_t> Inks(std::uint32_t most) {
+  const double full = std::log1p(static_cast<double>(most));
+  std::vector<std::uint32_t> inks;
+  for (std::uint32_t count = 0; count <= most; ++count) {
+    const double share = std::log1p(static_cast<double>(count)) / full;
+    const auto mix = [&](double ink) { return 1.0 + std::sqrt(share) * (ink - 1.0); };
+    inks.push_back(
+        qwsm::io::ToPixel({mix(kPointColor.red), mix(kPointColor.green), mix(kPointColor.blue)}));
+  }
+  return inks;
+}
+
 qwsm::io::PixelImage Shade(const PointCloud& points, const Projection& projection) {
   qwsm::io::PixelImage image;
   image.width_px = static_cast<int>(projection.size_px().x());
@@ -81,13 +94,10 @@ qwsm::io::PixelImage Shade(const PointCloud& points, const Projection& projectio
         static_cast<std::size_t>(at_px.y()) * width + static_cast<std::size_t>(at_px.x());
     most = std::max(most, ++counts[pixel]);
   }
-  const double full = std::log1p(static_cast<double>(std::min(most, 100U)));
-  for (const std::uint32_t count : counts) {
-    const double share = std::min(std::log1p(static_cast<double>(count)) / full, 1.0);
-    const auto mix = [&](double ink) { return 1.0 + std::sqrt(share) * (ink - 1.0); };
-    image.pixels.push_back(
-        qwsm::io::ToPixel({mix(kPointColor.red), mix(kPointColor.green), mix(kPointColor.blue)}));
-  }
+  const std::uint32_t darkest = std::min(most, 100U);
+  const std::vector<std::uint32_t> inks = Inks(darkest);
+  image.pixels.reserve(counts.size());
+  for (const std::uint32_t count : counts) image.pixels.push_back(inks[std::min(count, darkest)]);
   return image;
 }
 

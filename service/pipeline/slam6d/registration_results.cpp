@@ -23,7 +23,10 @@ std::vector<Pose3> PosesBefore(const Registration& registration) {
 }
 
 PointCloud Merge(const Registration& registration, const std::vector<Pose3>& poses) {
+  std::size_t points = 0;
+  for (const RegisteredScan& scan : registration.scans) points += scan.cloud.size();
   PointCloud merged;
+  merged.reserve(points);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     merged.Append(poses[i] * registration.scans[i].cloud);
   }
