@@ -85,6 +85,18 @@ class Attempts {
   std::vector<RangeImageReference> images_;
 };
 
+/// Whether nothing speaks for trying elsewhere: pairs that change to and fro for ever may be those
+/// of a wrong place.
+bool IsSettled(const Registration& registration) {
+  return registration.convinces && registration.icp.status == IcpStatus::kConverged;
+}
+
+/// Of two, the one that convinces; if both do, the one that sees more of what the references saw.
+const Registration& BetterOf(const Registration& a, const Registration& b) {
+  if (a.convinces != b.convinces) return a.convinces ? a : b;
+  return a.convinces && b.agreement.Overlap() > a.agreement.Overlap() ? b : a;
+}
+
 }  // namespace
 
 Registration RegisterScan(std::span<const PlacedScan> references,
@@ -92,12 +104,13 @@ Registration RegisterScan(std::span<const PlacedScan> references,
                           const RegistrationOptions& options) {
   const Attempts attempts(references, cur, options);
   const Registration first = attempts.From(cur.T_map_scan, options.icp);
-  if (first.convinces) return first;
+  if (IsSettled(first)) return first;
   const Registration second = attempts.From(attempts.GuessByOctrees(), options.icp);
-  if (second.convinces) return second;
-  if (options.icp.metric == IcpMetric::kPointToPoint) return first;
+  if (IsSettled(second) || options.icp.metric == IcpMetric::kPointToPoint) {
+    return BetterOf(first, second);
+  }
   const Registration third = attempts.ByPoints();
-  return third.convinces ? third : first;
+  return BetterOf(BetterOf(first, second), third);
 }
 
 }  // namespace slam6d
