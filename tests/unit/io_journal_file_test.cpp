@@ -215,6 +215,24 @@ TEST_F(JournalFileTest, GoesOnBehindDamageInANewFileAndKeepsTheDamagedOne) {
   EXPECT_EQ(ExpectSoundReading(copy, kept + 1), kept + 1);
 }
 
+// SQLite puts what follows the highest position there is at a random one.
+TEST_F(JournalFileTest, FindsWhatWasAppendedBehindAPositionThatWasAltered) {
+  const std::vector<JournalEntry> entries = {EntryOf(1), EntryOf(2), EntryOf(3)};
+  Continue().Append(entries);
+  for (const std::string position : {"9223372036854775807", "1000000000"}) {
+    SCOPED_TRACE(position);
+    Alter("UPDATE scan SET position = " + position +
+          " WHERE position = (SELECT max(position) FROM scan)");
+    Continue().Append(std::vector{EntryOf(4)});
+    std::vector<std::uint64_t> found;
+    JournalFile journal = JournalFile::Read(file_, kScanJournal);
+    while (const auto entry = journal.Next()) found.push_back(entry->sequence);
+    ASSERT_FALSE(found.empty());
+    EXPECT_EQ(found.back(), 4U);
+    EXPECT_EQ(found.front(), 1U);
+  }
+}
+
 TEST_F(JournalFileTest, IsReadAsALog) {
   Write(6);
   const std::unique_ptr<LogReader> log = OpenLog(file_);

@@ -137,7 +137,9 @@ JournalFile JournalFile::Continue(const std::filesystem::path& file,
   }
   try {
     JournalFile journal = OpenToWrite(file, kind, identity);
-    if (!HasSoundPages(journal.state_->database)) journal = Mended(std::move(journal), kind);
+    if (!HasSoundPages(journal.state_->database) || !journal.state_->table.CanGrow()) {
+      journal = Mended(std::move(journal), kind);
+    }
     journal.state_->lock = std::move(lock);
     return journal;
   } catch (const SqliteError& error) {

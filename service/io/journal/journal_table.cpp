@@ -41,10 +41,19 @@ std::optional<std::int64_t> JournalTable::NumberUnlessDamaged(std::string_view s
   }
 }
 
+// That the bytes of the file can hold.
+std::int64_t JournalTable::MostEntries() {
+  return database_.Number("PRAGMA page_count") * database_.Number("PRAGMA page_size") /
+         kLeastBytesOfEntry;
+}
+
+bool JournalTable::CanGrow() {
+  const auto last = NumberUnlessDamaged("SELECT max(rowid) FROM scan");
+  return last && *last <= MostEntries();
+}
+
 JournalTable::Extent JournalTable::Measure() {
-  const std::int64_t bytes =
-      database_.Number("PRAGMA page_count") * database_.Number("PRAGMA page_size");
-  const std::int64_t most = bytes / kLeastBytesOfEntry;
+  const std::int64_t most = MostEntries();
   // The one is counted in the index, the other stands at the end of the table: one of them may be
   // damaged and the other not.
   const auto count = NumberUnlessDamaged("SELECT count(*) FROM scan");

@@ -32,6 +32,9 @@ class JournalTable {
     std::int64_t last_position = 0;
   };
   Extent Measure();
+  /// Whether what is added will be found: behind a position that is damaged and beyond what the file
+  /// can hold SQLite would put it anywhere.
+  bool CanGrow();
 
   /// Adds an entry behind the last one, unless it is there already.
   void Insert(const JournalEntry& entry);
@@ -41,6 +44,7 @@ class JournalTable {
   void GiveUpInsertion() { insert_.reset(); }
 
  private:
+  std::int64_t MostEntries();
   std::optional<std::int64_t> NumberUnlessDamaged(std::string_view sql);
 
   SqliteDatabase& database_;
