@@ -59,10 +59,7 @@ bool McapFile::Recognizes(std::string_view first_bytes) {
 }
 
 McapFile::McapFile(const std::filesystem::path& path, TellDamage tell)
-    : file_(path),
-      tell_(std::move(tell)),
-      chunks_([this](std::uint64_t offset) { return LoadChunk(offset); }),
-      next_(kMcapMagic.size()) {
+    : ChunkedBag(path, std::move(tell), kMcapMagic.size()) {
   ReadSummary();
 }
 
@@ -84,14 +81,6 @@ void McapFile::ReadSummary() {
     Take({.opcode = opcode, .body = body}, {offset, kDirect});
     offset += kRecordHead + length;
   }
-}
-
-std::optional<BagMessage> McapFile::Next() {
-  while (!ended_ || chunk_) {
-    std::optional<BagMessage> message = chunk_ ? NextInChunk() : NextInFile();
-    if (message) return message;
-  }
-  return std::nullopt;
 }
 
 std::optional<BagMessage> McapFile::NextInChunk() {
@@ -148,17 +137,6 @@ std::optional<BagMessage> McapFile::NextInFile() {
   }
   const std::string_view body = file_.At(offset + kRecordHead, static_cast<std::size_t>(length));
   return Take({.opcode = opcode, .body = body}, {offset, kDirect});
-}
-
-/// Goes on at the next chunk that can be told for one.
-void McapFile::GoAround(std::uint64_t offset, const std::string& what) {
-  tell_(offset, what);
-  const std::optional<std::uint64_t> next = FindChunk(offset + 1);
-  if (next) {
-    next_ = *next;
-  } else {
-    ended_ = true;
-  }
 }
 
 std::optional<BagMessage> McapFile::Take(const Record& record, const MessageAddress& address) {

@@ -56,10 +56,7 @@ bool Ros1Bag::Recognizes(std::string_view first_bytes) {
 }
 
 Ros1Bag::Ros1Bag(const std::filesystem::path& path, TellDamage tell)
-    : file_(path),
-      tell_(std::move(tell)),
-      chunks_([this](std::uint64_t offset) { return LoadChunk(offset); }),
-      next_(kBagVersion.size()) {
+    : ChunkedBag(path, std::move(tell), kBagVersion.size()) {
   if (file_.At(0, kBagVersion.size()) != kBagVersion) {
     throw BagError("is a bag of another format than 2.0; 'rosbag fix' makes a new one of it");
   }
@@ -83,14 +80,6 @@ void Ros1Bag::ReadIndex() {
   } catch (const BinaryError&) {
     // Whatever is damaged is met, and told, again.
   }
-}
-
-std::optional<BagMessage> Ros1Bag::Next() {
-  while (!ended_ || chunk_) {
-    std::optional<BagMessage> message = chunk_ ? NextInChunk() : NextInFile();
-    if (message) return message;
-  }
-  return std::nullopt;
 }
 
 std::optional<BagMessage> Ros1Bag::NextInChunk() {
@@ -154,17 +143,6 @@ std::optional<BagMessage> Ros1Bag::NextInFile() {
   }
   next_ = offset + record->size;
   return chunk_ ? std::nullopt : Take(*record, {offset, kOutside});
-}
-
-/// Goes on at the next chunk that can be told for one.
-void Ros1Bag::GoAround(std::uint64_t offset, const std::string& what) {
-  tell_(offset, what);
-  const std::optional<std::uint64_t> next = FindChunk(offset + 1);
-  if (next) {
-    next_ = *next;
-  } else {
-    ended_ = true;
-  }
 }
 
 std::optional<BagMessage> Ros1Bag::Take(const Record& record, const MessageAddress& address) {
