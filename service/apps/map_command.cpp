@@ -88,53 +88,42 @@ Origin OpenOrigin(const MapArguments& arguments, const options::LogOptions& log)
 
 constexpr const char* kAnswers = "answers.mcap";
 
-void WriteAnswers(const RunSession& session,
-                  const options::ProgramOptions& options,
-                  const pipeline::AnswerBag& answers,
-                  const ScanMap& map) {
-  answers.Write(session.folder() / kAnswers, pipeline::RenderOrWarn(map, options.rendering));
+/// Whether path and map are corrected in the end; else mapping is incremental, as in Visser et al.
+/// (2009).
+bool Corrects(const options::ProgramOptions& options) {
+  return options.graph.enabled && options.mapper.matcher == MatcherKind::kQWsm;
 }
 
-// Incremental mapping, as in Visser et al. (2009): no pose is corrected afterwards.
-ExitCode MapOnly(const MapArguments& arguments,
-                 const options::ProgramOptions& options,
-                 pipeline::ScanSource& source,
-                 const RunSession& session) {
+ExitCode MapAll(const MapArguments& arguments,
+                const options::ProgramOptions& options,
+                pipeline::ScanSource& source,
+                const RunSession& session) {
+  const bool corrects = Corrects(options);
   Mapper mapper(options.mapper);
-  pipeline::ResultsWriter results(session.folder());
-  pipeline::AnswerBag answers;
-  std::vector<pipeline::StepSink*> sinks{&results};
-  if (arguments.bag) sinks.push_back(&answers);
-  const pipeline::ReplayResult end =
-      session.Run("map", source, std::bind_front(&Mapper::Process, &mapper), sinks);
-  results.Finish(mapper.map(), mapper.options().matcher, options.rendering, source.truth());
-  if (arguments.bag) WriteAnswers(session, options, answers, mapper.map());
-  if (arguments.save_map) io::SaveMap(*arguments.save_map, mapper.map());
-  session.Summarize(results, mapper.map());
-  return Conclude(end);
-}
-
-// The same, and then all poses anew where loops tell that the path drifted.
-ExitCode MapAndCorrect(const MapArguments& arguments,
-                       const options::ProgramOptions& options,
-                       pipeline::ScanSource& source,
-                       const RunSession& session) {
-  Mapper mapper(options.mapper);
-  pipeline::ResultsWriter results(session.folder(), "trajectory_live.tum");
+  pipeline::ResultsWriter results(session.folder(),
+                                  corrects ? "trajectory_live.tum" : "trajectory.tum");
   pipeline::CorrectionSink correction(options.mapper);
   pipeline::AnswerBag answers;
-  std::vector<pipeline::StepSink*> sinks{&results, &correction};
+  std::vector<pipeline::StepSink*> sinks{&results};
+  if (corrects) sinks.push_back(&correction);
   if (arguments.bag) sinks.push_back(&answers);
   const pipeline::ReplayResult end =
       session.Run("map", source, std::bind_front(&Mapper::Process, &mapper), sinks);
-  const pipeline::CorrectedRun corrected = correction.Correct(mapper.map());
-  results.Finish(mapper, corrected, options.rendering, source.truth());
-  if (arguments.bag) {
-    answers.Correct(corrected.correction.map_robot);
-    WriteAnswers(session, options, answers, corrected.map);
+
+  std::optional<pipeline::CorrectedRun> corrected;
+  if (corrects) {
+    corrected = correction.Correct(mapper.map());
+    results.Finish(mapper, *corrected, options.rendering, source.truth());
+    if (arguments.bag) answers.Correct(corrected->correction.map_robot);
+  } else {
+    results.Finish(mapper.map(), mapper.options().matcher, options.rendering, source.truth());
   }
-  if (arguments.save_map) io::SaveMap(*arguments.save_map, corrected.map);
-  session.Summarize(results, corrected.map);
+  const ScanMap& map = corrected ? corrected->map : mapper.map();
+  if (arguments.bag) {
+    answers.Write(session.folder() / kAnswers, pipeline::RenderOrWarn(map, options.rendering));
+  }
+  if (arguments.save_map) io::SaveMap(*arguments.save_map, map);
+  session.Summarize(results, map);
   return Conclude(end);
 }
 
@@ -155,10 +144,7 @@ ExitCode RunMap(MapArguments arguments) {
   if (origin.scenario) {
     io::WriteTextFile(session.folder() / "scenario.yaml", ScenarioText(*origin.scenario));
   }
-  if (options.graph.enabled && options.mapper.matcher == MatcherKind::kQWsm) {
-    return MapAndCorrect(arguments, options, *origin.source, session);
-  }
-  return MapOnly(arguments, options, *origin.source, session);
+  return MapAll(arguments, options, *origin.source, session);
 }
 
 }  // namespace
