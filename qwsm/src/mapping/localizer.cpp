@@ -12,13 +12,8 @@ constexpr double kWeighSpacing_m = 0.15;
 constexpr double kBetweenWeighings_m = 0.5;
 constexpr double kPartedNats = -23.0;  // One in ten thousand millions: a robot in doubt is tracked.
 
-MapperOptions WithoutExtending(MapperOptions options) {
-  options.extend_map = false;
-  return options;
-}
-
-MapperOptions WithExtending(MapperOptions options) {
-  options.extend_map = true;
+MapperOptions Extending(MapperOptions options, bool extends) {
+  options.extend_map = extends;
   return options;
 }
 
@@ -29,7 +24,7 @@ Localizer::Localizer(const MapperOptions& options,
                      const std::optional<UncertainPose2>& start)
     : options_(options),
       map_(std::move(map)),
-      tracker_(WithoutExtending(options)),
+      tracker_(Extending(options, false)),
       finder_(options),
       evidence_(options.free_space) {
   start ? tracker_.PlaceAt(*start) : Lose();
@@ -77,7 +72,7 @@ void Localizer::LoseWhereContradicted(std::span<const ScanPoint> points, const M
 }
 
 void Localizer::Lose() {
-  local_.emplace(WithExtending(options_));
+  local_.emplace(Extending(options_, true));
   finder_ = PlaceFinder(options_);
 }
 

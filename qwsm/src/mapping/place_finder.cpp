@@ -56,12 +56,6 @@ UncertainPose2 Around(const Pose2& T_map_robot) {
   return UncertainPose2::WithSigmas(T_map_robot, kDriftSigma_m, kDriftSigma_rad);
 }
 
-// No pose is likelier than another: as in the search for modes, or scores could not be compared.
-UncertainPose2 Anywhere(const Pose2& T_map_robot) {
-  constexpr double kFlat = 1e6;  // m, rad.
-  return UncertainPose2::WithSigmas(T_map_robot, kFlat, kFlat);
-}
-
 // What a squared sigma costs in a search is half a nat.
 double NatsPerScore(std::size_t points, const CorrelativeSearchOptions& search) {
   const auto independent = static_cast<std::size_t>(search.independent_points);
@@ -131,13 +125,12 @@ void PlaceFinder::Follow(const Sight& sight, const Pose2& T_last_robot) {
     one.is_new = false;
     one.way_m += T_last_robot.translation_m().norm();
     one.map_robot = Around(one.map_robot.T_a_b * T_last_robot);
-    const std::optional<FoundPose> found =
-        SearchPose(sight.map.surfaces().likelihood(),
-                   sight.positions_m,
-                   {.predicted = Anywhere(one.map_robot.T_a_b),
-                    .translation_m = kDriftSigmas * kDriftSigma_m,
-                    .rotation_rad = kDriftSigmas * kDriftSigma_rad},
-                   locator_.options().search);
+    const std::optional<FoundPose> found = SearchPose(
+        sight.map.surfaces().likelihood(),
+        sight.positions_m,
+        FlatWindow(
+            one.map_robot.T_a_b, kDriftSigmas * kDriftSigma_m, kDriftSigmas * kDriftSigma_rad),
+        locator_.options().search);
     one.score = found ? found->score : 0.0;
   }
 }

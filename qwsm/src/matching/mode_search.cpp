@@ -25,7 +25,6 @@ constexpr double kSameMode_rad = 0.1;
 constexpr int kLevelsOfMode = 2;             // Blocks of higher levels are wider than that.
 constexpr std::size_t kMostModes = 64;       // More are no knowledge.
 constexpr std::size_t kMostBlocks = 200000;  // Where everything is alike, the search is given up.
-constexpr double kFlatVariance = 1e12;       // No pose is more likely than another.
 
 // Poses with the robot in a square of positions and the heading in an interval. Of a level of
 // CoarseLikelihood that has cells of side s, it is s / 2 wide, and turning to either end of the
@@ -209,11 +208,8 @@ class ModeSearch {
   void Try(const PoseBlock& block) {
     const Pose2 middle = MiddleOf(block);
     tried_.push_back(middle);
-    SearchWindow around{.predicted = {.T_a_b = middle},
-                        .translation_m = kSameMode_m,
-                        .rotation_rad = kSameMode_rad,
-                        .min_score = threshold_};
-    around.predicted.covariance = kFlatVariance * Eigen::Matrix3d::Identity();
+    SearchWindow around = FlatWindow(middle, kSameMode_m, kSameMode_rad);
+    around.min_score = threshold_;
     const std::optional<FoundPose> found = SearchPose(map_, points_m_, around, {});
     if (!found) return;
     found_.push_back(*found);
@@ -271,6 +267,13 @@ FoundModes SearchModes(const LikelihoodPyramid& map,
   std::vector<Eigen::Vector2d> near_m = NearOnes(points_robot_m);
   if (near_m.empty() || window.places_m.empty()) return {};
   return ModeSearch(map, std::move(near_m), window).Run();
+}
+
+SearchWindow FlatWindow(const Pose2& T_map_robot, double translation_m, double rotation_rad) {
+  constexpr double kFlat = 1e6;  // m, rad.
+  return {.predicted = UncertainPose2::WithSigmas(T_map_robot, kFlat, kFlat),
+          .translation_m = translation_m,
+          .rotation_rad = rotation_rad};
 }
 
 }  // namespace qwsm

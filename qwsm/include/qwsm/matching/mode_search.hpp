@@ -39,4 +39,8 @@ FoundModes SearchModes(const LikelihoodPyramid& map,
                        std::span<const Eigen::Vector2d> points_robot_m,
                        const ModeSearchWindow& window);
 
+/// The window around a pose in which none is more likely than another: as in the search for modes,
+/// or scores could not be compared.
+SearchWindow FlatWindow(const Pose2& T_map_robot, double translation_m, double rotation_rad);
+
 }  // namespace qwsm
