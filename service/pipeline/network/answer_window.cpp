@@ -6,12 +6,17 @@
 
 namespace qwsm::pipeline {
 
+// The middleware may wake up who waits for an answer without there being one.
 template <class Kind>
 bool BasicAnswerWindow<Kind>::WaitFor(std::size_t most, std::chrono::nanoseconds patience) {
+  auto until = Clock::now() + patience;
   while (unanswered_.size() > most) {
-    if (Take(patience)) continue;
-    unanswered_.clear();
-    return false;
+    const Clock::time_point now = Clock::now();
+    if (now >= until) {
+      unanswered_.clear();
+      return false;
+    }
+    if (Take(until - now)) until = Clock::now() + patience;
   }
   return true;
 }

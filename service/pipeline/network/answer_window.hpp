@@ -35,6 +35,8 @@ class BasicAnswerWindow {
   std::uint64_t dropped() const { return dropped_; }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   bool WaitFor(std::size_t most, std::chrono::nanoseconds patience);
   bool Take(std::chrono::nanoseconds timeout);
 
