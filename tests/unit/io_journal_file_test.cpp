@@ -233,6 +233,20 @@ TEST_F(JournalFileTest, FindsWhatWasAppendedBehindAPositionThatWasAltered) {
   }
 }
 
+// One that says that the next entry is there already.
+TEST_F(JournalFileTest, FindsWhatWasAppendedBehindAnIndexThatWasAltered) {
+  Continue().Append(std::vector{EntryOf(1), EntryOf(2), EntryOf(3)});
+  std::string bytes = test::ReadFile(file_);
+  const JournalEntry last = EntryOf(3);
+  const std::size_t key = bytes.find(last.service + last.robot + "\x03\x03");
+  ASSERT_NE(key, std::string::npos);
+  bytes[key + last.service.size() + last.robot.size()] = '\x04';
+  std::ofstream(file_, std::ios::binary | std::ios::trunc) << bytes;
+
+  Continue().Append(std::vector{EntryOf(4)});
+  EXPECT_EQ(ExpectSoundReading(file_, 4), 4U);
+}
+
 TEST_F(JournalFileTest, IsReadAsALog) {
   Write(6);
   const std::unique_ptr<LogReader> log = OpenLog(file_);

@@ -83,8 +83,9 @@ void Begin(SqliteDatabase& database, std::string_view kind, std::string_view ide
   database.Execute("COMMIT");
 }
 
-bool HasSoundPages(SqliteDatabase& database) {
-  SqliteStatement check = database.Prepare("PRAGMA quick_check(1)");
+// Its index, too: one that claims an entry which is not there would keep it from being stored.
+bool IsSound(SqliteDatabase& database) {
+  SqliteStatement check = database.Prepare("PRAGMA integrity_check(1)");
   return check.Step() && check.Text(0) == "ok";
 }
 
@@ -137,7 +138,7 @@ JournalFile JournalFile::Continue(const std::filesystem::path& file,
   }
   try {
     JournalFile journal = OpenToWrite(file, kind, identity);
-    if (!HasSoundPages(journal.state_->database) || !journal.state_->table.CanGrow()) {
+    if (!IsSound(journal.state_->database) || !journal.state_->table.CanGrow()) {
       journal = Mended(std::move(journal), kind);
     }
     journal.state_->lock = std::move(lock);
