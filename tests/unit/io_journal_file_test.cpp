@@ -215,6 +215,27 @@ TEST_F(JournalFileTest, GoesOnBehindDamageInANewFileAndKeepsTheDamagedOne) {
   EXPECT_EQ(ExpectSoundReading(copy, kept + 1), kept + 1);
 }
 
+TEST_F(JournalFileTest, IsMendedWhileSomebodyReadsIt) {
+  Write(200);
+  const std::filesystem::path copy = Copy();
+  {
+    std::fstream stream(copy, std::ios::in | std::ios::out | std::ios::binary);
+    stream.seekp(static_cast<std::streamoff>(std::filesystem::file_size(copy) / 4096 / 2 * 4096));
+    stream.put('\x0A');
+  }
+  JournalFile reader = JournalFile::Read(copy, kScanJournal);
+  ASSERT_TRUE(reader.Next().has_value());
+  std::size_t kept = 0;
+  {
+    JournalFile journal = JournalFile::Continue(copy, kScanJournal, "base-2");
+    journal.Append(std::vector{EntryOf(201)});
+    kept = journal.size();
+  }
+  while (reader.Next()) {
+  }
+  EXPECT_EQ(ExpectSoundReading(copy, kept), kept);
+}
+
 // SQLite puts what follows the highest position there is at a random one.
 TEST_F(JournalFileTest, FindsWhatWasAppendedBehindAPositionThatWasAltered) {
   const std::vector<JournalEntry> entries = {EntryOf(1), EntryOf(2), EntryOf(3)};

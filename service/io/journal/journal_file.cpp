@@ -89,6 +89,11 @@ bool IsSound(SqliteDatabase& database) {
   return check.Step() && check.Text(0) == "ok";
 }
 
+/// Removes the log of a database and its index.
+void RemoveLogOf(const std::filesystem::path& file) {
+  for (const char* part : {"-wal", "-shm"}) std::filesystem::remove(file.string() + part);
+}
+
 /// A name that nothing has yet, to keep a damaged file under.
 std::filesystem::path NameForDamaged(const std::filesystem::path& file) {
   std::filesystem::path name = file.string() + ".damaged";
@@ -167,9 +172,8 @@ JournalFile JournalFile::Mended(JournalFile damaged, std::string_view kind) {
   const std::filesystem::path file = damaged.state_->file;
   const std::filesystem::path mended = file.string() + ".mended";
   const std::string identity = damaged.identity();
-  for (const char* part : {"", "-wal", "-shm"}) {  // Of an earlier attempt that was cut short.
-    std::filesystem::remove(mended.string() + part);
-  }
+  std::filesystem::remove(mended);  // Of an earlier attempt that was cut short.
+  RemoveLogOf(mended);
   {
     const JournalFile copy = OpenToWrite(mended, kind, identity);
     copy.state_->Wait(true);
@@ -179,9 +183,11 @@ JournalFile JournalFile::Mended(JournalFile damaged, std::string_view kind) {
   }
   const std::size_t lost = damaged.damaged();
   damaged.state_->database.Execute("PRAGMA wal_checkpoint(TRUNCATE)");
-  damaged.state_.reset();  // Nothing is left in a log beside it that the new one could take as its.
+  damaged.state_.reset();
   const std::filesystem::path kept = NameForDamaged(file);
   std::filesystem::copy_file(file, kept);
+  // They stay where somebody else reads the journal, and the new one would take them as its own.
+  RemoveLogOf(file);
   std::filesystem::rename(mended, file);
   JournalFile journal = OpenToWrite(file, kind, identity);
   journal.state_->damaged_copy = kept;
