@@ -12,12 +12,14 @@
 
 #include "qwsm/geometry/angle.hpp"
 #include "qwsm/geometry/position.hpp"
+#include "qwsm/mapping/grid_survey.hpp"
 #include "qwsm/mapping/localizer.hpp"
 #include "service/apps/command.hpp"
 #include "service/apps/messages.hpp"
 #include "service/apps/number_arguments.hpp"
 #include "service/apps/run_session.hpp"
 #include "service/io/maps/map_file.hpp"
+#include "service/io/maps/ros_map_file.hpp"
 #include "service/pipeline/results/lost_and_found.hpp"
 #include "service/pipeline/results/results_writer.hpp"
 #include "service/pipeline/text/messages.hpp"
@@ -69,11 +71,28 @@ ExitCode ConcludeLost(const PlaceBelief& belief, std::size_t unplaced) {
   return ExitCode::kFailed;
 }
 
+/// The map of a file: one that was saved, or the occupancy grid of another program.
+/// @throws UsageError where there is nothing in it to localize by.
+ScanMap OpenMap(const std::filesystem::path& path) {
+  const std::filesystem::path ending = path.extension();
+  if (ending != ".yaml" && ending != ".yml") {
+    ScanMap map = io::LoadMap(path);
+    if (map.empty()) throw UsageError(path.string() + ": is a map without scans");
+    return map;
+  }
+  ScanMap map = SurveyGrid(io::ReadRosMap(path));
+  if (map.empty()) {
+    throw UsageError(path.string() +
+                     ": no occupied cell lies beside a free one, so there is nothing to localize "
+                     "by; look at its thresholds and the picture");
+  }
+  return map;
+}
+
 ExitCode RunLocalize(LocalizeArguments arguments) {
   StartMessages(arguments.run.verbosity);
   arguments.run.other_inputs = {arguments.map};
-  ScanMap map = io::LoadMap(arguments.map);
-  if (map.empty()) throw UsageError(arguments.map.string() + ": is a map without scans");
+  ScanMap map = OpenMap(arguments.map);
   const options::ProgramOptions options = LoadOptionsFor(arguments, map);
   const auto source = OpenLogs(arguments.run, options.log);
   if (arguments.run.dry_run) return TellPlan("localize", arguments.run);
@@ -100,8 +119,9 @@ Command AddLocalizeCommand(CLI::App& program) {
   parser->footer(
       "  qwsm map monday.log --save-map site.qwsm\n"
       "  qwsm localize --map site.qwsm tuesday.log                 finds out where it starts\n"
-      "  qwsm localize --map site.qwsm tuesday.log --at 3 -1.5 90  is told so");
-  parser->add_option("--map", arguments->map, "saved by qwsm map --save-map")
+      "  qwsm localize --map site.qwsm tuesday.log --at 3 -1.5 90  is told so\n"
+      "  qwsm localize --map site.yaml tuesday.log                 in a map of ROS map_server");
+  parser->add_option("--map", arguments->map, "saved by qwsm map --save-map, or a map.yaml of ROS")
       ->required()
       ->type_name("MAP");
   parser->add_option("--at", arguments->at, "where the robot starts: metres and degrees")

@@ -40,14 +40,14 @@ class LocalizeCommand : public ::testing::Test {
     }
   }
 
-  void ExpectOnThePath() const {
+  void ExpectOnThePath(double within_m = 0.03) const {
     const Trajectory mapped = io::ReadTumFile(folder_.path() / "mapped/trajectory.tum");
     const Trajectory localized = io::ReadTumFile(results_ / "trajectory.tum");
     ASSERT_EQ(localized.size(), static_cast<std::size_t>(kScans - kFirst));
     for (std::size_t i = 0; i < localized.size(); ++i) {
       const Pose2& expected = mapped[i + kFirst].T_map_robot;
       const Pose2 off = expected.Inverse() * localized[i].T_map_robot;
-      EXPECT_LT(off.translation_m().norm(), 0.03) << i;
+      EXPECT_LT(off.translation_m().norm(), within_m) << i;
       EXPECT_LT(std::abs(off.theta_rad), 0.02) << i;
     }
   }
@@ -63,6 +63,24 @@ TEST_F(LocalizeCommand, FindsOutWhereItStarts) {
   const Outcome outcome = RunProgram({"localize", "--map", map_, part_, "-o", results_});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   ExpectOnThePath();
+}
+
+TEST_F(LocalizeCommand, TakesMapsOfOtherPrograms) {
+  const fs::path map = folder_.path() / "mapped/map.yaml";
+  const Outcome outcome = RunProgram({"localize", "--map", map, part_, "-o", results_});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  ExpectOnThePath(0.05);
+}
+
+TEST_F(LocalizeCommand, SaysThatAGridHasNothingToLocalizeBy) {
+  const fs::path map = folder_.path() / "empty.yaml";
+  std::ofstream(map) << "image: empty.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\n"
+                        "occupied_thresh: 0.65\nfree_thresh: 0.25\n";
+  std::ofstream(folder_.path() / "empty.pgm", std::ios::binary) << "P5\n4 4\n255\n"
+                                                                << std::string(16, '\xFE');
+  const Outcome outcome = RunProgram({"localize", "--map", map, part_, "-o", results_});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.errors.find("nothing to localize by"), std::string::npos) << outcome.errors;
 }
 
 TEST_F(LocalizeCommand, SaysWhenTheRobotWasNotFound) {

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// evaluate_localization LOG [STARTS [SEED]]: puts a robot down at random scans of one half of a
-// recording and has it found in the map of the other half. The recording is cut into twenty parts
-// that go to the two halves in turns; poses, of the map and the true ones, are those of the whole
-// recording once its loops are closed. Two groups of starts: in the mapped part (within 1.5 m of
-// where the robot was when it mapped, for as long as it is looked for), and far from it (more than
-// 8 m away), where nothing is to be found.
+// evaluate_localization LOG [STARTS [SEED [CELL_M]]]: puts a robot down at random scans of one half
+// of a recording and has it found in the map of the other half. The recording is cut into twenty
+// parts that go to the two halves in turns; poses, of the map and the true ones, are those of the
+// whole recording once its loops are closed. Two groups of starts: in the mapped part (within 1.5 m
+// of where the robot was when it mapped, for as long as it is looked for), and far from it (more
+// than 8 m away), where nothing is to be found. With CELL_M, the map is an occupancy grid of such
+// cells.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -24,8 +25,10 @@
 
 #include "qwsm/correction/map_corrector.hpp"
 #include "qwsm/logs/log_reader.hpp"
+#include "qwsm/mapping/grid_survey.hpp"
 #include "qwsm/mapping/localizer.hpp"
 #include "qwsm/mapping/mapper.hpp"
+#include "qwsm/mapping/occupancy_grid.hpp"
 
 namespace {
 
@@ -74,6 +77,13 @@ Recording Read(const std::string& path) {
     recording.map.Insert(points, ToPoints(points), correction.map_robot[scan]);
   }
   return recording;
+}
+
+/// The same place as another program hands it over: free and occupied cells.
+void MakeForeign(Recording& recording, double cell_m) {
+  const OccupancyGridResult drawn = RenderOccupancyGrid(recording.map.scans(), {.cell_m = cell_m});
+  if (drawn.status != RenderStatus::kRendered) throw std::invalid_argument("the map has no grid");
+  recording.map = SurveyGrid(drawn.grid);
 }
 
 void MeasureDistances(Recording& recording) {
@@ -163,9 +173,10 @@ struct Group {
   }
 };
 
-void Evaluate(const std::string& path, int starts, std::uint64_t seed) {
+void Evaluate(const std::string& path, int starts, std::uint64_t seed, double cell_m) {
   Recording recording = Read(path);
   MeasureDistances(recording);
+  if (cell_m > 0.0) MakeForeign(recording, cell_m);
   Group mapped{.name = "in the mapped part", .starts = {}};
   Group unmapped{.name = "far from it", .starts = {}};
   for (std::size_t i = 0; i < recording.observations.size(); ++i) {
@@ -193,10 +204,13 @@ void Evaluate(const std::string& path, int starts, std::uint64_t seed) {
 int main(int argc, char** argv) {
   try {
     if (argc < 2) throw std::invalid_argument("no log");
-    Evaluate(argv[1], argc > 2 ? std::stoi(argv[2]) : 100, argc > 3 ? std::stoull(argv[3]) : 1);
+    Evaluate(argv[1],
+             argc > 2 ? std::stoi(argv[2]) : 100,
+             argc > 3 ? std::stoull(argv[3]) : 1,
+             argc > 4 ? std::stod(argv[4]) : 0.0);
   } catch (const std::exception& error) {
     std::cerr << "evaluate_localization: " << error.what()
-              << "\nusage: evaluate_localization LOG [STARTS [SEED]]\n";
+              << "\nusage: evaluate_localization LOG [STARTS [SEED [CELL_M]]]\n";
     return EXIT_FAILURE;
   }
   return EXIT_SUCCESS;
