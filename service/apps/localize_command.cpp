@@ -1,9 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fmt/format.h>
-
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,17 +9,12 @@
 
 #include "qwsm/geometry/angle.hpp"
 #include "qwsm/geometry/position.hpp"
-#include "qwsm/mapping/grid_survey.hpp"
 #include "qwsm/mapping/localizer.hpp"
 #include "service/apps/command.hpp"
 #include "service/apps/messages.hpp"
 #include "service/apps/number_arguments.hpp"
 #include "service/apps/run_session.hpp"
-#include "service/io/maps/map_file.hpp"
-#include "service/io/maps/ros_map_file.hpp"
-#include "service/pipeline/results/lost_and_found.hpp"
-#include "service/pipeline/results/results_writer.hpp"
-#include "service/pipeline/text/messages.hpp"
+#include "service/apps/saved_map.hpp"
 
 namespace qwsm::apps {
 namespace {
@@ -54,41 +46,6 @@ std::optional<UncertainPose2> StartOf(const LocalizeArguments& arguments) {
       {at[0], at[1], NormalizeAngle(DegreesToRadians(at[2]))}, kSigma_m, kSigma_rad);
 }
 
-/// Tells where the search stands that the log ended in. @param unplaced scans of it.
-ExitCode ConcludeLost(const PlaceBelief& belief, std::size_t unplaced) {
-  if (belief.verdict == PlaceVerdict::kOneOfThese) {
-    messages::Error(
-        "the last {} scans could not be placed: they fit at {}; --at X Y DEG says where the robot "
-        "starts",
-        unplaced,
-        pipeline::PlacesText(belief));
-  } else {
-    messages::Error(
-        "the last {} scans could not be placed: they were found nowhere in the map; is it the "
-        "right map? --at X Y DEG says where the robot starts",
-        unplaced);
-  }
-  return ExitCode::kFailed;
-}
-
-/// The map of a file: one that was saved, or the occupancy grid of another program.
-/// @throws UsageError where there is nothing in it to localize by.
-ScanMap OpenMap(const std::filesystem::path& path) {
-  const std::filesystem::path ending = path.extension();
-  if (ending != ".yaml" && ending != ".yml") {
-    ScanMap map = io::LoadMap(path);
-    if (map.empty()) throw UsageError(path.string() + ": is a map without scans");
-    return map;
-  }
-  ScanMap map = SurveyGrid(io::ReadRosMap(path));
-  if (map.empty()) {
-    throw UsageError(path.string() +
-                     ": no occupied cell lies beside a free one, so there is nothing to localize "
-                     "by; look at its thresholds and the picture");
-  }
-  return map;
-}
-
 ExitCode RunLocalize(LocalizeArguments arguments) {
   StartMessages(arguments.run.verbosity);
   arguments.run.other_inputs = {arguments.map};
@@ -99,16 +56,7 @@ ExitCode RunLocalize(LocalizeArguments arguments) {
 
   const RunSession session(arguments.run, options);
   Localizer localizer(options.mapper, std::move(map), StartOf(arguments));
-  pipeline::ResultsWriter results(session.folder());
-  pipeline::LostAndFound lost_and_found(localizer, results);
-  const pipeline::ReplayResult end = session.Run(
-      "localize", *source, std::bind_front(&Localizer::Process, &localizer), {&lost_and_found});
-  results.Finish(localizer.map(), options.mapper.matcher, options.rendering);
-  session.Summarize(results, localizer.map());
-  if (end.end == pipeline::ReplayEnd::kExhausted && lost_and_found.held() > 0) {
-    return ConcludeLost(localizer.belief(), lost_and_found.held());
-  }
-  return Conclude(end);
+  return FollowInMap("localize", localizer, *source, options, session);
 }
 
 }  // namespace

@@ -8,11 +8,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "service/apps/command.hpp"
 #include "service/apps/messages.hpp"
 #include "service/apps/run_session.hpp"
+#include "service/apps/saved_map.hpp"
 #include "service/apps/scenario_arguments.hpp"
 #include "service/config/suggestion.hpp"
 #include "service/io/files/atomic_file.hpp"
@@ -29,8 +31,9 @@ struct MapArguments {
   RunArguments run;
   std::optional<std::string> matcher;
   std::optional<std::filesystem::path> save_map;
-  bool bag = false;             ///< Whether the answers are left as a bag, too.
-  ScenarioArguments simulated;  ///< Instead of logs, if it names a scenario.
+  std::optional<std::filesystem::path> continued;  ///< Map to go on with.
+  bool bag = false;                                ///< Whether the answers are left as a bag, too.
+  ScenarioArguments simulated;                     ///< Instead of logs, if it names a scenario.
   std::optional<std::string> robot;
 
   bool is_simulated() const { return !simulated.scenario.empty(); }
@@ -40,8 +43,10 @@ options::ProgramOptions LoadOptions(const MapArguments& arguments) {
   auto options = config::LoadOptions<options::ProgramOptions>(arguments.run.sources);
   if (arguments.robot && !arguments.is_simulated()) options.log.robot = *arguments.robot;
   if (arguments.matcher) options.mapper.matcher = MatcherNamed(*arguments.matcher);
-  if (arguments.save_map && options.mapper.matcher != MatcherKind::kQWsm) {
-    throw UsageError("--save-map needs the matcher q-wsm: the others forget what they have seen");
+  const bool needs_all_scans = arguments.save_map || arguments.continued;
+  if (needs_all_scans && options.mapper.matcher != MatcherKind::kQWsm) {
+    throw UsageError(
+        "--save-map and --continue need the matcher q-wsm: the others forget what they have seen");
   }
   return options;
 }
@@ -49,6 +54,10 @@ options::ProgramOptions LoadOptions(const MapArguments& arguments) {
 void CheckSource(const MapArguments& arguments) {
   if (arguments.is_simulated() != arguments.run.logs.empty()) {
     throw UsageError("map needs either logs or --sim SCENARIO");
+  }
+  if (arguments.continued && arguments.bag) {
+    throw UsageError(
+        "--bag does not go with --continue: where the robot starts is found out later");
   }
   const ScenarioArguments& simulated = arguments.simulated;
   if (!arguments.is_simulated() && (simulated.seed || simulated.duration_s)) {
@@ -127,13 +136,31 @@ ExitCode MapAll(const MapArguments& arguments,
   return Conclude(end);
 }
 
+/// Goes on in a map that was made before, once the robot is recognised in it.
+ExitCode ContinueMap(const MapArguments& arguments,
+                     const options::ProgramOptions& options,
+                     ScanMap map,
+                     pipeline::ScanSource& source,
+                     const RunSession& session) {
+  Localizer localizer(options.mapper, std::move(map));
+  const ExitCode code = FollowInMap("map", localizer, source, options, session);
+  if (arguments.save_map) io::SaveMap(*arguments.save_map, localizer.map());
+  return code;
+}
+
 ExitCode RunMap(MapArguments arguments) {
   StartMessages(arguments.run.verbosity);
   CheckSource(arguments);
   if (arguments.is_simulated()) {
     arguments.simulated.settings = TakeScenarioSettings(arguments.run.sources.settings);
   }
-  const options::ProgramOptions options = LoadOptions(arguments);
+  options::ProgramOptions options = LoadOptions(arguments);
+  std::optional<ScanMap> map;
+  if (arguments.continued) {
+    arguments.run.other_inputs = {*arguments.continued};
+    map = OpenMap(*arguments.continued);
+    options.mapper.map = map->options();
+  }
   const Origin origin = OpenOrigin(arguments, options.log);
   if (arguments.run.dry_run) {
     if (arguments.is_simulated()) arguments.run.logs = {arguments.simulated.scenario};
@@ -144,7 +171,8 @@ ExitCode RunMap(MapArguments arguments) {
   if (origin.scenario) {
     io::WriteTextFile(session.folder() / "scenario.yaml", ScenarioText(*origin.scenario));
   }
-  return MapAll(arguments, options, *origin.source, session);
+  return map ? ContinueMap(arguments, options, *std::move(map), *origin.source, session)
+             : MapAll(arguments, options, *origin.source, session);
 }
 
 }  // namespace
@@ -157,6 +185,7 @@ Command AddMapCommand(CLI::App& program) {
       "  qwsm map intel.log --output intel                results in intel/\n"
       "  qwsm map intel.log --matcher wsm                 the incremental baseline\n"
       "  qwsm map intel.log --save-map intel.qwsm         to localize in later\n"
+      "  qwsm map later.log --continue intel.qwsm --save-map both.qwsm\n"
       "  qwsm map intel.log --set graph.enabled=false     nothing is corrected in the end\n"
       "  qwsm map robot.log --set mapper.motion.rotation_per_rotation=0.5\n"
       "  qwsm map drive.bag                               ROS 1; rosbag2: a folder, .mcap, .db3\n"
@@ -167,6 +196,13 @@ Command AddMapCommand(CLI::App& program) {
   parser->add_option("--matcher", arguments->matcher, "q-wsm, wsm or icp")->type_name("NAME");
   parser->add_option("--save-map", arguments->save_map, "the map, for qwsm localize")
       ->type_name("FILE");
+  parser
+      ->add_option(
+          "--continue",
+          arguments->continued,
+          "go on with a map that was saved, or a map.yaml of ROS, wherever in it the robot "
+          "starts; nothing is corrected in the end")
+      ->type_name("MAP");
   parser->add_flag("--bag", arguments->bag, "poses, /tf and map as answers.mcap, too, for ROS 2");
   parser
       ->add_option("--sim",

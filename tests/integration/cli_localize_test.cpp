@@ -129,6 +129,17 @@ TEST_F(LocalizeCommand, LeavesTheMapAsItIs) {
   EXPECT_NE(ReadFile(results_ / "metrics.json").find("\"relevant\": 0"), std::string::npos);
 }
 
+TEST_F(LocalizeCommand, HasTheMapContinued) {
+  const fs::path joint = folder_.path() / "joint.qwsm";
+  const Outcome outcome =
+      RunProgram({"map", part_, "--continue", map_, "--save-map", joint, "-o", results_});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  ExpectOnThePath();
+  EXPECT_GT(fs::file_size(joint), fs::file_size(map_));
+  const Outcome again = RunProgram({"localize", "--map", joint, part_, "-o", results_, "--force"});
+  EXPECT_EQ(again.exit_code, 0) << again.errors;
+}
+
 TEST_F(LocalizeCommand, RefusesDamagedAndForeignMaps) {
   std::string bytes = ReadFile(map_);
   bytes[bytes.size() / 2] ^= 1;

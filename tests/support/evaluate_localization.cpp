@@ -118,7 +118,9 @@ bool IsRight(const Pose2& found, const Pose2& truth) {
 }
 
 Outcome PutDownAt(const Recording& recording, std::size_t start) {
-  Localizer localizer({}, recording.map);
+  MapperOptions options;
+  options.extend_map = false;
+  Localizer localizer(options, recording.map);
   Outcome outcome;
   const double begin_s = ProcessorTime_s();
   std::optional<Pose2> T_map_last;

@@ -52,6 +52,12 @@ std::vector<Answer> Localized(const SimulatedDrive& drive, Localizer& localizer)
   return answers;
 }
 
+MapperOptions InTheMapAsItIs() {
+  MapperOptions options;
+  options.extend_map = false;
+  return options;
+}
+
 bool IsLost(const Answer& answer) { return answer.step.status == StepStatus::kLost; }
 
 TEST(Localizer, FindsARobotThatStartsAnywhere) {
@@ -59,7 +65,7 @@ TEST(Localizer, FindsARobotThatStartsAnywhere) {
   const SimulatedDrive again = DriveOf(TwoRoomsAndCorridor(), 2);
   for (const std::ptrdiff_t first : {0, 25, 60}) {
     SCOPED_TRACE(first);
-    Localizer localizer({}, map);
+    Localizer localizer(InTheMapAsItIs(), map);
     const std::vector<Answer> answers = Localized(From(again, first), localizer);
     EXPECT_TRUE(IsLost(answers.front()));
     EXPECT_FALSE(IsLost(answers.back()));
@@ -71,7 +77,8 @@ TEST(Localizer, FindsARobotThatStartsAnywhere) {
 
 TEST(Localizer, BeginsWhereItIsTold) {
   const SimulatedDrive drive = DriveOf(FurnishedRoom(), 1);
-  Localizer localizer({}, MapOf(drive), UncertainPose2{.T_a_b = drive.T_world_robot.front()});
+  Localizer localizer(
+      InTheMapAsItIs(), MapOf(drive), UncertainPose2{.T_a_b = drive.T_world_robot.front()});
   for (const Answer& answer : Localized(drive, localizer)) {
     EXPECT_FALSE(IsLost(answer));
     EXPECT_LT(answer.off_m, 0.15);
@@ -79,7 +86,7 @@ TEST(Localizer, BeginsWhereItIsTold) {
 }
 
 TEST(Localizer, FindsNothingInTheMapOfAnotherPlace) {
-  Localizer localizer({}, MapOf(DriveOf(FurnishedRoom(), 1)));
+  Localizer localizer(InTheMapAsItIs(), MapOf(DriveOf(FurnishedRoom(), 1)));
   const std::vector<Answer> answers = Localized(DriveOf(OfficeLoop(), 2), localizer);
   EXPECT_TRUE(std::ranges::all_of(answers, IsLost));
   EXPECT_FALSE(std::ranges::any_of(answers, [](const Answer& a) { return a.step.relevant; }));
@@ -89,7 +96,7 @@ TEST(Localizer, FindsNothingInTheMapOfAnotherPlace) {
 TEST(Localizer, ClaimsNoPlaceInACorridorThatIsEverywhereAlike) {
   const ScanMap map = MapOf(DriveOf(LongCorridor(), 1));
   const SimulatedDrive again = From(DriveOf(LongCorridor(), 2), 20);
-  Localizer localizer({}, map);
+  Localizer localizer(InTheMapAsItIs(), map);
   for (const Answer& answer : Localized(again, localizer)) {
     EXPECT_TRUE(IsLost(answer) || answer.off_m < 1.0) << answer.off_m;
   }
@@ -110,7 +117,7 @@ TEST(Localizer, NoticesThatTheRobotWasCarriedAndFindsItAgain) {
   drive.observations.resize(carried_at);
   drive.T_world_robot.resize(carried_at);
 
-  Localizer localizer({}, map, UncertainPose2{.T_a_b = drive.T_world_robot.front()});
+  Localizer localizer(InTheMapAsItIs(), map, UncertainPose2{.T_a_b = drive.T_world_robot.front()});
   for (const Answer& answer : Localized(drive, localizer)) EXPECT_FALSE(IsLost(answer));
   const std::vector<Answer> after = Localized(there, localizer);
   EXPECT_TRUE(std::ranges::any_of(after, IsLost));
@@ -118,9 +125,29 @@ TEST(Localizer, NoticesThatTheRobotWasCarriedAndFindsItAgain) {
   EXPECT_LT(after.back().off_m, 0.25);
 }
 
+// What the robot saw before it was found is in the map in the end, at its place.
+TEST(Localizer, GoesOnWithTheMapOnceItIsFound) {
+  const ScanMap map = MapOf(From(DriveOf(TwoRoomsAndCorridor(), 1), 40));
+  const SimulatedDrive again = DriveOf(TwoRoomsAndCorridor(), 2);
+  Localizer localizer({}, map);
+  const std::vector<Answer> answers = Localized(From(again, 40), localizer);
+  ASSERT_TRUE(IsLost(answers.front()));
+  ASSERT_FALSE(IsLost(answers.back()));
+  const std::span<const RelevantScan> scans = localizer.map().scans();
+  ASSERT_GT(scans.size(), map.scans().size() + 10);
+  for (const RelevantScan& scan : scans.subspan(map.scans().size())) {
+    const auto taken = std::ranges::find(
+        again.observations, scan.scan.stamp, [](const Observation& o) { return o.scan.stamp; });
+    ASSERT_NE(taken, again.observations.end());
+    const Pose2& truth =
+        again.T_world_robot[static_cast<std::size_t>(taken - again.observations.begin())];
+    EXPECT_LT((scan.map_robot.T_a_b.translation_m() - truth.translation_m()).norm(), 0.25);
+  }
+}
+
 TEST(Localizer, LooksOnThroughScansThatShowNothing) {
   const SimulatedDrive drive = DriveOf(FurnishedRoom(), 1);
-  Localizer localizer({}, MapOf(drive));
+  Localizer localizer(InTheMapAsItIs(), MapOf(drive));
   Observation blind = drive.observations.front();
   std::ranges::fill(blind.scan.ranges_m, std::numeric_limits<float>::infinity());
   for (int i = 0; i < 5; ++i) EXPECT_EQ(localizer.Process(blind).status, StepStatus::kLost);

@@ -12,8 +12,8 @@ constexpr double kWeighSpacing_m = 0.15;
 constexpr double kBetweenWeighings_m = 0.5;
 constexpr double kPartedNats = -23.0;  // One in ten thousand millions: a robot in doubt is tracked.
 
-MapperOptions Extending(MapperOptions options, bool extends) {
-  options.extend_map = extends;
+MapperOptions Extending(MapperOptions options) {
+  options.extend_map = true;
   return options;
 }
 
@@ -24,7 +24,7 @@ Localizer::Localizer(const MapperOptions& options,
                      const std::optional<UncertainPose2>& start)
     : options_(options),
       map_(std::move(map)),
-      tracker_(Extending(options, false)),
+      tracker_(options),
       finder_(options),
       evidence_(options.free_space) {
   start ? tracker_.PlaceAt(*start) : Lose();
@@ -34,6 +34,7 @@ MappingStep Localizer::Process(const Observation& observation) {
   const std::vector<ScanPoint> points = ToPoints(observation.scan);
   if (local_) return Search(observation, points);
   const MappingStep step = tracker_.Track(map_, observation, points);
+  Extend(step);
   LoseWhereContradicted(points, step);
   return step;
 }
@@ -41,19 +42,35 @@ MappingStep Localizer::Process(const Observation& observation) {
 MappingStep Localizer::Search(const Observation& observation, std::span<const ScanPoint> points) {
   MappingStep step = local_->Process(observation);
   const PlaceBelief& belief = finder_.Look(map_, points, step.map_robot.T_a_b);
-  if (belief.verdict == PlaceVerdict::kFound) {
-    const Pose2 T_local_robot = step.map_robot.T_a_b;
-    tracker_.PlaceAt(belief.places.front().map_robot);
-    local_.reset();
-    nats_ = 0.0;
-    step = tracker_.Track(map_, observation, points);
-    map_local_ = step.map_robot * UncertainPose2{.T_a_b = T_local_robot.Inverse()};
-    return step;
-  }
+  if (belief.verdict == PlaceVerdict::kFound) return Found(observation, points);
   step.status = StepStatus::kLost;
   step.reason = Name(belief.verdict);
   step.relevant = false;
   return step;
+}
+
+// Where the robot drove while it was lost it was as sure of its way as ever, only not of the begin.
+MappingStep Localizer::Found(const Observation& observation, std::span<const ScanPoint> points) {
+  const Mapper local = std::move(*local_);
+  local_.reset();
+  nats_ = 0.0;
+  tracker_.PlaceAt(finder_.belief().places.front().map_robot);
+  const MappingStep step = tracker_.Track(map_, observation, points);
+  map_local_ = step.map_robot * UncertainPose2{.T_a_b = local.map_robot().T_a_b.Inverse()};
+  if (options_.extend_map) Join(local.map());
+  Extend(step);
+  return step;
+}
+
+void Localizer::Extend(const MappingStep& step) {
+  if (!step.relevant) return;
+  map_.Insert(step.relevant_scan, ToPoints(step.relevant_scan), step.map_robot);
+}
+
+void Localizer::Join(const ScanMap& local) {
+  for (const RelevantScan& scan : local.scans()) {
+    map_.Insert(scan.scan, ToPoints(scan.scan), map_local_ * scan.map_robot);
+  }
 }
 
 // Every half metre, so that what stands in the way of a waiting robot counts once.
@@ -72,7 +89,7 @@ void Localizer::LoseWhereContradicted(std::span<const ScanPoint> points, const M
 }
 
 void Localizer::Lose() {
-  local_.emplace(Extending(options_, true));
+  local_.emplace(Extending(options_));
   finder_ = PlaceFinder(options_);
 }
 

@@ -9,9 +9,11 @@
 
 namespace qwsm {
 
-/// Follows a robot through a map that was made before and stays as it is. Where the robot is need
-/// not be known: until it is found, and when the map contradicts its scans for some metres, it is
-/// lost, and its answers are poses in a frame of its own. Deterministic; reads no clock.
+/// Follows a robot through a map that was made before. Where the robot is need not be known: until
+/// it is found, and when the map contradicts its scans for some metres, it is lost, and its answers
+/// are poses in a frame of its own. The map stays as it is, or, with `extend_map`, goes on: relevant
+/// scans extend it, those of a robot that was lost as soon as it is found. Deterministic; reads no
+/// clock.
 class Localizer {
  public:
   /// @param start pose at the first scan, if it is known.
@@ -32,6 +34,9 @@ class Localizer {
 
  private:
   MappingStep Search(const Observation& observation, std::span<const ScanPoint> points);
+  MappingStep Found(const Observation& observation, std::span<const ScanPoint> points);
+  void Extend(const MappingStep& step);
+  void Join(const ScanMap& local);
   void LoseWhereContradicted(std::span<const ScanPoint> points, const MappingStep& step);
   void Lose();
 

@@ -22,6 +22,8 @@ class Mapper {
   MappingStep Process(const Observation& observation);
 
   const ScanMap& map() const { return map_; }
+  /// The pose at the last scan.
+  const UncertainPose2& map_robot() const { return tracker_.map_robot(); }
   const MapperOptions& options() const { return tracker_.options(); }
 
  private:
