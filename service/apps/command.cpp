@@ -69,6 +69,10 @@ void AddRobot(CLI::App& parser, config::OptionSources& sources) {
   AddSetting(parser, sources, "--robot", "log.robot", "of several robots, that of this namespace");
 }
 
+void AddNoPictures(CLI::App& parser, bool& no_pictures) {
+  parser.add_flag("--no-pictures", no_pictures, "data only: no pictures, no report.html");
+}
+
 MatcherKind MatcherNamed(const std::string& name) {
   std::vector<std::string> names;
   for (const auto& [known, matcher] : Names(MatcherKind{})) {

@@ -58,6 +58,9 @@ void AddRobot(CLI::App& parser, config::OptionSources& sources);
 /// Adds the arguments --quiet, --verbose and, where it has a meaning, --json.
 void AddVerbosity(CLI::App& parser, Verbosity& verbosity, const std::string& json_help);
 
+/// Adds the argument --no-pictures, for runs that leave pictures and a report.
+void AddNoPictures(CLI::App& parser, bool& no_pictures);
+
 /// The matcher of a name given after --matcher. @throws UsageError.
 MatcherKind MatcherNamed(const std::string& name);
 

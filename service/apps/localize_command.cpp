@@ -77,6 +77,7 @@ Command AddLocalizeCommand(CLI::App& program) {
       ->check(NumberBetween(-kFarthestCoordinate_m, kFarthestCoordinate_m))
       ->type_name("X Y DEG");
   AddRunArguments(*parser, arguments->run);
+  AddNoPictures(*parser, arguments->run.no_pictures);
   AddRobot(*parser, arguments->run.sources);
   return {.parser = parser, .run = [arguments] { return RunLocalize(*arguments); }};
 }

@@ -109,8 +109,10 @@ ExitCode MapAll(const MapArguments& arguments,
                 const RunSession& session) {
   const bool corrects = Corrects(options);
   Mapper mapper(options.mapper);
-  pipeline::ResultsWriter results(session.folder(),
-                                  corrects ? "trajectory_live.tum" : "trajectory.tum");
+  pipeline::ResultsWriter results(
+      session.folder(),
+      {.trajectory = corrects ? "trajectory_live.tum" : "trajectory.tum",
+       .pictures = session.has_pictures()});
   pipeline::CorrectionSink correction(options.mapper);
   pipeline::AnswerBag answers;
   std::vector<pipeline::StepSink*> sinks{&results};
@@ -118,6 +120,7 @@ ExitCode MapAll(const MapArguments& arguments,
   if (arguments.bag) sinks.push_back(&answers);
   const pipeline::ReplayResult end =
       session.Run("map", source, std::bind_front(&Mapper::Process, &mapper), sinks);
+  results.SetTitle(session.Title("map", end));
 
   std::optional<pipeline::CorrectedRun> corrected;
   if (corrects) {
@@ -153,6 +156,7 @@ ExitCode RunMap(MapArguments arguments) {
   CheckSource(arguments);
   if (arguments.is_simulated()) {
     arguments.simulated.settings = TakeScenarioSettings(arguments.run.sources.settings);
+    arguments.run.scenario = arguments.simulated.scenario;
   }
   options::ProgramOptions options = LoadOptions(arguments);
   std::optional<ScanMap> map;
@@ -194,6 +198,7 @@ Command AddMapCommand(CLI::App& program) {
       "  zcat *.log.gz | qwsm map - --quiet               from a pipe");
   AddRunArguments(*parser, arguments->run)->required(false);
   parser->add_option("--matcher", arguments->matcher, "q-wsm, wsm or icp")->type_name("NAME");
+  AddNoPictures(*parser, arguments->run.no_pictures);
   parser->add_option("--save-map", arguments->save_map, "the map, for qwsm localize")
       ->type_name("FILE");
   parser

@@ -76,7 +76,7 @@ ExitCode TellPlan(const std::string& what, const RunArguments& arguments) {
 }
 
 RunSession::RunSession(const RunArguments& arguments, const options::ProgramOptions& options)
-    : verbosity_(arguments.verbosity),
+    : arguments_(arguments),
       folder_(arguments.output
                   ? ResultsFolder(*arguments.output, arguments.force, InputsOf(arguments))
                   : ResultsFolder::ForNow("results")) {
@@ -85,12 +85,27 @@ RunSession::RunSession(const RunArguments& arguments, const options::ProgramOpti
   io::WriteTextFile(folder_ / "config.yaml", config::DumpOptions(options));
 }
 
+RunTitle RunSession::Title(const std::string& command, const ReplayResult& result) const {
+  RunTitle title{.command = "qwsm " + command,
+                 .version = std::string(Version()),
+                 .inputs = {},
+                 .interrupted = result.end != ReplayEnd::kExhausted};
+  if (!arguments_.scenario.empty()) {
+    title.command += " --sim";
+    title.inputs.push_back(arguments_.scenario);
+  }
+  for (const std::filesystem::path& input : InputsOf(arguments_)) {
+    title.inputs.push_back(input.string());
+  }
+  return title;
+}
+
 ReplayResult RunSession::Run(const std::string& task,
                              ScanSource& source,
                              const Answer& answer,
                              std::vector<StepSink*> sinks) const {
   JsonLinesSink json(stdout);
-  if (verbosity_.json) sinks.push_back(&json);
+  if (arguments_.verbosity.json) sinks.push_back(&json);
   return Run(task, source, {{.answer = answer, .sinks = std::move(sinks)}});
 }
 
@@ -98,7 +113,7 @@ ReplayResult RunSession::Run(const std::string& task,
                              ScanSource& source,
                              std::vector<MappingRun> runs) const {
   ProgressDisplay progress(
-      task, source, verbosity_.quiet ? ProgressStyle::kNone : StyleFor(stderr));
+      task, source, arguments_.verbosity.quiet ? ProgressStyle::kNone : StyleFor(stderr));
   runs.back().sinks.push_back(&progress);  // Once per scan.
   const Interruption interruption;
   ReplayResult result = Replay(source, runs, [&] { return interruption.requested(); });
@@ -108,7 +123,7 @@ ReplayResult RunSession::Run(const std::string& task,
 }
 
 void RunSession::Summarize(const ResultsWriter& results, const ScanMap& map) const {
-  if (verbosity_.quiet || verbosity_.json) return;
+  if (arguments_.verbosity.quiet || arguments_.verbosity.json) return;
   Print("{}results        {}\n",
         SummaryText(results.statistics(), map, results.truth_report(), results.loops()),
         folder_.path().string());

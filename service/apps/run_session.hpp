@@ -26,6 +26,8 @@ struct RunArguments {
   Verbosity verbosity;
   bool force = false;
   bool dry_run = false;
+  bool no_pictures = false;  ///< Whether pictures and the report are left away.
+  std::string scenario;      ///< What is run in place of logs.
 };
 
 /// Adds the arguments of a run over logs.
@@ -53,6 +55,9 @@ class RunSession {
   RunSession(const RunArguments& arguments, const options::ProgramOptions& options);
 
   const pipeline::ResultsFolder& folder() const { return folder_; }
+  bool has_pictures() const { return !arguments_.no_pictures; }
+  /// What the report of the run says at its top. @param command without the program: "map".
+  pipeline::RunTitle Title(const std::string& command, const pipeline::ReplayResult& result) const;
 
   /// Hands the answers to all scans to the sinks, with progress and messages as asked for.
   pipeline::ReplayResult Run(const std::string& task,
@@ -70,7 +75,7 @@ class RunSession {
   void Summarize(const pipeline::ResultsWriter& results, const ScanMap& map) const;
 
  private:
-  Verbosity verbosity_;
+  RunArguments arguments_;
   pipeline::ResultsFolder folder_;
 };
 

@@ -55,10 +55,11 @@ ExitCode FollowInMap(const std::string& task,
                      pipeline::ScanSource& source,
                      const options::ProgramOptions& options,
                      const RunSession& session) {
-  pipeline::ResultsWriter results(session.folder());
+  pipeline::ResultsWriter results(session.folder(), {.pictures = session.has_pictures()});
   pipeline::LostAndFound lost_and_found(localizer, results);
   const pipeline::ReplayResult end = session.Run(
       task, source, std::bind_front(&Localizer::Process, &localizer), {&lost_and_found});
+  results.SetTitle(session.Title(task, end));
   results.Finish(localizer.map(), options.mapper.matcher, options.rendering);
   session.Summarize(results, localizer.map());
   if (end.end == pipeline::ReplayEnd::kExhausted && lost_and_found.held() > 0) {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "service/apps/messages.hpp"
@@ -36,6 +37,7 @@ struct RegisterArguments {
   qwsm::apps::Verbosity verbosity;
   bool force = false;
   bool dry_run = false;
+  bool no_pictures = false;
 };
 
 /// What is read; results are not to be put beside it.
@@ -64,6 +66,16 @@ ResultsFolder OpenResults(const RegisterArguments& arguments,
   qwsm::messages::Info("version {}", qwsm::apps::Version());
   qwsm::io::WriteTextFile(folder / "config.yaml", qwsm::config::DumpOptions(options));
   return folder;
+}
+
+pipeline::RegistrationPictures PicturesOf(const RegisterArguments& arguments,
+                                          const pipeline::Registration& registration) {
+  qwsm::pipeline::RunTitle title{.command = "slam6d register",
+                                 .version = std::string(qwsm::apps::Version()),
+                                 .inputs = {},
+                                 .interrupted = registration.interrupted};
+  for (const fs::path& input : InputsOf(arguments)) title.inputs.push_back(input.string());
+  return {.drawn = !arguments.no_pictures, .title = std::move(title)};
 }
 
 std::string ProgressText(double share,
@@ -129,11 +141,11 @@ ExitCode RunRegister(const RegisterArguments& arguments) {
   const pipeline::Registration registration =
       Register(series, options, interruption, arguments.verbosity);
   WarnOfDoubtfulScans(registration);
-  pipeline::WriteResults(registration, options, folder);
+  pipeline::WriteResults(registration, options, folder, PicturesOf(arguments, registration));
   const std::string summary = pipeline::SummaryText(registration);
   qwsm::messages::Info("\n{}", summary);
   if (arguments.verbosity.json) {
-    qwsm::apps::Print("{}", pipeline::MetricsJson(registration));
+    qwsm::apps::Print("{}", pipeline::MetricsOf(registration).Text());
   } else if (!arguments.verbosity.quiet) {
     qwsm::apps::Print("{}results        {}\n", summary, folder.path().string());
   }
@@ -164,6 +176,7 @@ Command AddRegisterCommand(CLI::App& program) {
       ->type_name("FILE");
   parser->add_option("--threads", arguments->threads, "changes no bit of the result")
       ->check(CLI::Range(1, 256));
+  qwsm::apps::AddNoPictures(*parser, arguments->no_pictures);
   parser->add_flag("--force", arguments->force, "write into a folder that holds other things");
   parser->add_flag("-n,--dry-run", arguments->dry_run, "check the arguments, do nothing");
   qwsm::apps::AddConfiguration(*parser, arguments->sources);

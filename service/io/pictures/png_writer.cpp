@@ -44,20 +44,15 @@ class Encoder {
   void Write(const PixelRows& rows) {
     if (!HasWritten(rows)) throw std::runtime_error("PNG: " + message_);
   }
+  void WriteCells(int width_px, std::span<const std::uint8_t> cells) {
+    if (!HasWrittenCells(width_px, cells)) throw std::runtime_error("PNG: " + message_);
+  }
 
  private:
   // Nothing here has a destructor, which a jump would pass over.
   bool HasWritten(const PixelRows& rows) {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;  // NOLINT(cert-err52-cpp)
-    png_set_IHDR(png_,
-                 info_,
-                 static_cast<png_uint_32>(rows.width_px),
-                 static_cast<png_uint_32>(rows.height_px),
-                 8,
-                 PNG_COLOR_TYPE_RGB,
-                 PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_DEFAULT,
-                 PNG_FILTER_TYPE_DEFAULT);
+    SetHeader(rows.width_px, rows.height_px, 8, PNG_COLOR_TYPE_RGB);
     png_set_filter(png_, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
     png_set_compression_strategy(png_, Z_RLE);
     png_write_info(png_, info_);
@@ -71,6 +66,31 @@ class Encoder {
     return true;
   }
 
+  bool HasWrittenCells(int width_px, std::span<const std::uint8_t> cells) {
+    if (setjmp(png_jmpbuf(png_)) != 0) return false;  // NOLINT(cert-err52-cpp)
+    const auto width = static_cast<std::size_t>(width_px);
+    SetHeader(width_px, static_cast<int>(cells.size() / width), 2, PNG_COLOR_TYPE_GRAY);
+    png_write_info(png_, info_);
+    png_set_packing(png_);
+    for (std::size_t first = 0; first < cells.size(); first += width) {
+      png_write_row(png_, cells.data() + first);
+    }
+    png_write_end(png_, nullptr);
+    return true;
+  }
+
+  void SetHeader(int width_px, int height_px, int bits, int colors) {
+    png_set_IHDR(png_,
+                 info_,
+                 static_cast<png_uint_32>(width_px),
+                 static_cast<png_uint_32>(height_px),
+                 bits,
+                 colors,
+                 PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+  }
+
   std::string message_;
   png_structp png_;
   png_infop info_ = nullptr;
@@ -79,5 +99,9 @@ class Encoder {
 }  // namespace
 
 void WritePng(std::ostream& stream, const PixelRows& rows) { Encoder(stream).Write(rows); }
+
+void WriteCellsPng(std::ostream& stream, int width_px, std::span<const std::uint8_t> cells) {
+  Encoder(stream).WriteCells(width_px, cells);
+}
 
 }  // namespace qwsm::io

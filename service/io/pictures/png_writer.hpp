@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <ostream>
+#include <span>
 
 namespace qwsm::io {
 
@@ -21,5 +23,10 @@ struct PixelRows {
 /// @throws std::runtime_error where there is no memory for it; a failed stream is left to the
 /// caller.
 void WritePng(std::ostream& stream, const PixelRows& rows);
+
+/// Writes cells of four kinds as a grey PNG of two bits per pixel: 0 is black, 3 white.
+/// @param cells row by row from the top, each 0 to 3. @pre width_px * height_px of them
+/// @throws std::runtime_error as WritePng() does.
+void WriteCellsPng(std::ostream& stream, int width_px, std::span<const std::uint8_t> cells);
 
 }  // namespace qwsm::io

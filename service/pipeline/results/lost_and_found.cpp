@@ -23,6 +23,7 @@ void LostAndFound::Take(const TimedStep& timed) {
   if (timed.step.status == StepStatus::kLost) {
     if (held_.empty()) messages::Info("the robot is looked for in the whole map");
     held_.push_back(timed);
+    held_.back().scan = nullptr;  // It goes when this returns.
     return;
   }
   if (!held_.empty()) {

@@ -28,14 +28,18 @@ Trajectory TrajectoryOf(std::span<const io::PathPose> path) {
 
 }  // namespace
 
-ResultsWriter::ResultsWriter(const ResultsFolder& folder, std::string_view trajectory)
-    : folder_(folder), trajectory_(folder / trajectory), table_(folder / "scans.csv") {}
+ResultsWriter::ResultsWriter(const ResultsFolder& folder, const ResultsOptions& options)
+    : folder_(folder),
+      has_pictures_(options.pictures),
+      trajectory_(folder / options.trajectory),
+      table_(folder / "scans.csv") {}
 
 void ResultsWriter::Take(const TimedStep& timed) {
   trajectory_.Take(timed);
   table_.Take(timed);
   statistics_.Take(timed);
   history_.Take(timed);
+  doubtful_.Take(timed);
 }
 
 void ResultsWriter::Finish(const ScanMap& map,
@@ -44,10 +48,8 @@ void ResultsWriter::Finish(const ScanMap& map,
                            const Trajectory& truth) {
   trajectory_.Commit();
   table_.Commit();
-  Report({.map = map, .matcher = matcher, .path = history_.path(), .loops = {}}, truth);
-  io::MapOverlay overlay = history_.Overlay();
-  overlay.truth = truth_in_map_;
-  DrawMap(map, rendering, overlay);
+  WriteFigures({.map = map, .matcher = matcher, .path = history_.path(), .loops = {}}, truth);
+  Draw({.map = map, .overlay = history_.Overlay()}, rendering);
 }
 
 void ResultsWriter::Finish(const Mapper& mapper,
@@ -57,22 +59,21 @@ void ResultsWriter::Finish(const Mapper& mapper,
   trajectory_.Commit();
   table_.Commit();
   const Correction& correction = corrected.correction;
-  io::MapOverlay overlay = history_.Overlay();
+  Drawing drawing{.map = corrected.map, .overlay = history_.Overlay(), .correction = &correction};
+  io::MapOverlay& overlay = drawing.overlay;
   overlay.answered = TrajectoryOf(overlay.path);
   overlay.path = CorrectedPath(correction);
   overlay.loops = LoopLines(correction);
   AddCorrectedPoses(folder_ / "scans.csv", correction.map_robot);
   io::WriteTumFile(folder_ / "trajectory.tum", TrajectoryOf(overlay.path));
   WriteLoops(folder_, correction, corrected.map);
-  Report({.map = corrected.map,
-          .matcher = mapper.options().matcher,
-          .path = overlay.path,
-          .loops = CountLoops(correction.loops)},
-         truth);
-  overlay.truth = truth_in_map_;
-  DrawMap(corrected.map, rendering, overlay);
-  const auto before = RenderOrWarn(mapper.map(), rendering);
-  if (before) io::WriteMapPicture(folder_ / "map_live.png", *before);
+  WriteFigures({.map = corrected.map,
+                .matcher = mapper.options().matcher,
+                .path = overlay.path,
+                .loops = CountLoops(correction.loops)},
+               truth);
+  if (has_pictures_) drawing.before = RenderOrWarn(mapper.map(), rendering);
+  Draw(std::move(drawing), rendering);
 }
 
 std::vector<io::PathPose> ResultsWriter::CorrectedPath(const Correction& correction) const {
@@ -81,27 +82,44 @@ std::vector<io::PathPose> ResultsWriter::CorrectedPath(const Correction& correct
   return path;
 }
 
-void ResultsWriter::Report(const Outcome& outcome, const Trajectory& truth) {
+void ResultsWriter::WriteFigures(const Outcome& outcome, const Trajectory& truth) {
   truth_in_map_ = TruthInMap(outcome.path, truth);
   truth_report_ = CompareWithTruth(outcome.path, truth);
   loops_ = outcome.loops;
   if (!truth_in_map_.empty()) io::WriteTumFile(folder_ / "truth.tum", truth_in_map_);
-  io::WriteTextFile(
-      folder_ / "metrics.json",
-      MetricsJson(statistics_, outcome.map, outcome.matcher, truth_report_, outcome.loops).Text());
+  metrics_ = MetricsJson(statistics_, outcome.map, outcome.matcher, truth_report_, outcome.loops);
+  io::WriteTextFile(folder_ / "metrics.json", metrics_.Text());
+  if (!has_pictures_) return;
   const std::array<io::ResidualSeries, 1> series{
       {{.name = std::string(Name(outcome.matcher)), .residual_mm = history_.residuals_mm()}}};
   io::WriteResidualPlot(folder_ / "residual.png", series);
 }
 
-void ResultsWriter::DrawMap(const ScanMap& map,
-                            const OccupancyGridOptions& rendering,
-                            const io::MapOverlay& overlay) const {
-  const std::optional<OccupancyGrid> grid = RenderOrWarn(map, rendering);
-  if (!grid) return;
-  io::WriteRosMap(folder_ / "map.yaml", *grid);
-  io::WriteMapPicture(folder_ / "map.png", *grid);
-  io::WriteTrajectoryPicture(folder_ / "trajectory.png", *grid, overlay);
+void ResultsWriter::Draw(Drawing drawing, const OccupancyGridOptions& rendering) const {
+  drawing.overlay.truth = truth_in_map_;
+  const std::optional<OccupancyGrid> grid = RenderOrWarn(drawing.map, rendering);
+  if (grid) io::WriteRosMap(folder_ / "map.yaml", *grid);
+  if (!has_pictures_) return;
+  if (grid) {
+    io::WriteMapPicture(folder_ / "map.png", *grid);
+    io::WriteTrajectoryPicture(folder_ / "trajectory.png", *grid, drawing.overlay);
+  }
+  if (drawing.before) io::WriteMapPicture(folder_ / "map_live.png", *drawing.before);
+  if (title_) WriteReport(drawing, grid ? &*grid : nullptr);
+}
+
+void ResultsWriter::WriteReport(const Drawing& drawing, const OccupancyGrid* grid) const {
+  WriteMapReport(folder_ / "report.html",
+                 *title_,
+                 {.metrics = metrics_,
+                  .map = grid,
+                  .before = drawing.before ? &*drawing.before : nullptr,
+                  .overlay = drawing.overlay,
+                  .residuals_mm = history_.residuals_mm(),
+                  .times_ms = history_.times_ms(),
+                  .doubtful = doubtful_.Worst(),
+                  .correction = drawing.correction,
+                  .relevant = drawing.map.scans()});
 }
 
 std::optional<OccupancyGrid> RenderOrWarn(const ScanMap& map, OccupancyGridOptions rendering) {

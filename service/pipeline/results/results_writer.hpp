@@ -5,9 +5,13 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "qwsm/mapping/occupancy_grid.hpp"
+#include "service/pipeline/report/doubtful_scans.hpp"
+#include "service/pipeline/report/map_report.hpp"
+#include "service/pipeline/report/report_page.hpp"
 #include "service/pipeline/results/corrected_run.hpp"
 #include "service/pipeline/results/results_folder.hpp"
 #include "service/pipeline/results/run_history.hpp"
@@ -18,17 +22,26 @@
 
 namespace qwsm::pipeline {
 
+/// What a run is to leave, and under which names.
+struct ResultsOptions {
+  /// Name of the file for the poses as they were answered.
+  std::string_view trajectory = "trajectory.tum";
+  /// Whether pictures are drawn and a report is written.
+  bool pictures = true;
+};
+
 /// Leaves everything a run is to leave in its folder: trajectory and table as it goes, figures and
 /// pictures at the end.
 class ResultsWriter final : public StepSink {
  public:
   /// Begins the results in a folder.
   /// @throws io::WriteError, as all functions of the class do.
-  /// @param trajectory name of the file for the poses as they were answered.
-  explicit ResultsWriter(const ResultsFolder& folder,
-                         std::string_view trajectory = "trajectory.tum");
+  explicit ResultsWriter(const ResultsFolder& folder, const ResultsOptions& options = {});
 
   void Take(const TimedStep& timed) override;
+
+  /// Says what was run, before Finish(): a run that is not named leaves no report.
+  void SetTitle(RunTitle title) { title_ = std::move(title); }
 
   /// Writes what can only be known at the end. Whatever cannot be drawn is warned of.
   /// @param truth of the robot in a frame of its own; empty where it is not known.
@@ -57,18 +70,28 @@ class ResultsWriter final : public StepSink {
     std::span<const io::PathPose> path;
     std::optional<LoopCounts> loops{};
   };
+  // What a run and its correction are drawn from.
+  struct Drawing {
+    const ScanMap& map;
+    io::MapOverlay overlay;
+    const Correction* correction = nullptr;
+    std::optional<OccupancyGrid> before{};  // The map before it was corrected.
+  };
 
-  void Report(const Outcome& outcome, const Trajectory& truth);
-  void DrawMap(const ScanMap& map,
-               const OccupancyGridOptions& rendering,
-               const io::MapOverlay& overlay) const;
+  void WriteFigures(const Outcome& outcome, const Trajectory& truth);
+  void Draw(Drawing drawing, const OccupancyGridOptions& rendering) const;
+  void WriteReport(const Drawing& drawing, const OccupancyGrid* grid) const;
   std::vector<io::PathPose> CorrectedPath(const Correction& correction) const;
 
   ResultsFolder folder_;
+  bool has_pictures_;
+  std::optional<RunTitle> title_;
   TrajectorySink trajectory_;
   ScanTableSink table_;
   RunStatistics statistics_;
   RunHistory history_;
+  DoubtfulScans doubtful_;
+  Json metrics_;
   Trajectory truth_in_map_;
   std::optional<TruthReport> truth_report_;
   std::optional<LoopCounts> loops_;

@@ -21,7 +21,7 @@ class RunHistory final : public StepSink {
 
   /// Keeps no poses yet. @param most poses that are kept, evenly spread; even.
   explicit RunHistory(std::size_t most = kAll)
-      : path_(most), odometry_(most), residuals_mm_(most) {}
+      : path_(most), odometry_(most), residuals_mm_(most), times_ms_(most) {}
 
   void Take(const TimedStep& timed) override;
 
@@ -30,11 +30,14 @@ class RunHistory final : public StepSink {
   io::MapOverlay Overlay() const;
   /// The residual of each scan, in mm; NaN where there was no match.
   const std::vector<double>& residuals_mm() const { return residuals_mm_.elements(); }
+  /// The time that each scan took, in ms.
+  const std::vector<double>& times_ms() const { return times_ms_.elements(); }
 
  private:
   ThinnedSeries<io::PathPose> path_;
   ThinnedSeries<StampedPose2> odometry_;
   ThinnedSeries<double> residuals_mm_;
+  ThinnedSeries<double> times_ms_;
   // Odometry's place in the map, by the first scan that has odometry.
   std::optional<Pose2> T_map_odom_;
 };

@@ -12,7 +12,9 @@ namespace {
 
 void Feed(const Observation& observation, const MappingRun& run) {
   const auto start = std::chrono::steady_clock::now();
-  TimedStep timed{.step = run.answer(observation), .T_odom_robot = observation.T_odom_robot};
+  TimedStep timed{.step = run.answer(observation),
+                  .T_odom_robot = observation.T_odom_robot,
+                  .scan = &observation.scan};
   timed.duration = std::chrono::steady_clock::now() - start;
   for (StepSink* sink : run.sinks) sink->Take(timed);
 }

@@ -14,6 +14,8 @@ struct TimedStep {
   MappingStep step;
   std::chrono::nanoseconds duration{};
   std::optional<Pose2> T_odom_robot{};  ///< Odometry that the mapper was given.
+  /// The scan, for as long as StepSink::Take() runs; none where the answer was held back.
+  const LaserScan* scan = nullptr;
 };
 
 /// Whether the pose of a step comes from a match.

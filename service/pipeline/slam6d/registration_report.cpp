@@ -6,7 +6,6 @@
 
 #include "service/pipeline/run/progress_display.hpp"
 #include "service/pipeline/slam6d/registration_results.hpp"
-#include "service/pipeline/text/json.hpp"
 
 namespace slam6d::pipeline {
 namespace {
@@ -58,7 +57,7 @@ Figures FiguresOf(const Registration& registration) {
 
 }  // namespace
 
-std::string MetricsJson(const Registration& registration) {
+Json MetricsOf(const Registration& registration) {
   const Figures figures = FiguresOf(registration);
   Json json;
   json["scans"] = registration.scans.size();
@@ -78,7 +77,7 @@ std::string MetricsJson(const Registration& registration) {
   json["time_registration_s"] = figures.time_s;
   json["time_refinement_s"] = registration.refinement_time_s;
   json["interrupted"] = registration.interrupted;
-  return json.Text();
+  return json;
 }
 
 std::string SummaryText(const Registration& registration) {

@@ -11,6 +11,7 @@
 #include "service/io/clouds/uos_scan.hpp"
 #include "service/io/files/atomic_file.hpp"
 #include "service/io/pictures/cloud_picture.hpp"
+#include "service/pipeline/slam6d/registration_page.hpp"
 
 namespace slam6d::pipeline {
 namespace {
@@ -91,7 +92,8 @@ std::string Table(const Registration& registration) {
 
 void WriteResults(const Registration& registration,
                   const options::RegistrationOptions& options,
-                  const qwsm::pipeline::ResultsFolder& folder) {
+                  const qwsm::pipeline::ResultsFolder& folder,
+                  const RegistrationPictures& pictures) {
   const std::vector<Pose3> before = PosesBefore(registration);
   const std::vector<Pose3>& after = registration.T_map_scan;
   std::vector<qwsm::Timestamp> stamps;
@@ -101,12 +103,14 @@ void WriteResults(const Registration& registration,
     io::WriteUosFrames(folder / (registration.scans[i].name + ".frames"), before[i], after[i]);
   }
   qwsm::io::WriteTextFile(folder / "scans.csv", Table(registration));
-  qwsm::io::WriteTextFile(folder / "metrics.json", MetricsJson(registration));
+  qwsm::io::WriteTextFile(folder / "metrics.json", MetricsOf(registration).Text());
   const PointCloud merged = Merge(registration, after);
+  io::WritePly(folder / "model.ply", Reduce(merged, options.model));
+  if (!pictures.drawn) return;
   DrawViews({Merge(registration, before), PathOf(before), "before: as odometry has it"},
             {merged, PathOf(after), "after registration"},
             folder);
-  io::WritePly(folder / "model.ply", Reduce(merged, options.model));
+  if (pictures.title) WriteRegistrationPage(folder / "report.html", *pictures.title, registration);
 }
 
 }  // namespace slam6d::pipeline
