@@ -73,6 +73,7 @@ Command AddLocalizeCommand(CLI::App& program);
 Command AddCompareCommand(CLI::App& program);
 Command AddEvalCommand(CLI::App& program);
 Command AddConvertCommand(CLI::App& program);
+Command AddExportCommand(CLI::App& program);
 Command AddSimCommand(CLI::App& program);
 Command AddExperimentCommand(CLI::App& program);
 Command AddServeCommand(CLI::App& program);

@@ -25,6 +25,7 @@ int RunQwsm(int argc, char** argv) {
                                 AddCompareCommand(program),
                                 AddEvalCommand(program),
                                 AddConvertCommand(program),
+                                AddExportCommand(program),
                                 AddSimCommand(program),
                                 AddExperimentCommand(program),
                                 AddServeCommand(program),

@@ -43,6 +43,7 @@ THIRD_PARTY = {
     "CLI11": (r"CLI/", {"service/apps"}),
     "Cairo": (r"cairo", {"service/io"}),
     "libpng": (r"png\.h", {"service/io"}),
+    "libtiff": (r"tiff", {"service/io"}),
     "Ceres": (r"ceres/", {"service/graph"}),
     "Boost": (r"boost/", {"service/io"}),
     "zstd": (r"zstd\.h", {"service/io"}),
@@ -63,7 +64,8 @@ THIRD_PARTY = {
 # Libraries that even their own layer keeps to its .cpp files, so that a port touches few of them and
 # few of ours compile them.
 SOURCES_ONLY = {
-    "Box2D", "Boost", "Cairo", "Ceres", "LZ4", "SQLite", "bzip2", "nlohmann-json", "spdlog", "zstd"
+    "Box2D", "Boost", "Cairo", "Ceres", "LZ4", "SQLite", "bzip2", "libtiff", "nlohmann-json", "spdlog",
+    "zstd"
 }
 
 # Standard headers by which a library would print, open files, read clocks or run threads.

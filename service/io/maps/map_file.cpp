@@ -17,10 +17,9 @@
 namespace qwsm::io {
 namespace {
 
-constexpr std::string_view kMagic = "QWSM map";
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kHeaderBytes =
-    kMagic.size() + 2 * sizeof(std::uint32_t) + sizeof(std::uint64_t);
+    kMapMagic.size() + 2 * sizeof(std::uint32_t) + sizeof(std::uint64_t);
 // Of the smallest scan and of a point, which bound what a file of some size can claim to hold.
 constexpr std::size_t kScanBytes = 38 * sizeof(std::uint32_t);
 constexpr std::size_t kPointBytes = 2 * sizeof(double) + 2 * sizeof(std::uint32_t);
@@ -77,9 +76,9 @@ ScanMap DecodeRest(std::string_view rest) {
 
 /// Checks all that can be known before the contents are looked at, and returns them.
 std::string_view CheckHeader(std::string_view bytes, std::string_view name) {
-  if (!bytes.starts_with(kMagic)) throw MapFileError(fmt::format("{}: is no map of qwsm", name));
+  if (!bytes.starts_with(kMapMagic)) throw MapFileError(fmt::format("{}: is no map of qwsm", name));
   if (bytes.size() < kHeaderBytes) throw MapFileError(fmt::format("{}: is truncated", name));
-  BinaryReader header(bytes.substr(kMagic.size()));
+  BinaryReader header(bytes.substr(kMapMagic.size()));
   const std::uint32_t version = header.Unsigned32();
   if (version != kVersion) {
     throw MapFileError(
@@ -109,10 +108,10 @@ std::string_view CheckHeader(std::string_view bytes, std::string_view name) {
 /// All bytes of a map file; of any other, not more than it takes to tell.
 std::string ReadBytes(const std::filesystem::path& path) {
   std::ifstream file = OpenForReading(path);
-  std::string bytes(kMagic.size(), '\0');
+  std::string bytes(kMapMagic.size(), '\0');
   file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   bytes.resize(static_cast<std::size_t>(file.gcount()));
-  if (bytes == kMagic) bytes.append(std::istreambuf_iterator<char>(file), {});
+  if (bytes == kMapMagic) bytes.append(std::istreambuf_iterator<char>(file), {});
   return bytes;
 }
 
@@ -132,7 +131,7 @@ std::string EncodeMap(const ScanMap& map) {
   header.Add(kVersion);
   header.Add(Checksum(rest.bytes()));
   header.Add(static_cast<std::uint64_t>(rest.bytes().size()));
-  return std::string(kMagic) + header.bytes() + rest.bytes();
+  return std::string(kMapMagic) + header.bytes() + rest.bytes();
 }
 
 ScanMap DecodeMap(std::string_view bytes, std::string_view name) {

@@ -11,6 +11,9 @@
 
 namespace qwsm::io {
 
+/// What the file of a saved map begins with.
+inline constexpr std::string_view kMapMagic = "QWSM map";
+
 /// Tells of a file that holds no map that can be used. The text names the file and says why:
 /// foreign, newer, truncated or damaged.
 class MapFileError : public std::runtime_error {

@@ -5,7 +5,9 @@
 #include <cairo-svg.h>
 #include <cairo.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <deque>
 #include <numbers>
 #include <stdexcept>
@@ -186,6 +188,25 @@ void Canvas::Clip(const Rectangle& rectangle) {
 }
 
 void Canvas::Unclip() { cairo_restore(recording_->context.get()); }
+
+PixelImage Canvas::Pixels() const {
+  const Surface drawn(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_px_, height_px_));
+  Replay(recording_->surface.get(), drawn.get());
+  const PixelRows rows = RowsOf(drawn.get());
+  PixelImage image{.width_px = width_px_, .height_px = height_px_, .pixels = {}};
+  const auto width = static_cast<std::size_t>(width_px_);
+  image.pixels.resize(width * static_cast<std::size_t>(height_px_));
+  constexpr std::uint32_t kColorBits = 0xFFFFFFU;  // Cairo leaves the others undefined.
+  for (int y = 0; y < height_px_; ++y) {
+    const auto* const row =
+        reinterpret_cast<const std::uint32_t*>(rows.first + y * rows.stride_bytes);
+    std::transform(row,
+                   row + width,
+                   image.pixels.begin() + static_cast<std::ptrdiff_t>(y) * width_px_,
+                   [](std::uint32_t pixel) { return pixel & kColorBits; });
+  }
+  return image;
+}
 
 void Canvas::Save(const std::filesystem::path& path) const {
   const std::string extension = path.extension().string();

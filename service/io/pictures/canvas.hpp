@@ -90,6 +90,9 @@ class Canvas {
   void Clip(const Rectangle& rectangle);
   void Unclip();
 
+  /// The picture as pixels.
+  PixelImage Pixels() const;
+
   /// Writes a PNG or an SVG, as the name ends.
   /// @throws std::invalid_argument for another ending, WriteError where the file cannot be written.
   void Save(const std::filesystem::path& path) const;

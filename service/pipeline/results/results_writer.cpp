@@ -122,8 +122,14 @@ void ResultsWriter::WriteReport(const Drawing& drawing, const OccupancyGrid* gri
                   .relevant = drawing.map.scans()});
 }
 
-std::optional<OccupancyGrid> RenderOrWarn(const ScanMap& map, OccupancyGridOptions rendering) {
-  OccupancyGridResult result = RenderOccupancyGrid(map.scans(), rendering);
+std::optional<OccupancyGrid> RenderOrWarn(const ScanMap& map,
+                                          const OccupancyGridOptions& rendering) {
+  return RenderOrWarn(map.scans(), rendering);
+}
+
+std::optional<OccupancyGrid> RenderOrWarn(std::span<const RelevantScan> scans,
+                                          OccupancyGridOptions rendering) {
+  OccupancyGridResult result = RenderOccupancyGrid(scans, rendering);
   if (result.status == RenderStatus::kTooLarge && std::isfinite(result.smallest_cell_m)) {
     messages::Warn("the map of {:.0f} x {:.0f} m is drawn with cells of {:.2g} m, not {:.2g} m",
                    result.extent_x_m,
@@ -131,7 +137,7 @@ std::optional<OccupancyGrid> RenderOrWarn(const ScanMap& map, OccupancyGridOptio
                    result.smallest_cell_m,
                    rendering.cell_m);
     rendering.cell_m = result.smallest_cell_m;
-    result = RenderOccupancyGrid(map.scans(), rendering);
+    result = RenderOccupancyGrid(scans, rendering);
   }
   if (result.status == RenderStatus::kRendered) return std::move(result.grid);
   messages::Warn("no map is drawn: {}",

@@ -99,6 +99,9 @@ class ResultsWriter final : public StepSink {
 
 /// The map at the wanted cell size, or, with a warning, at the smallest one that can be rendered;
 /// nothing where there is nothing to render.
-std::optional<OccupancyGrid> RenderOrWarn(const ScanMap& map, OccupancyGridOptions rendering);
+std::optional<OccupancyGrid> RenderOrWarn(std::span<const RelevantScan> scans,
+                                          OccupancyGridOptions rendering);
+std::optional<OccupancyGrid> RenderOrWarn(const ScanMap& map,
+                                          const OccupancyGridOptions& rendering);
 
 }  // namespace qwsm::pipeline
