@@ -287,7 +287,7 @@ class CloudReport {
       number('Time (s)', (scan) => scan.time_s, (scan) => digits(scan.time_s)),
     ];
     section('scans', 'Scans and loops', 'All scans, in their order; a loop is closed to a scan of an earlier part of the model. The first scan defines the frame of the map.',
-      sortedTable('Scans', columns, this.scans.map((scan, index) => ({ ...scan, index })), ({ index }) => this.showScan(index)));
+      sortedTable('All scans', columns, this.scans.map((scan, index) => ({ ...scan, index })), ({ index }) => this.showScan(index)));
   }
 }
 

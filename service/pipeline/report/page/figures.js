@@ -69,7 +69,7 @@ function figureText(key, value) {
 function tileOf(key, metrics) {
   if (key === 'matched_share') {
     const matched = (metrics.matched || 0) + (metrics.extended || 0);
-    return { name: 'Matched', value: metrics.scans ? fixed(100 * matched / metrics.scans, 1) : '–', unit: '%',
+    return { name: 'Matched', value: metrics.scans ? fixed(Math.floor(1000 * matched / metrics.scans) / 10, 1) : '–', unit: '%',
       meaning: 'Share of the scans whose pose comes from a match; the first scan has nothing to be matched with.' };
   }
   if (key === 'loops' && metrics.loops) {

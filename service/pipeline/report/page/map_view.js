@@ -425,7 +425,7 @@ class MapReport {
       + 'are believed, and path and map are corrected by them. A reduced χ² near 1 says that the points fit as well as their '
       + 'noise allows. Unconfirmed: too few loops near by agree. Contradicted: the rest of the graph disagrees. Refused: the '
       + 'map would contradict the scans more than without.',
-    this.loops.length ? sortedTable('Loops', columns, this.loops, show) : null);
+    this.loops.length ? sortedTable('All loops', columns, this.loops, show) : null);
   }
 }
 
