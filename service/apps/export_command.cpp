@@ -16,12 +16,14 @@
 #include <vector>
 
 #include "service/apps/command.hpp"
-#include "service/apps/messages.hpp"
+#include "service/apps/network.hpp"
 #include "service/apps/output.hpp"
 #include "service/io/rescue/geotiff_file.hpp"
 #include "service/io/rescue/points_of_interest.hpp"
 #include "service/io/rescue/rescue_map.hpp"
+#include "service/pipeline/network/team_listener.hpp"
 #include "service/pipeline/results/map_to_export.hpp"
+#include "service/pipeline/run/interruption.hpp"
 #include "service/pipeline/text/messages.hpp"
 
 namespace qwsm::apps {
@@ -30,7 +32,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ExportArguments {
-  fs::path source;
+  std::optional<fs::path> source;
+  bool live = false;  ///< Whether the map is that of the services on the network.
   fs::path geotiff;
   std::optional<fs::path> points;
   std::string team;
@@ -38,8 +41,7 @@ struct ExportArguments {
   std::string mission;
   std::optional<std::string> start;
   int px_per_cell = 1;
-  config::OptionSources sources;
-  Verbosity verbosity;
+  NetworkArguments network;
 };
 
 /// Day and time of a stamp, in UTC.
@@ -97,12 +99,32 @@ void WarnOfMarksOutside(const io::RescueScene& scene, const io::GeoPicture& pict
   }
 }
 
+/// The map of all that services on the network share.
+pipeline::MapToExport HearMap(const options::ProgramOptions& options) {
+  const dds::Participant participant(options.network);
+  const pipeline::Interruption interruption;
+  std::vector<pipeline::RobotScan> scans;
+  for (team::TeamScan& scan :
+       pipeline::HearTeamScans(participant, [&] { return interruption.requested(); })) {
+    scans.push_back({.robot = scan.key.robot,
+                     .relevant = {.scan = std::move(scan.scan), .map_robot = scan.map_robot}});
+  }
+  if (scans.empty())
+    throw UsageError("no service on the network shares a map: is qwsm serve running?");
+  return pipeline::MapOfScans(scans, "the services' map", options.rendering);
+}
+
 ExitCode RunExport(const ExportArguments& arguments) {
-  StartMessages(arguments.verbosity);
-  const auto options = config::LoadOptions<options::ProgramOptions>(arguments.sources);
+  const NetworkSession session(arguments.network);
+  if (arguments.live == arguments.source.has_value()) {
+    throw UsageError("export needs either a SOURCE or --live");
+  }
   std::vector<io::PointOfInterest> points;
   if (arguments.points) points = io::ReadPointsOfInterest(*arguments.points);
-  pipeline::MapToExport map = pipeline::LoadMapToExport(arguments.source, options.rendering);
+  const options::ProgramOptions& options = session.options();
+  pipeline::MapToExport map = arguments.live
+                                  ? HearMap(options)
+                                  : pipeline::LoadMapToExport(*arguments.source, options.rendering);
 
   const fs::path tiff = Beside(arguments.geotiff, ".tif");
   const io::RescueScene scene{.grid = map.grid,
@@ -116,7 +138,7 @@ ExitCode RunExport(const ExportArguments& arguments) {
   io::WriteWorldFile(Beside(arguments.geotiff, ".tfw"), picture);
   const fs::path list = Beside(arguments.geotiff, "_pois.csv");
   io::WritePointsOfInterest(list, TitleOf(arguments, map.start), scene.points);
-  if (arguments.verbosity.quiet) return ExitCode::kDone;
+  if (arguments.network.verbosity.quiet) return ExitCode::kDone;
   Print("{} x {} pixels of {:g} m into {}; {} points of interest into {}\n",
         picture.image.width_px,
         picture.image.height_px,
@@ -137,6 +159,7 @@ Command AddExportCommand(CLI::App& program) {
       "rescue_pois.csv\n"
       "  qwsm export results/latest --geotiff rescue --pois marks.csv\n"
       "  qwsm export team.journal --geotiff rescue                of a service, running or not\n"
+      "  qwsm export --live --geotiff rescue                      of services on the network\n"
       "  qwsm export site.qwsm --geotiff site --set rendering.cell_m=0.02\n"
       "marks.csv is a table with commas: its first line names the columns, of which x, y (metres)\n"
       "and type (victim, hazard, else an object) are needed; id, time, text, z, robot, mode are "
@@ -145,7 +168,6 @@ Command AddExportCommand(CLI::App& program) {
       ->add_option("SOURCE",
                    arguments->source,
                    "folder of results, journal of a service, saved map, or map of ROS (.yaml)")
-      ->required()
       ->type_name("");
   parser
       ->add_option("--geotiff",
@@ -153,6 +175,7 @@ Command AddExportCommand(CLI::App& program) {
                    "write NAME.tif, NAME.tfw and NAME_pois.csv as the RoboCup Rescue rules say")
       ->required()
       ->type_name("NAME");
+  parser->add_flag("--live", arguments->live, "the map that services on the network have now");
   parser->add_option("--pois", arguments->points, "points of interest to be marked")
       ->type_name("FILE");
   parser
@@ -179,8 +202,7 @@ Command AddExportCommand(CLI::App& program) {
       ->check(DayAndTimeOfDay())
       ->type_name("TIME")
       ->group(kTitle);
-  AddConfiguration(*parser, arguments->sources);
-  AddVerbosity(*parser, arguments->verbosity, "");
+  AddNetworkArguments(*parser, arguments->network, "");
   return {.parser = parser, .run = [arguments] { return RunExport(*arguments); }};
 }
 

@@ -97,6 +97,7 @@ TEST_F(ExportCommand, TellsWhatIsWrong) {
   expect_told(Export(folder_.path() / "none"), "there is no such file");
   expect_told(Export(results_, {"--pois", marks}), "marks.csv:2: x is to be a number");
   expect_told(Export(results_, {"--start", "yesterday"}), "a day and a time");
+  expect_told(Export(results_, {"--live"}), "either a SOURCE or --live");
   EXPECT_FALSE(fs::exists(folder_.path() / "rescue.tif"));
   const Outcome unwritable = RunProgram({"export", results_, "--geotiff", "/nowhere/rescue"});
   EXPECT_EQ(unwritable.exit_code, 3) << unwritable.errors;

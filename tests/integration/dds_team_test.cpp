@@ -99,6 +99,20 @@ TEST_F(DdsTeam, ServiceSpeaksJsonToTheProgramsThatCollectMessages) {
   EXPECT_GT(count, 1);
 }
 
+TEST_F(DdsTeam, MapIsExportedFromTheNetworkAsFromTheJournal) {
+  Daemon service(network_.JoinService({"serve", "--journal", Path("team.db"), "--verbose"}));
+  ASSERT_TRUE(service.WaitUntilItSays("serving as"));
+  const Outcome driven = Simulate("team", "2");
+  ASSERT_EQ(driven.exit_code, 0) << driven.errors;
+  const Outcome live = network_.Run({"export", "--live", "--geotiff", Path("live")});
+  ASSERT_EQ(live.exit_code, 0) << live.errors;
+  const Outcome stored = RunProgram({"export", Path("team.db"), "--geotiff", Path("stored")});
+  ASSERT_EQ(stored.exit_code, 0) << stored.errors;
+  EXPECT_FALSE(ReadFile(Path("live.tfw")).empty());
+  EXPECT_EQ(ReadFile(Path("live.tfw")), ReadFile(Path("stored.tfw")));
+  EXPECT_EQ(service.End().exit_code, 0);
+}
+
 TEST_F(DdsTeam, JournalIsMappedAsALogIs) {
   Daemon service(network_.JoinService({"serve", "--journal", Path("team.db"), "--verbose"}));
   ASSERT_TRUE(service.WaitUntilItSays("serving as"));

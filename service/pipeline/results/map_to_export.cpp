@@ -3,12 +3,12 @@
 #include "service/pipeline/results/map_to_export.hpp"
 
 #include <algorithm>
-#include <array>
 #include <fstream>
 #include <map>
-#include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <variant>
 
 #include "service/io/journal/sqlite_database.hpp"
@@ -53,44 +53,27 @@ MapToExport LoadResults(const fs::path& folder) {
   return map;
 }
 
-OccupancyGrid Rendered(const fs::path& source,
-                       std::span<const RelevantScan> scans,
-                       const OccupancyGridOptions& rendering) {
-  std::optional<OccupancyGrid> grid = RenderOrWarn(scans, rendering);
-  if (!grid) throw std::runtime_error(source.string() + ": no map can be drawn of its scans");
-  return *std::move(grid);
-}
-
 MapToExport LoadSavedMap(const fs::path& file, const OccupancyGridOptions& rendering) {
   const ScanMap saved = io::LoadMap(file);
-  MapToExport map{.grid = Rendered(file, saved.scans(), rendering), .paths = {{}}, .start = {}};
-  for (const RelevantScan& scan : saved.scans()) {
-    map.paths.front().push_back(scan.map_robot.T_a_b);
-    if (!map.start) map.start = scan.scan.stamp;
-  }
-  return map;
+  std::vector<RobotScan> scans;
+  for (const RelevantScan& scan : saved.scans()) scans.push_back({.robot = {}, .relevant = scan});
+  return MapOfScans(scans, file.string(), rendering);
 }
 
 MapToExport LoadJournal(const fs::path& file, const OccupancyGridOptions& rendering) {
   io::JournalReader journal(file);
-  std::vector<RelevantScan> scans;
-  std::map<std::string, std::vector<Pose2>> path_of_robot;
-  std::optional<Timestamp> start;
-  while (const std::optional<io::LogRecord> record = journal.Next()) {
-    const auto& reading = std::get<io::ScanReading>(*record);
+  std::vector<RobotScan> scans;
+  while (std::optional<io::LogRecord> record = journal.Next()) {
+    auto& reading = std::get<io::ScanReading>(*record);
     const Pose2 T_map_robot = reading.T_odom_robot.value_or(Pose2{});
-    scans.push_back({.id = static_cast<ScanId>(scans.size()),
-                     .scan = reading.scan,
-                     .map_robot = {.T_a_b = T_map_robot}});
-    path_of_robot[reading.laser].push_back(T_map_robot);
-    start = std::min(start.value_or(Timestamp::max()), reading.scan.stamp);
+    scans.push_back(
+        {.robot = std::move(reading.laser),
+         .relevant = {.scan = std::move(reading.scan), .map_robot = {.T_a_b = T_map_robot}}});
   }
   for (const io::LogFault& fault : journal.report().faults) {
     messages::Warn("{}: {} ({} times)", file.string(), fault.what, fault.count);
   }
-  MapToExport map{.grid = Rendered(file, scans, rendering), .paths = {}, .start = start};
-  for (auto& [robot, path] : path_of_robot) map.paths.push_back(std::move(path));
-  return map;
+  return MapOfScans(scans, file.string(), rendering);
 }
 
 bool BeginsWith(const fs::path& file, std::string_view magic) {
@@ -101,6 +84,24 @@ bool BeginsWith(const fs::path& file, std::string_view magic) {
 }
 
 }  // namespace
+
+MapToExport MapOfScans(const std::vector<RobotScan>& scans,
+                       const std::string& name,
+                       const OccupancyGridOptions& rendering) {
+  std::vector<RelevantScan> relevant;
+  std::map<std::string, std::vector<Pose2>> path_of_robot;
+  std::optional<Timestamp> start;
+  for (const RobotScan& scan : scans) {
+    relevant.push_back(scan.relevant);
+    path_of_robot[scan.robot].push_back(scan.relevant.map_robot.T_a_b);
+    start = std::min(start.value_or(Timestamp::max()), scan.relevant.scan.stamp);
+  }
+  std::optional<OccupancyGrid> grid = RenderOrWarn(relevant, rendering);
+  if (!grid) throw std::runtime_error(name + ": no map can be drawn of its scans");
+  MapToExport map{.grid = *std::move(grid), .paths = {}, .start = start};
+  for (auto& [robot, path] : path_of_robot) map.paths.push_back(std::move(path));
+  return map;
+}
 
 MapToExport LoadMapToExport(const fs::path& source, const OccupancyGridOptions& rendering) {
   if (!fs::exists(source)) throw std::runtime_error(source.string() + ": there is no such file");

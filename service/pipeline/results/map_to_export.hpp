@@ -4,10 +4,12 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "qwsm/geometry/pose2.hpp"
 #include "qwsm/mapping/occupancy_grid.hpp"
+#include "qwsm/mapping/relevant_scan.hpp"
 #include "qwsm/sensor/laser_scan.hpp"
 
 namespace qwsm::pipeline {
@@ -18,6 +20,19 @@ struct MapToExport {
   std::vector<std::vector<Pose2>> paths;  ///< Path of each robot, from its start.
   std::optional<Timestamp> start;         ///< Stamp of the first pose, where it is known.
 };
+
+/// A relevant scan, and who took it.
+struct RobotScan {
+  std::string robot;
+  RelevantScan relevant;
+};
+
+/// The map of scans that robots took, each robot's in their order; paths go from scan to scan.
+/// @param name stands for where they came from in messages.
+/// @throws std::runtime_error where no map can be drawn of them.
+MapToExport MapOfScans(const std::vector<RobotScan>& scans,
+                       const std::string& name,
+                       const OccupancyGridOptions& rendering);
 
 /// Reads a map wherever one was left: in the folder of results of `map`, `localize` or `serve`, as
 /// the YAML file of ROS's map_server, in the journal of a service, or saved by `map --save-map`.
