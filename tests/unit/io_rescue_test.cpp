@@ -146,6 +146,15 @@ TEST_F(RescueMap, SaysNameScaleAndAxesAtTheTopLeft) {
   EXPECT_NEAR(scale, 20, 2) << "a metre";
 }
 
+TEST_F(RescueMap, IsDrawnWhateverTheBytesOfANumber) {
+  const GeoPicture picture =
+      DrawRescueMap({.grid = grid_,
+                     .paths = {},
+                     .points = {Mark("\xFF\xE9", "victim", 4.0, 1.0), Mark("2", "qr", 5.0, 3.0)},
+                     .name = "\xC3\x28.tif"});
+  EXPECT_EQ(At(picture, 5.0 + 0.14, 3.0), kObject) << "what comes after it is drawn, too";
+}
+
 TEST_F(RescueMap, OfNothingKnownIsRefused) {
   grid_.cells.assign(grid_.cells.size(), CellState::kUnknown);
   EXPECT_THROW(Draw(1), std::runtime_error);

@@ -11,6 +11,7 @@
 #include <deque>
 #include <numbers>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "service/io/files/atomic_file.hpp"
@@ -49,6 +50,43 @@ void SelectFont(cairo_t* context, const TextStyle& style) {
                          CAIRO_FONT_SLANT_NORMAL,
                          style.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(context, style.size_px);
+}
+
+/// Length of the character of UTF-8 that a text begins with; 0 where it begins with none.
+std::size_t LengthOfCharacter(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const std::size_t length = byte(0) < 0x80   ? 1
+                             : byte(0) < 0xC2 ? 0
+                             : byte(0) < 0xE0 ? 2
+                             : byte(0) < 0xF0 ? 3
+                             : byte(0) < 0xF5 ? 4
+                                              : 0;
+  if (length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xC0U) != 0x80U) return 0;
+  }
+  if (length < 3) return length;
+  // Written with too many bytes, half of a pair of UTF-16, or beyond Unicode.
+  const unsigned second = byte(1);
+  const bool is_refused = (byte(0) == 0xE0 && second < 0xA0) ||
+                          (byte(0) == 0xED && second > 0x9F) ||
+                          (byte(0) == 0xF0 && second < 0x90) || (byte(0) == 0xF4 && second > 0x8F);
+  return is_refused ? 0 : length;
+}
+
+/// The text that Cairo is given, which draws nothing more once it was given what is no UTF-8.
+std::string Drawable(std::string_view text) {
+  std::string drawable;
+  while (!text.empty()) {
+    const std::size_t length = LengthOfCharacter(text);
+    if (length == 0) {
+      drawable += '?';
+    } else {
+      drawable += text.substr(0, length);
+    }
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return drawable;
 }
 
 void Trace(cairo_t* context, std::span<const Eigen::Vector2d> points_px) {
@@ -159,7 +197,7 @@ void Canvas::Draw(PixelImage image, const Eigen::Vector2d& corner_px) {
 double Canvas::TextWidth(const std::string& text, const TextStyle& style) const {
   SelectFont(recording_->context.get(), style);
   cairo_text_extents_t extents;
-  cairo_text_extents(recording_->context.get(), text.c_str(), &extents);
+  cairo_text_extents(recording_->context.get(), Drawable(text).c_str(), &extents);
   return extents.x_advance;
 }
 
@@ -177,7 +215,7 @@ void Canvas::Write(const std::string& text,
   if (style.upwards) cairo_rotate(context, -0.5 * std::numbers::pi);
   cairo_move_to(context, shift_px, kMiddleShare * style.size_px);
   Select(context, style.color);
-  cairo_show_text(context, text.c_str());
+  cairo_show_text(context, Drawable(text).c_str());
   cairo_restore(context);
 }
 

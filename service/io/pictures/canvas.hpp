@@ -82,7 +82,7 @@ class Canvas {
   /// Draws an image with its upper-left corner at `corner_px`, one pixel for one.
   void Draw(PixelImage image, const Eigen::Vector2d& corner_px);
 
-  /// Writes text whose middle line has `anchor_px` where the alignment says.
+  /// Writes text of UTF-8, any other bytes as question marks, whose middle line has `anchor_px` where the alignment says.
   void Write(const std::string& text, const Eigen::Vector2d& anchor_px, const TextStyle& style);
   double TextWidth(const std::string& text, const TextStyle& style) const;
 
