@@ -5,12 +5,19 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "service/pipeline/report/doubtful_scans.hpp"
+#include "service/pipeline/report/map_report.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace qwsm::pipeline {
 namespace {
+
+namespace fs = std::filesystem;
 
 TEST(ReportPage, TakesNoNameForHtml) {
   const RunTitle title{.command = "qwsm map",
@@ -34,6 +41,32 @@ TEST(Base64, IsThatOfTheStandard) {
   EXPECT_EQ(Base64(std::string_view("foobar")), "Zm9vYmFy");
   const std::array one{1.0F};
   EXPECT_EQ(Base64(std::span<const float>(one)), "AACAPw==");
+}
+
+TEST(MapReport, HoldsOfLongRunsTheWorstOfNeighbours) {
+  constexpr std::size_t kScans = 2 * kMostRows + 1;
+  io::MapOverlay overlay{.path = std::vector<io::PathPose>(kScans), .truth = {}, .odometry = {}};
+  std::vector<double> residuals_mm(kScans, 1.0);
+  residuals_mm[40'001] = 50.0;
+  const std::vector<double> times_ms(kScans, 0.1);
+  const test::TemporaryFolder folder;
+  const fs::path file = folder.path() / "report.html";
+  WriteMapReport(file,
+                 {.command = "qwsm map", .version = "1", .inputs = {}},
+                 {.metrics = {},
+                  .overlay = overlay,
+                  .residuals_mm = residuals_mm,
+                  .times_ms = times_ms,
+                  .doubtful = {},
+                  .relevant = {}});
+  const std::string page = test::ReadFile(file);
+  EXPECT_NE(page.find("\"stride\":3"), std::string::npos);
+  std::vector<float> numbers;
+  for (std::size_t row = 0; 3 * row < kScans; ++row) {
+    numbers.push_back(row == 13'333 ? 40'001.0F : static_cast<float>(3 * row));
+  }
+  EXPECT_NE(page.find(Base64(std::span<const float>(numbers))), std::string::npos);
+  EXPECT_LT(page.size(), 3'000'000U);
 }
 
 /// The mapper's answer to a scan, as far as it counts here.

@@ -12,8 +12,9 @@
 
 namespace slam6d::pipeline {
 
-/// Leaves what `slam6d register` leaves, for every robot of a team. A robot without a namespace has
-/// the folder itself, others a folder of their name in it. Keeps all points until Finish().
+/// Leaves what `slam6d register` leaves but its report, for every robot of a team. A robot without
+/// a namespace has the folder itself, others a folder of their name in it. Keeps all points until
+/// Finish().
 class CloudResults final : public qwsm::team::CloudSink {
  public:
   CloudResults(const qwsm::pipeline::ResultsFolder& folder,

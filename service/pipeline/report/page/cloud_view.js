@@ -156,7 +156,7 @@ class CloudReport {
     const box = (name, text, color) => layer(text, `var(--${color})`, true, (on) => { this.shown[name] = on; this.stage.changed(); });
     const loops = this.scans.reduce((sum, scan) => sum + scan.loops_to.length, 0);
     const share = report.scans.share < 1 ? ` ${fixed(100 * report.scans.share, 1)} % of the points are shown, evenly taken from all scans; model.ply has more.` : '';
-    section('model', 'Model', 'The scans put together: darker where more points lie behind each other. “Before” is where '
+    section('model', 'Model', 'The scans put together; the colour is fuller where more points lie behind each other. “Before” is where '
       + `odometry has them, “after” where registration has put them.${share} x is red, y green, z blue.`,
     make('div', { class: 'bar' },
       choice('Moment', [['after', 'After'], ['before', 'Before']], 'after', (moment) => { this.moment = moment; this.stage.changed(); this.tell(); }),

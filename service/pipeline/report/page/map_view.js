@@ -143,7 +143,7 @@ class MapReport {
       (moment) => { this.moment = moment; this.stage.changed(); this.tell(); }) : null;
     selection.listeners.push(() => { this.stage.changed(); this.tell(); });
     theme.listeners.push(() => this.drawCards());
-    section('map', 'Map', 'Dark: walls. Light: free space that was seen. The rest is unknown. Click near the path to '
+    section('map', 'Map', 'The occupancy map, with what is ticked drawn over it. Click near the path to '
       + 'see that moment in all plots. ' + (this.hasBefore ? '“As answered” is what the robot was told while it '
       + 'drove, “corrected” what is known once loops were closed; the view stays, so that one sees what moved.' : ''),
     make('div', { class: 'bar' }, this.moments, ...this.layers()),
@@ -164,7 +164,9 @@ class MapReport {
       this.stage.changed();
     }, 'aria-label': 'path' }), make('span', { class: 'swatch', style: 'width:3.5rem;background:linear-gradient(90deg,'
       + 'var(--path-0),var(--path-1),var(--path-2),var(--path-3))' }), `path, 0:00 to ${clock(this.scans.time_s[this.count - 1])}`);
-    return [line, add('other', 'path of the other moment', 'answered', this.hasBefore),
+    const cells = ['wall', 'free', 'unknown'].map((state) => make('span', { class: 'layer' },
+      make('span', { class: 'swatch area', style: `background:var(--${state});border:1px solid var(--line)` }), state));
+    return [...cells, line, add('other', 'path of the other moment', 'answered', this.hasBefore),
       add('odometry', 'odometry alone', 'odometry', this.odometry.x.length > 0),
       add('truth', 'truth', 'truth', this.truth.x.length > 0),
       add('ellipses', '95 % ellipses, true size', 'ellipse', this.count > 0, true),
