@@ -27,14 +27,13 @@ double SecondsSince(Timestamp stamp, Timestamp first) {
 
 /// Cells put together, `step` by `step`, each as its most telling one; rows from the top.
 std::vector<std::uint8_t> CellsFromTop(const OccupancyGrid& grid, int step) {
-  std::vector<std::uint8_t> cells;
   const int rows = (grid.height + step - 1) / step;
-  const int columns = (grid.width + step - 1) / step;
-  cells.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
+  const auto columns = static_cast<std::size_t>((grid.width + step - 1) / step);
+  std::vector<std::uint8_t> cells(static_cast<std::size_t>(rows) * columns);
   for (int y = 0; y < grid.height; ++y) {
-    const int row = rows - 1 - y / step;
+    std::uint8_t* const row = &cells[static_cast<std::size_t>(rows - 1 - y / step) * columns];
     for (int x = 0; x < grid.width; ++x) {
-      std::uint8_t& cell = cells[static_cast<std::size_t>(row * columns + x / step)];
+      std::uint8_t& cell = row[x / step];
       cell = std::max(cell, static_cast<std::uint8_t>(grid.At(x, y)));
     }
   }

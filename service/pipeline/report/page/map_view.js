@@ -283,7 +283,7 @@ class MapReport {
       drawPolyline(context, [x0, x1], [y0, y1], this.view);
     }
     if (this.chosenScan) {
-      drawPoints(context, this.chosenScan.points, this.poseOf(this.chosenScan), this.view, Math.max(2.5, 0.03 * this.view.px_per_m));
+      drawPoints(context, this.chosenScan.points, this.poseOf(this.chosenScan), this.view, Math.max(4, 0.03 * this.view.px_per_m));
     }
     const row = selection.row;
     if (row < 0) return;
