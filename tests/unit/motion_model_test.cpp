@@ -88,5 +88,15 @@ TEST(MotionModel, WithoutOdometryExpectsTheLastMotionAndIsMoreUncertain) {
   EXPECT_GT(SigmaAlong(predicted.conservative), MotionNoise{}.translation_floor_m);
 }
 
+TEST(MotionModel, IsSurprisedByOdometryThatJumps) {
+  MotionModel model;
+  EXPECT_FALSE(model.IsSurprising(Pose2{.x_m = 5.0}));
+  model.Remember({.x_m = 0.1}, Pose2{.x_m = 1.0});
+  EXPECT_FALSE(model.IsSurprising(std::nullopt));
+  EXPECT_FALSE(model.IsSurprising(Pose2{.x_m = 1.2}));
+  EXPECT_TRUE(model.IsSurprising(Pose2{.x_m = 3.0}));
+  EXPECT_TRUE(model.IsSurprising(Pose2{.x_m = 1.1, .theta_rad = 1.2}));
+}
+
 }  // namespace
 }  // namespace qwsm

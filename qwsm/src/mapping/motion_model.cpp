@@ -16,7 +16,8 @@ constexpr double kForgettingFactor = 0.05;
 constexpr double kPriorSamples = 4.0;
 // One jump of the odometry, by more than three sigmas, is not to count for a hundred.
 constexpr double kLargestChi2 = 9.0;
-constexpr double kSmallestScale = 0.02;  // Odometry is never believed to the last.
+constexpr double kSurprisingChi2 = 25.0;  // Five sigmas.
+constexpr double kSmallestScale = 0.02;   // Odometry is never believed to the last.
 constexpr double kLargestScale = 25.0;
 
 Eigen::Matrix3d Diagonal(const Eigen::Array33d& sigmas) {
@@ -101,6 +102,17 @@ void MotionModel::UpdateScale(int axis,
   const Row rate = (samples_.row(axis) + kPriorSamples).inverse().max(kForgettingFactor);
   adapted_scale_.row(axis) *= 1.0 + rate * sample * (std::min(innovation_chi2, kLargestChi2) - 1.0);
   adapted_scale_.row(axis) = adapted_scale_.row(axis).max(kSmallestScale).min(kLargestScale).eval();
+}
+
+bool MotionModel::IsSurprising(const std::optional<Pose2>& T_odom_robot) const {
+  if (!T_odom_robot || !T_odom_last_) return false;
+  const Pose2 told = T_odom_last_->Inverse() * *T_odom_robot;
+  const UncertainPose2 as_before = Predict(std::nullopt).conservative;
+  const Eigen::Vector3d apart(told.x_m - as_before.T_a_b.x_m,
+                              told.y_m - as_before.T_a_b.y_m,
+                              NormalizeAngle(told.theta_rad - as_before.T_a_b.theta_rad));
+  return (apart.array().square() / as_before.covariance.diagonal().array()).maxCoeff() >
+         kSurprisingChi2;
 }
 
 void MotionModel::Remember(const Pose2& T_last_robot, const std::optional<Pose2>& T_odom_robot) {

@@ -11,7 +11,7 @@ namespace qwsm {
 namespace {
 
 constexpr double kSeenFrom_m = 10.0;        // Scans farther off see little of what one sees.
-constexpr double kPointsThatTellOne = 3.0;  // Neighbours share their errors, as in matching.
+constexpr double kPointsThatTellOne = 3.0;  // As in matching.
 
 // How a point of a scan fares at the right place and at the best wrong one: medians of single scans
 // of intel, aces and mit-csail in a map of the other half of each (docs/experiments.md).
@@ -35,12 +35,16 @@ double PlaceFit::NatsWithinMap() const {
   return told * (explained * kExplained.Nats() + seen_through * kSeenThrough.Nats());
 }
 
+double PlaceEvidence::Told(std::span<const ScanPoint> points) {
+  return static_cast<double>(points.size()) / kPointsThatTellOne;
+}
+
 PlaceFit PlaceEvidence::Weigh(const ScanMap& map,
                               std::span<const ScanPoint> points,
                               const MatchResult& match) {
   const bool is_matched =
       match.status == MatchStatus::kConverged || match.status == MatchStatus::kIterationLimit;
-  return {.told = static_cast<double>(points.size()) / kPointsThatTellOne,
+  return {.told = Told(points),
           .explained = is_matched ? match.overlap : 0.0,
           .seen_through = ShareSeenThrough(map, points, match.T_ref_cur)};
 }

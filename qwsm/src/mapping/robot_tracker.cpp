@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "qwsm/geometry/position.hpp"
+#include "qwsm/mapping/place_evidence.hpp"
 
 namespace qwsm {
 namespace {
@@ -27,6 +28,19 @@ PosePrediction Unmoved() {
   const UncertainPose2 there{.T_a_b = {},
                              .covariance = kSigma * kSigma * Eigen::Matrix3d::Identity()};
   return {.conservative = there, .adapted = there};
+}
+
+// A pose beside odometry has to explain a scan so much better: a chance of 1 in 100.
+constexpr double kConvincingNats = 4.6;
+
+// Whether a scan was taken at the one pose, neither at the other nor at a place that is like it.
+bool IsConvincinglyBetter(std::span<const ScanPoint> points,
+                          const MatchResult& one,
+                          const MatchResult& other) {
+  const double told = PlaceEvidence::Told(points);
+  const double nats = PlaceFit{.told = told, .explained = one.overlap}.Nats();
+  const double of_other = PlaceFit{.told = told, .explained = other.overlap}.Nats();
+  return nats >= kConvincingNats && nats - of_other >= kConvincingNats;
 }
 
 // Covariance of a matched pose: as uncertain as the part of the map it was matched to, plus what is
@@ -126,11 +140,13 @@ void RobotTracker::Locate(const ScanMap& map,
   // No robot drives out of all maps: its odometry has failed.
   if (!IsPosition((map_last_ * last_robot.conservative).T_a_b)) last_robot = Unmoved();
   step.match = locator_.Locate(map, points, local_last_ * last_robot.conservative, seen_free_);
-  if (is_odometry_suspect_) {
+  const bool is_surprising = motion_.IsSurprising(observation.T_odom_robot);
+  if (is_odometry_suspect_ || is_surprising) {
     const PosePrediction without_odometry = motion_.Predict(std::nullopt);
     const MatchResult other =
         locator_.Locate(map, points, local_last_ * without_odometry.conservative, seen_free_);
-    if (other.overlap >= step.match.overlap) {
+    if (is_odometry_suspect_ ? other.overlap >= step.match.overlap
+                             : IsConvincinglyBetter(points, other, step.match)) {
       last_robot = without_odometry;
       step.match = other;
     }

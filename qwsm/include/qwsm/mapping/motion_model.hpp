@@ -57,6 +57,9 @@ class MotionModel {
   /// Predicts the pose of the robot now in its own last frame.
   PosePrediction Predict(const std::optional<Pose2>& T_odom_robot) const;
 
+  /// Whether odometry tells of a motion that nobody expects who only knows the one before.
+  bool IsSurprising(const std::optional<Pose2>& T_odom_robot) const;
+
   /// Remembers how the robot really moved, and with which odometry reading.
   void Remember(const Pose2& T_last_robot, const std::optional<Pose2>& T_odom_robot);
 

@@ -31,6 +31,9 @@ class PlaceEvidence {
  public:
   explicit PlaceEvidence(const FreeSpaceOptions& options = {}) : options_(options) {}
 
+  /// How many points tell something that no other one tells: neighbours share their errors.
+  static double Told(std::span<const ScanPoint> points);
+
   /// @param points of the scan, thinned out.
   /// @param match of the points at the place.
   PlaceFit Weigh(const ScanMap& map, std::span<const ScanPoint> points, const MatchResult& match);

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Odometry that jumps: a counter overflows, a driver is started anew, somebody pushes the robot.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <random>
+#include <set>
+#include <variant>
+#include <vector>
+
+#include "qwsm/logs/log_reader.hpp"
+#include "qwsm/mapping/mapper.hpp"
+#include "qwsm/metrics/relations.hpp"
+#include "service/io/trajectories/relations_file.hpp"
+
+namespace qwsm::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<Observation> Observations(const fs::path& path) {
+  std::vector<Observation> observations;
+  const auto log = io::OpenLog(path);
+  while (const auto record = log->Next()) {
+    const auto* reading = std::get_if<io::ScanReading>(&*record);
+    if (reading == nullptr) continue;
+    observations.push_back({.scan = reading->scan, .T_odom_robot = reading->T_odom_robot});
+  }
+  return observations;
+}
+
+// From each of these scans on the robot seems to have been turned, and moved in its own frame.
+std::vector<Observation> WithJumps(std::vector<Observation> observations, unsigned seed) {
+  constexpr std::size_t kJumps = 20;
+  constexpr Pose2 kJump{.x_m = 2.0, .theta_rad = 1.2};
+  std::mt19937 random(seed);
+  std::set<std::size_t> jumps;
+  while (jumps.size() < kJumps) jumps.insert(1 + random() % (observations.size() - 1));
+  Pose2 T_new_odom;
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    Pose2& T_odom_robot = *observations[i].T_odom_robot;
+    if (jumps.contains(i)) T_new_odom = T_new_odom * T_odom_robot * kJump * T_odom_robot.Inverse();
+    T_odom_robot = T_new_odom * T_odom_robot;
+  }
+  return observations;
+}
+
+double MeanError_m(const std::vector<Observation>& observations,
+                   std::span<const Relation> relations) {
+  Mapper mapper;
+  Trajectory trajectory;
+  for (const Observation& observation : observations) {
+    const MappingStep step = mapper.Process(observation);
+    trajectory.push_back({.stamp = step.stamp, .T_map_robot = step.map_robot.T_a_b});
+  }
+  return EvaluateRelations(relations, trajectory).all.translation_m.mean;
+}
+
+TEST(JumpingOdometry, LeavesTheMapAsItWouldHaveBeen) {
+  const fs::path data = fs::path(QWSM_DATA_DIR) / "radish";
+  const fs::path log = data / "intel.full.clf.gz";
+  if (!fs::exists(log)) GTEST_SKIP() << "no " << log;
+  const std::vector<Relation> relations = io::ReadRelationsFile(data / "intel.full.relations");
+  const std::vector<Observation> unbroken = Observations(log);
+  const double error_m = MeanError_m(unbroken, relations);
+  for (const unsigned seed : {1U, 2U}) {
+    EXPECT_LT(MeanError_m(WithJumps(unbroken, seed), relations), 1.3 * error_m) << seed;
+  }
+}
+
+}  // namespace
+}  // namespace qwsm::test
