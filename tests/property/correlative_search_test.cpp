@@ -75,8 +75,8 @@ double BestOfAll(const LikelihoodPyramid& map,
       for (int y = -reach; y <= reach; ++y) {
         const Eigen::Vector2d place_m = center.translation_m() + cell_m * Eigen::Vector2d(x, y);
         const bool is_excluded =
-            window.exclude &&
-            (place_m - window.exclude->translation_m()).norm() <= window.exclude_m;
+            window.excluded &&
+            (place_m - window.excluded->center_map_m).norm() <= window.excluded->radius_m;
         if (is_excluded) continue;
         const Eigen::Vector3d way(x * cell_m, y * cell_m, heading * step_rad);
         const double score = ScoreAt(map, points_robot_m, turned, x, y, window.max_drift_code) -
@@ -115,8 +115,7 @@ TEST(CorrelativeSearch, FindsTheBestOfAllPosesOfTheWindow) {
                         .rotation_rad = Uniform(random, 0.0, 0.1)};
     if (seed % 3 == 1) window.max_drift_code = LikelihoodPyramid::DriftCode(5e-3);
     if (seed % 4 == 1) {
-      window.exclude = T_map_robot;
-      window.exclude_m = 0.25;
+      window.excluded = {.center_map_m = T_map_robot.translation_m(), .radius_m = 0.25};
     }
     const CorrelativeSearchOptions options{.prior_cost_points = seed % 2 == 0 ? 0.4 : 2.0};
     const double best = BestOfAll(map, scan_m, window, options);
@@ -124,6 +123,28 @@ TEST(CorrelativeSearch, FindsTheBestOfAllPosesOfTheWindow) {
     ASSERT_EQ(found.has_value(), best > window.min_score);
     if (found) {
       EXPECT_NEAR(found->score, best, 1e-12);
+    }
+  }
+}
+
+TEST(CorrelativeSearch, SeveralSearchesOfOneWindowFindWhatEachAloneWould) {
+  for (int seed = 0; seed < 10; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(static_cast<unsigned>(seed));
+    LikelihoodPyramid map;
+    const Points scan_m = AnyPoints(random, 60, 3.0);
+    for (const Eigen::Vector2d& p_m : scan_m) map.Insert(p_m, 1e-6);
+    SearchWindow window{
+        .predicted = {{}, AnyCovariance(random)}, .translation_m = 1.5, .rotation_rad = 0.1};
+    PoseSearch search(map, scan_m, window, {});
+    for (const double radius_m : {0.0, 0.2, 0.4, 0.8}) {
+      window.excluded = {.center_map_m = {0.0, 0.0}, .radius_m = radius_m};
+      const auto alone = SearchPose(map, scan_m, window, {});
+      const auto together = search.Best(window.min_score, window.excluded);
+      ASSERT_EQ(alone.has_value(), together.has_value());
+      if (alone) {
+        EXPECT_EQ(alone->score, together->score);
+      }
     }
   }
 }

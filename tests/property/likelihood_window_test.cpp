@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <random>
 #include <span>
 #include <vector>
@@ -35,8 +36,8 @@ class AnyWindow : public testing::TestWithParam<unsigned> {
     return {std::uniform_int_distribution<int>(kLow.x, kHigh.x)(random_),
             std::uniform_int_distribution<int>(kLow.y, kHigh.y)(random_)};
   }
-  static int At(const LikelihoodWindow& window, int level, GridCell cell) {
-    return level == 0 ? window.SumsOfBlock(std::span(&cell, 1), {0, 0}, 1).front()
+  static int At(LikelihoodWindow& window, int level, GridCell cell) {
+    return level == 0 ? window.SumsOfBlock(std::span(&cell, 1), {0, 0}).front()
                       : window.Bound(level, std::span(&cell, 1), {0, 0});
   }
 
@@ -45,7 +46,7 @@ class AnyWindow : public testing::TestWithParam<unsigned> {
 };
 
 TEST_P(AnyWindow, ReadsWhatThePyramidHolds) {
-  const LikelihoodWindow window = Window(LikelihoodPyramid::kUnmapped);
+  LikelihoodWindow window = Window(LikelihoodPyramid::kUnmapped);
   for (int level = 0; level < LikelihoodPyramid::kLevels; ++level) {
     for (int trial = 0; trial < 500; ++trial) {
       const GridCell cell = AnyCell();
@@ -55,12 +56,12 @@ TEST_P(AnyWindow, ReadsWhatThePyramidHolds) {
 }
 
 TEST_P(AnyWindow, SumsTheCellsMovedByEachOffsetOfABlock) {
-  const LikelihoodWindow window = Window(LikelihoodPyramid::kUnmapped);
+  LikelihoodWindow window = Window(LikelihoodPyramid::kUnmapped);
   std::vector<GridCell> cells;  // More than a sum of 16 bits would hold.
   for (int i = 0; i < 700; ++i) cells.push_back({(i * 7) % 50 - 25, (i * 11) % 40 - 20});
   const GridCell first{-3, 5};
   constexpr int kSide = LikelihoodWindow::kBlockSide;
-  const auto sums = window.SumsOfBlock(cells, first, kSide);
+  const auto sums = window.SumsOfBlock(cells, first);
   for (int y = 0; y < kSide; ++y) {
     for (int x = 0; x < kSide; ++x) {
       int expected = 0;
@@ -75,8 +76,39 @@ TEST_P(AnyWindow, SumsTheCellsMovedByEachOffsetOfABlock) {
   }
 }
 
+TEST_P(AnyWindow, BoundsPairsOfOffsetsAndSumsThem) {
+  LikelihoodWindow window = Window(LikelihoodPyramid::DriftCode(0.2));
+  std::vector<GridCell> cells;
+  for (int i = 0; i < 300; ++i) cells.push_back({(i * 7) % 50 - 25, (i * 11) % 40 - 20});
+  const GridCell first{-7, 3};
+  constexpr int kSide = LikelihoodWindow::kBlockSide;
+  constexpr int kPair = LikelihoodWindow::kPairSide;
+  const auto bounds = window.BoundsOfPairs(cells, first, {});
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const GridCell pair{first.x + i % kSide * kPair, first.y + i / kSide * kPair};
+    const auto sums = window.SumsOfPair(cells, pair);
+    const auto of_block = window.SumsOfBlock(cells, pair);
+    EXPECT_EQ(sums,
+              (std::array<int, 4>{of_block[0], of_block[1], of_block[kSide], of_block[kSide + 1]}));
+    EXPECT_LE(*std::ranges::max_element(sums), bounds[static_cast<std::size_t>(i)]);
+  }
+}
+
+TEST_P(AnyWindow, GivesUpOnlyWhereNoSumReachesWhatIsNeeded) {
+  LikelihoodWindow window = Window(LikelihoodPyramid::kUnmapped);
+  std::vector<GridCell> cells;
+  for (int i = 0; i < 300; ++i) cells.push_back({(i * 7) % 50 - 25, (i * 11) % 40 - 20});
+  const GridCell first{-3, 5};
+  const auto sums = window.SumsOfBlock(cells, first);
+  const int largest = *std::ranges::max_element(sums);
+  const int bound = window.Bound(LikelihoodWindow::kBlockLevel, cells, first);
+  EXPECT_EQ(window.SumsOfBlock(cells, first, {.bound = bound, .needed = largest}), sums);
+  const auto fewer = window.SumsOfBlock(cells, first, {.bound = bound, .needed = largest + 1});
+  EXPECT_LE(*std::ranges::max_element(fewer), largest);
+}
+
 TEST_P(AnyWindow, BoundsWhatABeamMovedWithinACellMeetsAmongSurfacesOfLittleDrift) {
-  const LikelihoodWindow window = Window(LikelihoodPyramid::DriftCode(0.2));
+  LikelihoodWindow window = Window(LikelihoodPyramid::DriftCode(0.2));
   for (int trial = 0; trial < 500; ++trial) {
     const GridCell cell = AnyCell();
     for (int level = 1; level < LikelihoodPyramid::kLevels; ++level) {
@@ -95,7 +127,7 @@ TEST_P(AnyWindow, ForgetsSurfacesOfMuchDrift) {
   LikelihoodPyramid pyramid;
   pyramid.Insert({0.0, 0.0}, 0.01);
   pyramid.Insert({2.0, 0.0}, 0.5);
-  const LikelihoodWindow window(pyramid, kLow, kHigh, LikelihoodPyramid::DriftCode(0.1));
+  LikelihoodWindow window(pyramid, kLow, kHigh, LikelihoodPyramid::DriftCode(0.1));
   EXPECT_GT(At(window, 0, {pyramid.CellIndex(0.0), 0}), 0);
   EXPECT_EQ(At(window, 0, {pyramid.CellIndex(2.0), 0}), 0);
 }

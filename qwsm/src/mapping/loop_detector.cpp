@@ -106,27 +106,24 @@ struct Attempt {
     const LoopClosureOptions& closure = options.loop_closure;
     const std::vector<Eigen::Vector2d> submap_robot_m = PositionsOf(submap);
     const UncertainPose2 inflated = estimated.Inflated(closure.sigma_inflation);
-    SearchWindow window{
+    const SearchWindow window{
         .predicted = inflated,
         .translation_m = std::min(closure.max_window_m, closure.window_sigmas * drift_m),
         .rotation_rad =
             std::min(closure.max_window_rad, closure.window_sigmas * inflated.SigmaTheta_rad()),
-        .min_score = closure.min_score,
         .max_drift_code = LikelihoodPyramid::DriftCode(max_drift_m2)};
-    const auto search = [&] {
-      return SearchPose(map.likelihood(), submap_robot_m, window, closure.search);
-    };
-    const auto best = search();
+    PoseSearch search(map.likelihood(), submap_robot_m, window, closure.search);
+    const auto best = search.Best(closure.min_score);
     if (!best) return {};
     if (Distance_m(estimated.T_a_b, best->T_map_robot) < kSamePlace_m) return {};
     std::vector<Pose2> candidates = {best->T_map_robot};
-    window.exclude = best->T_map_robot;
-    window.min_score = best->score - closure.uniqueness;
+    const double rival_score = best->score - closure.uniqueness;
+    ExcludedDisk around_best{.center_map_m = best->T_map_robot.translation_m()};
     // About a single clump of trees many poses next to one another fit; another clump is further
     // away.
     for (double apart_m = kSamePlace_m; apart_m < 2.0 * window.translation_m; apart_m *= 2.0) {
-      window.exclude_m = apart_m;
-      const auto rival = search();
+      around_best.radius_m = apart_m;
+      const auto rival = search.Best(rival_score, around_best);
       if (!rival) break;
       candidates.push_back(rival->T_map_robot);
     }

@@ -76,7 +76,11 @@ MatchResult ScanLocator::Locate(const ScanMap& map,
   if (fits(full, options_.widen_below_overlap)) return full;
 
   const UncertainPose2 inflated = predicted.Inflated(options_.widen_factor);
-  const MatchResult wide = task.Match(task.Search(inflated, sigmas), inflated);
+  // No pose scores less when the prediction counts less: the best one scores as much, or more.
+  constexpr double kRounding = 1e-9;
+  const auto& best = better ? better : near;
+  const double known_score = best ? std::max(0.0, best->score - kRounding) : 0.0;
+  const MatchResult wide = task.Match(task.Search(inflated, sigmas, known_score), inflated);
   return wide.overlap > full.overlap + options_.widen_gain ? wide : full;
 }
 

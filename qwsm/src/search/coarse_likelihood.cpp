@@ -42,7 +42,9 @@ CoarseLikelihood::CoarseLikelihood(const LikelihoodPyramid& map, const Eigen::Al
   const std::vector<const LikelihoodTile*> found = map.FindTiles(first, tiles);
   auto tile = found.begin();
   for (int row = 0; row < tiles.y; ++row) {
-    for (int column = 0; column < tiles.x; ++column, ++tile) Raise(**tile, {column, row});
+    for (int column = 0; column < tiles.x; ++column, ++tile) {
+      if (*tile != nullptr) Raise(**tile, {column, row});
+    }
   }
   for (int level = 1; level < kLevels; ++level) planes_.push_back(Coarsened(planes_.back(), level));
 }

@@ -107,16 +107,15 @@ LikelihoodTile& LikelihoodPyramid::TileAt(int column, int row) {
   return tiles_[tile];
 }
 
-const LikelihoodTile& LikelihoodPyramid::FindTile(int column, int row) const {
+const LikelihoodTile* LikelihoodPyramid::FindTile(int column, int row) const {
   const auto entry = directory_.find(Key(column, row));
   return TileOf(entry == directory_.end() ? nullptr : &entry->second, column, row);
 }
 
 // @param block that of the tile, if there is one.
-const LikelihoodTile& LikelihoodPyramid::TileOf(const Block* block, int column, int row) const {
-  static const Tile kEmpty;
+const LikelihoodTile* LikelihoodPyramid::TileOf(const Block* block, int column, int row) const {
   const std::uint32_t tile = block == nullptr ? Block::kNone : block->At(column, row);
-  return tile == Block::kNone ? kEmpty : tiles_[tile];
+  return tile == Block::kNone ? nullptr : &tiles_[tile];
 }
 
 std::vector<const LikelihoodTile*> LikelihoodPyramid::FindTiles(GridCell first,
@@ -131,20 +130,22 @@ std::vector<const LikelihoodTile*> LikelihoodPyramid::FindTiles(GridCell first,
         const auto entry = directory_.find(Key(column, row));
         block = entry == directory_.end() ? nullptr : &entry->second;
       }
-      tiles.push_back(&TileOf(block, column, row));
+      tiles.push_back(TileOf(block, column, row));
     }
   }
   return tiles;
 }
 
 std::uint8_t LikelihoodPyramid::LikelihoodAt(int level, int x, int y) const {
-  return FindTile(x >> Tile::kBits, y >> Tile::kBits)
-      .likelihoods(level)[OffsetInTile(Tile::ShiftOf(level), x, y)];
+  const Tile* tile = FindTile(x >> Tile::kBits, y >> Tile::kBits);
+  if (tile == nullptr) return 0;
+  return tile->likelihoods(level)[OffsetInTile(Tile::ShiftOf(level), x, y)];
 }
 
 std::uint8_t LikelihoodPyramid::DriftCodeAt(int level, int x, int y) const {
-  return FindTile(x >> Tile::kBits, y >> Tile::kBits)
-      .drift_codes(level)[OffsetInTile(Tile::DriftShiftOf(level), x, y)];
+  const Tile* tile = FindTile(x >> Tile::kBits, y >> Tile::kBits);
+  if (tile == nullptr) return kUnmapped;
+  return tile->drift_codes(level)[OffsetInTile(Tile::DriftShiftOf(level), x, y)];
 }
 
 std::uint8_t LikelihoodPyramid::DriftCode(double drift_m2) {

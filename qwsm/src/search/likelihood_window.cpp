@@ -3,11 +3,108 @@
 #include "qwsm/search/likelihood_window.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
 
 namespace qwsm {
 namespace {
 
 using Tile = LikelihoodTile;
+
+constexpr int kSide = LikelihoodWindow::kBlockSide;
+
+// Every processor of the last twenty years adds eight sums at once.
+using RowOfSums = std::uint16_t __attribute__((vector_size(2 * kSide)));
+
+// Eight bytes as numbers of 16 bits: interleaved with zeros.
+RowOfSums Widened(const std::uint8_t* row) {
+  using Bytes = std::uint8_t __attribute__((vector_size(2 * kSide)));
+  using Words = std::uint64_t __attribute__((vector_size(2 * kSide)));
+  static_assert(std::endian::native == std::endian::little);
+  std::uint64_t bytes = 0;
+  std::memcpy(&bytes, row, sizeof(bytes));
+  const auto low = std::bit_cast<Bytes>(Words{bytes, 0});
+  return std::bit_cast<RowOfSums>(__builtin_shufflevector(
+      low, Bytes{}, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23));
+}
+
+using SixteenBytes = std::uint8_t __attribute__((vector_size(16)));
+
+// Of each of sixteen cells from one on, the maximum over it, the two beside it, and those below.
+SixteenBytes MaximumOfThreeByThree(const std::uint8_t* cell, int stride) {
+  SixteenBytes maximum{};
+  for (int y = 0; y < 3; ++y, cell += stride) {
+    for (int x = 0; x < 3; ++x) {
+      SixteenBytes moved;
+      std::memcpy(&moved, cell + x, sizeof(moved));
+      maximum = maximum < moved ? moved : maximum;
+    }
+  }
+  return maximum;
+}
+
+// The sums of up to kMostSummands blocks of bytes: no more fit 16 bits.
+class ShortSums {
+ public:
+  static constexpr std::size_t kMostSummands = 256;
+
+  // Adds a block of which the first row is at `row`.
+  void Add(const std::uint8_t* row, int stride) {
+    for (RowOfSums& sums : rows_) {
+      sums += Widened(row);
+      row += stride;
+    }
+  }
+
+  // None is larger.
+  int Largest() const {
+    RowOfSums largest = rows_.front();
+    for (const RowOfSums& sums : rows_) largest = largest < sums ? sums : largest;
+    int value = 0;
+    for (int column = 0; column < kSide; ++column) value = std::max<int>(value, largest[column]);
+    return value;
+  }
+
+  void AddTo(LikelihoodWindow::BlockSums& sums) const {
+    auto sum = sums.begin();
+    for (const RowOfSums& row : rows_) {
+      for (int column = 0; column < kSide; ++column) *sum++ += row[column];
+    }
+  }
+
+ private:
+  std::array<RowOfSums, kSide> rows_{};
+};
+
+// Sums what `add` adds for each cell, while some sum can still be what is hoped.
+// @param bound_of of some cells, what none of their sums exceeds.
+template <class Add, class BoundOf>
+LikelihoodWindow::BlockSums SumWhileHopeful(std::span<const GridCell> cells,
+                                            const LikelihoodWindow::Hope& hope,
+                                            Add add,
+                                            BoundOf bound_of) {
+  constexpr std::size_t kAtATime = 32;  // Cells after which to ask whether to go on.
+  static_assert(ShortSums::kMostSummands % kAtATime == 0);
+  int rest = hope.bound;  // Of the cells that are not summed yet.
+  int largest = 0;        // Of the sums.
+  LikelihoodWindow::BlockSums sums{};
+  while (!cells.empty()) {
+    ShortSums of_next;
+    for (std::size_t summands = 0; summands < ShortSums::kMostSummands && !cells.empty();) {
+      const auto next = cells.first(std::min(cells.size(), kAtATime));
+      cells = cells.subspan(next.size());
+      summands += next.size();
+      for (const GridCell& cell : next) add(cell, of_next);
+      if (hope.needed <= 0 || cells.empty()) continue;
+      rest -= bound_of(next);
+      if (largest + of_next.Largest() + rest < hope.needed) return sums;
+    }
+    of_next.AddTo(sums);
+    largest = *std::ranges::max_element(sums);
+  }
+  return sums;
+}
 
 }  // namespace
 
@@ -15,74 +112,91 @@ LikelihoodWindow::LikelihoodWindow(const LikelihoodPyramid& pyramid,
                                    GridCell low,
                                    GridCell high,
                                    std::uint8_t max_drift_code)
-    : first_tile_{low.x >> Tile::kBits, low.y >> Tile::kBits},
+    : max_drift_code_(max_drift_code),
+      first_tile_{low.x >> Tile::kBits, low.y >> Tile::kBits},
       size_{(high.x >> Tile::kBits) - first_tile_.x + 1,
-            (high.y >> Tile::kBits) - first_tile_.y + 1} {
-  const std::vector<const Tile*> tiles = pyramid.FindTiles(first_tile_, size_);
-  for (int level = 0; level < Tile::kLevels; ++level) {
-    planes_.emplace_back(Tile::kSide >> Tile::ShiftOf(level), size_);
-    ForEachTile(tiles, [&](const Tile& tile, GridCell at) {
-      planes_.back().Place(tile.likelihoods(level), at);
-    });
-  }
-  if (max_drift_code != LikelihoodPyramid::kUnmapped) ForgetDrifted(tiles, max_drift_code);
+            (high.y >> Tile::kBits) - first_tile_.y + 1},
+      tiles_(pyramid.FindTiles(first_tile_, {size_.x + 2, size_.y + 2})),
+      known_(tiles_.size()) {
+  FillPlanes();
+}
+
+LikelihoodWindow::BlockSums LikelihoodWindow::BoundsOfBlocks(int level,
+                                                             std::span<const GridCell> cells,
+                                                             GridCell offset) const {
+  const Plane& plane = PlaneOf(level);
+  const int shift = Tile::ShiftOf(level);
+  const int x = offset.x - first_tile_.x * Tile::kSide;
+  const int y = offset.y - first_tile_.y * Tile::kSide;
+  return SumWhileHopeful(
+      cells,
+      {},
+      [&](const GridCell& cell, ShortSums& sums) {
+        sums.Add(&plane.At((cell.x + x) >> shift, (cell.y + y) >> shift), plane.width);
+      },
+      [](std::span<const GridCell>) { return 0; });
 }
 
 LikelihoodWindow::BlockSums LikelihoodWindow::SumsOfBlock(std::span<const GridCell> cells,
                                                           GridCell offset,
-                                                          int rows) const {
-  constexpr std::size_t kAtATime = 256;  // So many likelihoods fit a sum of 16 bits.
-  const Plane& plane = planes_.front();
+                                                          const Hope& hope) {
   const int x = offset.x - first_tile_.x * Tile::kSide;
   const int y = offset.y - first_tile_.y * Tile::kSide;
-  BlockSums sums{};
-  while (!cells.empty()) {
-    const auto next = cells.first(std::min(cells.size(), kAtATime));
-    cells = cells.subspan(next.size());
-    std::array<std::uint16_t, std::tuple_size_v<BlockSums>> of_next{};
-    for (const GridCell& cell : next) {
-      const std::uint8_t* from = plane.RowAt(cell.x + x, cell.y + y);
-      for (int row = 0; row < rows; ++row, from += plane.width) {
-        std::uint16_t* const to = &of_next[static_cast<std::size_t>(row * kBlockSide)];
-        for (int column = 0; column < kBlockSide; ++column) to[column] += from[column];
-      }
-    }
-    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += of_next[i];
+  return SumWhileHopeful(
+      cells,
+      hope,
+      [&](const GridCell& cell, ShortSums& sums) {
+        sums.Add(FinestFrom(cell.x + x, cell.y + y), FinestReach::kSide);
+      },
+      [&](std::span<const GridCell> some) { return Bound(kBlockLevel, some, offset); });
+}
+
+LikelihoodWindow::BlockSums LikelihoodWindow::BoundsOfPairs(std::span<const GridCell> cells,
+                                                            GridCell offset,
+                                                            const Hope& hope) {
+  constexpr int kCoarsest = Tile::kLevels - 1;
+  static_assert(kPairSide * kBlockSide == 1 << Tile::ShiftOf(kCoarsest));
+  const int x = offset.x - first_tile_.x * Tile::kSide;
+  const int y = offset.y - first_tile_.y * Tile::kSide;
+  return SumWhileHopeful(
+      cells,
+      hope,
+      [&](const GridCell& cell, ShortSums& sums) {
+        sums.Add(PairsFrom(cell.x + x, cell.y + y), PairReach::kSide);
+      },
+      [&](std::span<const GridCell> some) { return Bound(kCoarsest, some, offset); });
+}
+
+std::array<int, 4> LikelihoodWindow::SumsOfPair(std::span<const GridCell> cells, GridCell offset) {
+  const int x = offset.x - first_tile_.x * Tile::kSide;
+  const int y = offset.y - first_tile_.y * Tile::kSide;
+  std::array<int, 4> sums{};
+  for (const GridCell& cell : cells) {
+    const std::uint8_t* above = FinestFrom(cell.x + x, cell.y + y);
+    const std::uint8_t* below = above + FinestReach::kSide;
+    sums[0] += above[0];
+    sums[1] += above[1];
+    sums[2] += below[0];
+    sums[3] += below[1];
   }
   return sums;
 }
 
-template <class Visit>
-void LikelihoodWindow::ForEachTile(std::span<const Tile* const> tiles, Visit visit) const {
-  auto tile = tiles.begin();
-  for (int row = 0; row < size_.y; ++row) {
-    for (int column = 0; column < size_.x; ++column, ++tile) visit(**tile, GridCell{column, row});
-  }
-}
-
-// Sets the likelihood of cells to 0 that no surface with little drift is in.
-void LikelihoodWindow::ForgetDrifted(std::span<const Tile* const> tiles,
-                                     std::uint8_t max_drift_code) {
-  for (int level = 0; level < Tile::kLevels; ++level) {
-    const int shift = Tile::ShiftOf(level);
-    const int drift_shift = Tile::DriftShiftOf(level);
-    Plane drift(Tile::kSide >> drift_shift, size_);
-    ForEachTile(tiles,
-                [&](const Tile& tile, GridCell at) { drift.Place(tile.drift_codes(level), at); });
-    // Drift cells that hold the level-0 cells a cell is the maximum over.
-    const auto first_of = [&](int cell) { return (cell << shift) >> drift_shift; };
-    const auto last_of = [&](int cell) {
-      return ((cell << shift) + (2 << shift) - 2) >> drift_shift;
-    };
-    Plane& plane = planes_[static_cast<std::size_t>(level)];
-    for (int y = 0; y < plane.height; ++y) {
-      for (int x = 0; x < plane.width; ++x) {
-        if (plane.At(x, y) == 0) continue;
-        const std::uint8_t smallest =
-            drift.Smallest({first_of(x), first_of(y)}, {last_of(x), last_of(y)});
-        if (smallest > max_drift_code) plane.At(x, y) = 0;
+void LikelihoodWindow::FillPlanes() {
+  const bool forgets = max_drift_code_ != LikelihoodPyramid::kUnmapped;
+  for (int level = 1; level < Tile::kLevels; ++level) {
+    const int side = Tile::kSide >> Tile::ShiftOf(level);
+    Plane& plane = planes_.emplace_back(side, size_, std::uint8_t{0});
+    Plane drift(side, forgets ? size_ : GridCell{}, LikelihoodPyramid::kUnmapped);
+    for (int row = 0; row < size_.y; ++row) {
+      auto tile = tiles_.begin() + row * (size_.x + 2);
+      for (int column = 0; column < size_.x; ++column, ++tile) {
+        if (*tile == nullptr) continue;
+        plane.Place((*tile)->likelihoods(level), {column, row});
+        if (forgets) drift.Place((*tile)->drift_codes(level), {column, row});
       }
     }
+    if (forgets) plane.ForgetWhere(drift, max_drift_code_);
   }
 }
 
@@ -93,14 +207,113 @@ void LikelihoodWindow::Plane::Place(const std::uint8_t* tile, GridCell at) {
   }
 }
 
-// Of the cells low .. high that the plane has.
-std::uint8_t LikelihoodWindow::Plane::Smallest(GridCell low, GridCell high) const {
-  std::uint8_t smallest = LikelihoodPyramid::kUnmapped;
-  for (int y = low.y; y <= std::min(high.y, height - 1); ++y) {
-    for (int x = low.x; x <= std::min(high.x, width - 1); ++x)
-      smallest = std::min(smallest, At(x, y));
+// Sets the likelihood of cells to 0 that no surface with little drift is in. A coarse cell is the
+// maximum over itself and most of the next one along each axis.
+void LikelihoodWindow::Plane::ForgetWhere(const Plane& drift, std::uint8_t max_drift_code) {
+  static_assert(Tile::DriftShiftOf(1) == Tile::ShiftOf(1));
+  static_assert(Tile::DriftShiftOf(2) == Tile::ShiftOf(2));
+  for (int y = 0; y < height; ++y) {
+    const std::uint8_t* of_row = &drift.At(0, y);
+    const std::uint8_t* of_next = &drift.At(0, y + 1);
+    std::uint8_t* likelihood = &At(0, y);
+    for (int x = 0; x < width - kBlockSide; ++x) {
+      const std::uint8_t smallest = std::min(std::min(of_row[x], of_row[x + 1]),  //
+                                             std::min(of_next[x], of_next[x + 1]));
+      likelihood[x] = smallest > max_drift_code ? std::uint8_t{0} : likelihood[x];
+    }
   }
-  return smallest;
+}
+
+// The finest cells of a tile and what is beside and below it.
+const LikelihoodWindow::FinestReach& LikelihoodWindow::MakeFinest(int column, int row) {
+  static const FinestReach kNothing;
+  if (IsEmptyAround(column, row)) return kNothing;
+  FinestReach& reach = finest_.emplace_back();
+  for (const int below : {0, 1}) {
+    for (const int right : {0, 1}) {
+      const GridCell tile_at{column + right, row + below};
+      Copy(tile_at, {right * Tile::kSide, below * Tile::kSide}, reach);
+    }
+  }
+  return reach;
+}
+
+bool LikelihoodWindow::IsEmptyAround(int column, int row) const {
+  const int last_column = std::min(column + 1, size_.x + 1);
+  const int last_row = std::min(row + 1, size_.y + 1);
+  for (int y = row; y <= last_row; ++y) {
+    for (int x = column; x <= last_column; ++x) {
+      if (tiles_[IndexOf(x, y)] != nullptr) return false;
+    }
+  }
+  return true;
+}
+
+// Copies as many of a tile's finest cells as fit.
+void LikelihoodWindow::Copy(GridCell tile_at, GridCell to, FinestReach& reach) {
+  if (tile_at.x >= size_.x + 2 || tile_at.y >= size_.y + 2) return;
+  const Tile* tile = tiles_[IndexOf(tile_at.x, tile_at.y)];
+  if (tile == nullptr) return;
+  if (max_drift_code_ != LikelihoodPyramid::kUnmapped) tile = &WithoutDrifted(*tile);
+  const std::uint8_t* from = tile->likelihoods(0);
+  const int rows = std::min(Tile::kSide, FinestReach::kSide - to.y);
+  for (int y = to.y; y < to.y + rows; ++y, from += Tile::kSide) {
+    to.x == 0 ? std::memcpy(reach.At(0, y), from, Tile::kSide)
+              : std::memcpy(reach.At(to.x, y), from, kSide);
+  }
+}
+
+// The pairs by pairs of cells of a tile and what is beside and below it.
+const LikelihoodWindow::PairReach& LikelihoodWindow::MakePairs(int column, int row) {
+  constexpr int kPairs = Tile::kSide / kPairSide;
+  PairReach& reach = OwnPairsOf(column, row);
+  Copy({column + 1, row}, {kPairs, 0}, reach);
+  Copy({column, row + 1}, {0, kPairs}, reach);
+  Copy({column + 1, row + 1}, {kPairs, kPairs}, reach);
+  return reach;
+}
+
+void LikelihoodWindow::Copy(GridCell tile_at, GridCell to, PairReach& reach) {
+  constexpr int kPairs = Tile::kSide / kPairSide;
+  const PairReach& from = OwnPairsOf(tile_at.x, tile_at.y);
+  const int rows = std::min(kPairs, PairReach::kSide - to.y);
+  for (int y = 0; y < rows; ++y) {
+    to.x == 0 ? std::memcpy(reach.At(0, to.y + y), from.At(0, y), kPairs)
+              : std::memcpy(reach.At(to.x, to.y + y), from.At(0, y), kSide);
+  }
+}
+
+// Those of the tile itself: the maximum of three cells along each axis.
+LikelihoodWindow::PairReach& LikelihoodWindow::OwnPairsOf(int column, int row) {
+  PairReach*& own = known_[IndexOf(column, row)].own_pairs;
+  if (own != nullptr) return *own;
+  const FinestReach& finest = FinestOf(column, row);
+  own = &pairs_.emplace_back();
+  for (int y = 0; y < Tile::kSide; y += kPairSide) {
+    const SixteenBytes left = MaximumOfThreeByThree(finest.At(0, y), FinestReach::kSide);
+    const SixteenBytes right = MaximumOfThreeByThree(finest.At(16, y), FinestReach::kSide);
+    const SixteenBytes every_other = __builtin_shufflevector(
+        left, right, 0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
+    std::memcpy(own->At(0, y / kPairSide), &every_other, sizeof(every_other));
+  }
+  return *own;
+}
+
+// The tile without what has drifted too much, until the next call.
+const Tile& LikelihoodWindow::WithoutDrifted(const Tile& tile) {
+  static_assert(Tile::DriftShiftOf(0) == 1);
+  constexpr int kPairs = Tile::kSide / 2;
+  kept_ = tile;
+  std::uint8_t* likelihood = kept_.likelihoods(0);
+  for (int y = 0; y < Tile::kSide; ++y, likelihood += Tile::kSide) {
+    const std::uint8_t* drift = tile.drift_codes(0) + (y / 2) * kPairs;
+    for (int i = 0; i < kPairs; ++i) {
+      const std::uint8_t kept = drift[i] > max_drift_code_ ? 0x00 : 0xff;
+      likelihood[2 * i] &= kept;
+      likelihood[2 * i + 1] &= kept;
+    }
+  }
+  return kept_;
 }
 
 }  // namespace qwsm

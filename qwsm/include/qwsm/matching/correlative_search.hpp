@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -37,14 +38,19 @@ void Describe(Visitor& visit, CorrelativeSearchOptions& o) {
          .max = 100});
 }
 
+/// Positions that a search leaves out.
+struct ExcludedDisk {
+  Eigen::Vector2d center_map_m = Eigen::Vector2d::Zero();
+  double radius_m = 0.0;  ///< Positions no further than that from the centre are left out.
+};
+
 /// Describes where to search for a pose.
 struct SearchWindow {
-  UncertainPose2 predicted;        ///< The prediction; poses cost the more sigmas they are away.
-  double translation_m = 0.0;      ///< Half the side of the square of positions.
-  double rotation_rad = 0.0;       ///< Half the range of headings.
-  double min_score = 0.0;          ///< Poses that score no better are not found.
-  std::optional<Pose2> exclude{};  ///< Positions no further than `exclude_m` from it are left out.
-  double exclude_m = 0.0;          ///< Radius around `exclude`.
+  UncertainPose2 predicted;    ///< The prediction; poses cost the more sigmas they are away.
+  double translation_m = 0.0;  ///< Half the side of the square of positions.
+  double rotation_rad = 0.0;   ///< Half the range of headings.
+  double min_score = 0.0;      ///< Poses that score no better are not found.
+  std::optional<ExcludedDisk> excluded{};
   /// Surfaces that drifted more do not count; see LikelihoodPyramid::DriftCode().
   std::uint8_t max_drift_code = LikelihoodPyramid::kUnmapped;
 };
@@ -66,5 +72,27 @@ std::optional<FoundPose> SearchPose(const LikelihoodPyramid& map,
                                     std::span<const Eigen::Vector2d> points_robot_m,
                                     const SearchWindow& window,
                                     const CorrelativeSearchOptions& options);
+
+/// Several searches of one window, which differ in what they leave out: what the first one learned
+/// about the window serves them all.
+class PoseSearch {
+ public:
+  /// Keeps references to tiles of the map, which must not change meanwhile. The arguments are those
+  /// of SearchPose().
+  PoseSearch(const LikelihoodPyramid& map,
+             std::span<const Eigen::Vector2d> points_robot_m,
+             const SearchWindow& window,
+             const CorrelativeSearchOptions& options);
+  PoseSearch(PoseSearch&&) noexcept;
+  PoseSearch& operator=(PoseSearch&&) noexcept;
+  ~PoseSearch();
+
+  /// The best pose of the window that scores above `min_score` and is not excluded.
+  std::optional<FoundPose> Best(double min_score, const std::optional<ExcludedDisk>& excluded = {});
+
+ private:
+  class BranchAndBound;
+  std::unique_ptr<BranchAndBound> search_;  // None where there are no points.
+};
 
 }  // namespace qwsm

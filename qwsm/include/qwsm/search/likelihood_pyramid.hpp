@@ -83,8 +83,8 @@ class LikelihoodPyramid {
   /// stored.
   std::uint8_t DriftCodeAt(int level, int x, int y) const;
   /// The tile of the level-0 cells column * kSide .. column * kSide + kSide - 1, and so for rows;
-  /// an empty one where nothing is stored. Valid until the next insertion.
-  const Tile& FindTile(int column, int row) const;
+  /// null where nothing is stored. Valid until the next insertion.
+  const Tile* FindTile(int column, int row) const;
   /// Finds the tiles of so many columns and rows from one on, row by row, as FindTile() does.
   std::vector<const Tile*> FindTiles(GridCell first, GridCell count) const;
 
@@ -134,7 +134,7 @@ class LikelihoodPyramid {
   }
   void Fill(double center_m, Profiles& profiles) const;
   Tile& TileAt(int column, int row);
-  const Tile& TileOf(const Block* block, int column, int row) const;
+  const Tile* TileOf(const Block* block, int column, int row) const;
   void Raise(Tile& tile, int level, GridCell first, std::uint8_t drift_code) const;
 
   LikelihoodPyramidOptions options_;
