@@ -36,7 +36,7 @@ void FiguresSink::Take(const TimedStep& timed) {
        .status = timed.step.status,
        .residual_mm = timed.step.match.mean_residual_m * 1e3,
        .trace_m2 = PositionTrace_m2(timed.step.match),
-       .duration_ms = std::chrono::duration<double, std::milli>(timed.duration).count()});
+       .duration_ms = std::chrono::duration<double, std::milli>(timed.worked).count()});
 }
 
 std::vector<double> FiguresSink::Residuals_mm() const {

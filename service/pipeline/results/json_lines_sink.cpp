@@ -30,6 +30,7 @@ void JsonLinesSink::Take(const TimedStep& timed) {
   json["trace"] = PositionTrace_m2(step.match);
   json["iterations"] = step.match.iterations;
   json["ms"] = std::chrono::duration<double, std::milli>(timed.duration).count();
+  json["cpu_ms"] = std::chrono::duration<double, std::milli>(timed.worked).count();
   const std::string line = json.Line();
   const bool complete = std::fwrite(line.data(), 1, line.size(), stream_) == line.size();
   if (!complete || std::fflush(stream_) != 0) {

@@ -13,7 +13,7 @@ namespace qwsm::pipeline {
 
 void RunStatistics::Take(const TimedStep& timed) {
   const MappingStep& step = timed.step;
-  const double time_ms = std::chrono::duration<double, std::milli>(timed.duration).count();
+  const double time_ms = std::chrono::duration<double, std::milli>(timed.worked).count();
   if (scans() == 0) first_ = step.stamp;
   last_ = step.stamp;
   durations_ms_.Add(time_ms);

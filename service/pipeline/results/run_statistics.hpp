@@ -14,7 +14,7 @@
 
 namespace qwsm::pipeline {
 
-/// Adds up what a run was like.
+/// Adds up what a run was like. Times are processor times.
 class RunStatistics final : public StepSink {
  public:
   void Take(const TimedStep& timed) override;

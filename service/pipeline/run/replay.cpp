@@ -6,15 +6,18 @@
 #include <optional>
 
 #include "qwsm/logs/log_reader.hpp"
+#include "service/pipeline/run/thread_time.hpp"
 
 namespace qwsm::pipeline {
 namespace {
 
 void Feed(const Observation& observation, const MappingRun& run) {
   const auto start = std::chrono::steady_clock::now();
+  const std::chrono::nanoseconds worked_before = WorkedByThread();
   TimedStep timed{.step = run.answer(observation),
                   .T_odom_robot = observation.T_odom_robot,
                   .scan = &observation.scan};
+  timed.worked = WorkedByThread() - worked_before;
   timed.duration = std::chrono::steady_clock::now() - start;
   for (StepSink* sink : run.sinks) sink->Take(timed);
 }

@@ -13,6 +13,7 @@ namespace qwsm::pipeline {
 struct TimedStep {
   MappingStep step;
   std::chrono::nanoseconds duration{};
+  std::chrono::nanoseconds worked{};  ///< Of that, processor time: what a quiet machine would take.
   std::optional<Pose2> T_odom_robot{};  ///< Odometry that the mapper was given.
   /// The scan, for as long as StepSink::Take() runs; none where the answer was held back.
   const LaserScan* scan = nullptr;

@@ -79,9 +79,12 @@ TeamResults::TeamResults(const ResultsFolder& folder, const OccupancyGridOptions
 TeamResults::~TeamResults() = default;
 
 void TeamResults::TakeAnswer(const team::RobotAnswer& answer) {
+  // What a worker of the service worked of that time is not measured.
   ResultsOf(answer.robot)
-      .Take(
-          {.step = answer.step, .duration = answer.matching, .T_odom_robot = answer.T_odom_robot});
+      .Take({.step = answer.step,
+             .duration = answer.matching,
+             .worked = answer.matching,
+             .T_odom_robot = answer.T_odom_robot});
 }
 
 TeamResults::RobotResults& TeamResults::ResultsOf(const std::string& robot) {
