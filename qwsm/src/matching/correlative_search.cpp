@@ -63,7 +63,9 @@ class PoseSearch::BranchAndBound {
           likelihoods_.Bound(LikelihoodWindow::kBlockLevel, ends_.At(heading), {block.x, block.y});
       if (bound / Full() - cost <= floor_) return;
       const auto sums = likelihoods_.SumsOfBlock(
-          ends_.At(heading), {block.x, block.y}, {.bound = bound, .needed = NeededSum(cost)});
+          ends_.At(heading),
+          {block.x, block.y},
+          {.bound = bound, .needed = NeededSum(cost), .rows = 2 * offsets_.reach + 1});
       TryAll(block, sums);
     });
   }
@@ -191,7 +193,8 @@ class PoseSearch::BranchAndBound {
 
   // Between the cells, by parabolas through the best one and its neighbours along x and y.
   Pose2 Refined(const SearchBlock& best) {
-    const auto sums = likelihoods_.SumsOfBlock(ends_.At(best.heading), {best.x - 1, best.y - 1});
+    const auto sums =
+        likelihoods_.SumsOfBlock(ends_.At(best.heading), {best.x - 1, best.y - 1}, {.rows = 3});
     const auto sum_beside = [&sums](int x, int y) {
       return sums[static_cast<std::size_t>((y + 1) * LikelihoodWindow::kBlockSide + x + 1)];
     };

@@ -44,7 +44,8 @@ SixteenBytes MaximumOfThreeByThree(const std::uint8_t* cell, int stride) {
   return maximum;
 }
 
-// The sums of up to kMostSummands blocks of bytes: no more fit 16 bits.
+// The sums of up to kMostSummands blocks of bytes, of so many rows each: no more fit 16 bits.
+template <int kRows = kSide>
 class ShortSums {
  public:
   static constexpr std::size_t kMostSummands = 256;
@@ -74,24 +75,24 @@ class ShortSums {
   }
 
  private:
-  std::array<RowOfSums, kSide> rows_{};
+  std::array<RowOfSums, kRows> rows_{};
 };
 
 // Sums what `add` adds for each cell, while some sum can still be what is hoped.
 // @param bound_of of some cells, what none of their sums exceeds.
-template <class Add, class BoundOf>
+template <int kRows = kSide, class Add, class BoundOf>
 LikelihoodWindow::BlockSums SumWhileHopeful(std::span<const GridCell> cells,
                                             const LikelihoodWindow::Hope& hope,
                                             Add add,
                                             BoundOf bound_of) {
   constexpr std::size_t kAtATime = 32;  // Cells after which to ask whether to go on.
-  static_assert(ShortSums::kMostSummands % kAtATime == 0);
+  static_assert(ShortSums<>::kMostSummands % kAtATime == 0);
   int rest = hope.bound;  // Of the cells that are not summed yet.
   int largest = 0;        // Of the sums.
   LikelihoodWindow::BlockSums sums{};
   while (!cells.empty()) {
-    ShortSums of_next;
-    for (std::size_t summands = 0; summands < ShortSums::kMostSummands && !cells.empty();) {
+    ShortSums<kRows> of_next;
+    for (std::size_t summands = 0; summands < ShortSums<>::kMostSummands && !cells.empty();) {
       const auto next = cells.first(std::min(cells.size(), kAtATime));
       cells = cells.subspan(next.size());
       summands += next.size();
@@ -131,7 +132,7 @@ LikelihoodWindow::BlockSums LikelihoodWindow::BoundsOfBlocks(int level,
   return SumWhileHopeful(
       cells,
       {},
-      [&](const GridCell& cell, ShortSums& sums) {
+      [&](const GridCell& cell, ShortSums<>& sums) {
         sums.Add(&plane.At((cell.x + x) >> shift, (cell.y + y) >> shift), plane.width);
       },
       [](std::span<const GridCell>) { return 0; });
@@ -142,13 +143,14 @@ LikelihoodWindow::BlockSums LikelihoodWindow::SumsOfBlock(std::span<const GridCe
                                                           const Hope& hope) {
   const int x = offset.x - first_tile_.x * Tile::kSide;
   const int y = offset.y - first_tile_.y * Tile::kSide;
-  return SumWhileHopeful(
-      cells,
-      hope,
-      [&](const GridCell& cell, ShortSums& sums) {
-        sums.Add(FinestFrom(cell.x + x, cell.y + y), FinestReach::kSide);
-      },
-      [&](std::span<const GridCell> some) { return Bound(kBlockLevel, some, offset); });
+  const auto add = [&](const GridCell& cell, auto& sums) {
+    sums.Add(FinestFrom(cell.x + x, cell.y + y), FinestReach::kSide);
+  };
+  const auto bound_of = [&](std::span<const GridCell> some) {
+    return Bound(kBlockLevel, some, offset);
+  };
+  return hope.rows > kSide / 2 ? SumWhileHopeful(cells, hope, add, bound_of)
+                               : SumWhileHopeful<kSide / 2>(cells, hope, add, bound_of);
 }
 
 LikelihoodWindow::BlockSums LikelihoodWindow::BoundsOfPairs(std::span<const GridCell> cells,
@@ -161,7 +163,7 @@ LikelihoodWindow::BlockSums LikelihoodWindow::BoundsOfPairs(std::span<const Grid
   return SumWhileHopeful(
       cells,
       hope,
-      [&](const GridCell& cell, ShortSums& sums) {
+      [&](const GridCell& cell, ShortSums<>& sums) {
         sums.Add(PairsFrom(cell.x + x, cell.y + y), PairReach::kSide);
       },
       [&](std::span<const GridCell> some) { return Bound(kCoarsest, some, offset); });

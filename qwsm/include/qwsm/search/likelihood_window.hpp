@@ -53,8 +53,9 @@ class LikelihoodWindow {
 
   /// What a search hopes of sums.
   struct Hope {
-    int bound = 0;   ///< None of them is larger.
-    int needed = 0;  ///< If none reaches it, all may be told lower than they are.
+    int bound = 0;          ///< None of them is larger.
+    int needed = 0;         ///< If none reaches it, all may be told lower than they are.
+    int rows = kBlockSide;  ///< So many rows are wanted; others may be told as 0.
   };
   /// Sums of the likelihoods of cells moved by each offset of a block that begins at one, row by
   /// row. Offsets of the block may lead beyond the window; their sums say nothing.
