@@ -16,6 +16,7 @@
 #include "service/pipeline/team/team_results.hpp"
 #include "service/pipeline/text/messages.hpp"
 #include "service/team/service/team_service.hpp"
+#include "service/view/live_view.hpp"
 
 namespace qwsm::apps {
 namespace {
@@ -35,7 +36,9 @@ class TeamServer {
         service_({.team = options.team, .mapper = options.mapper, .rendering = options.rendering},
                  Sinks(),
                  arguments.journal),
-        inbox_(participant_, arguments.robots, service_, {&outbox_}, refusals_) {}
+        inbox_(participant_, arguments.robots, service_, {&outbox_}, refusals_) {
+    if (arguments.view) ShowIn(options.view);
+  }
 
   void Run(const pipeline::Interruption& interruption) {
     Serve(Serving{service_, inbox_, results_.get()}, interruption);
@@ -43,6 +46,14 @@ class TeamServer {
   team::TeamStatus Status() const { return service_.Status(); }
 
  private:
+  void ShowIn(const view::ViewOptions& options) {
+    view_ = std::make_unique<view::LiveView>(
+        participant_, graph_, options, "qwsm " + service_.identity(), [](const std::string& text) {
+          messages::Warn(text);
+        });
+    messages::Info("look at {}", view_->url());
+  }
+
   // Files before topics: who hears of an answer finds it on disk.
   std::vector<team::TeamSink*> Sinks() {
     std::vector<team::TeamSink*> sinks{&log_, &outbox_, &map_outbox_};
@@ -59,6 +70,7 @@ class TeamServer {
   std::unique_ptr<pipeline::TeamResults> results_;
   team::TeamService service_;
   dds::TeamInbox inbox_;
+  std::unique_ptr<view::LiveView> view_;  // Null where nobody wants to look.
 };
 
 }  // namespace
@@ -70,6 +82,7 @@ Command AddServeCommand(CLI::App& program) {
        .examples = "  qwsm serve                        for whoever publishes scans, until Ctrl-C\n"
                    "  qwsm serve --output run-7         and leave paths and map there\n"
                    "  qwsm serve --journal team.db      and have the map back when started again\n"
+                   "  qwsm serve --view                 and be seen at http://localhost:8765/\n"
                    "  ROS_DOMAIN_ID=7 qwsm serve        in another DDS domain",
        .run = RunServe<TeamServer, options::ProgramOptions>});
 }

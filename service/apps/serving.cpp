@@ -22,6 +22,7 @@ Command AddServeCommand(CLI::App& program, const ServeCommand& serve) {
   parser->add_flag("--force", arguments->force, "write into a folder that holds other things");
   parser->add_option("--journal", arguments->journal, "where the map's scans are kept for restarts")
       ->type_name("FILE");
+  parser->add_flag("--view", arguments->view, "show it all in a browser: see the address it tells");
   AddNetworkArguments(*parser, arguments->network, "messages as JSON, one object a line");
   return {.parser = parser, .run = [arguments, run = serve.run] { return run(*arguments); }};
 }

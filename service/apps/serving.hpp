@@ -27,6 +27,7 @@ struct ServeArguments {
   std::optional<std::filesystem::path> output;
   std::filesystem::path journal;
   bool force = false;
+  bool view = false;
   NetworkArguments network;
 };
 

@@ -10,6 +10,7 @@
 #include "service/config/describe.hpp"
 #include "service/dds/entities/network_options.hpp"
 #include "service/team/service/team_options.hpp"
+#include "service/view/view_options.hpp"
 
 namespace qwsm::options {
 
@@ -71,6 +72,7 @@ struct ProgramOptions {
   OccupancyGridOptions rendering;
   dds::NetworkOptions network;
   team::TeamOptions team;
+  view::ViewOptions view;
 };
 
 template <class Visitor>
@@ -81,6 +83,7 @@ void Describe(Visitor& visit, ProgramOptions& o) {
   visit("rendering", o.rendering, {.help = "the occupancy map that is drawn of the result"});
   visit("network", o.network, {.help = "DDS, by which robots and services talk"});
   visit("team", o.team, {.help = "the service for robots on the network"});
+  visit("view", o.view, {.help = "the page of 'qwsm serve --view'"});
 }
 
 }  // namespace qwsm::options

@@ -5,6 +5,7 @@
     service/apps                       composition
     service/pipeline                   sources and sinks
     service/options                    what can be configured of the programs
+    service/view                       the network in browsers
     service/dds                        the network
     service/team                       sessions, queues, threads, the shared map
     service/config  service/io  service/graph
@@ -30,9 +31,12 @@ MAY_USE = {
     "service/graph": {"slam6d"},
     "service/dds": {"qwsm", "slam6d", "idl", "service/team"},
     "service/team": {"qwsm", "slam6d", "service/io"},
-    "service/options": LIBRARIES | BORDER | {"service/team"},
-    "service/pipeline": LIBRARIES | BORDER | {"service/options", "service/team"},
-    "service/apps": LIBRARIES | BORDER | {"service/options", "service/team", "service/pipeline"},
+    "service/view": {"qwsm", "service/io", "service/dds"},
+    "service/options": LIBRARIES | BORDER | {"service/team", "service/view"},
+    "service/pipeline": LIBRARIES | BORDER | {"service/options", "service/team", "service/view"},
+    "service/apps": LIBRARIES | BORDER | {
+        "service/options", "service/team", "service/view", "service/pipeline"
+    },
 }
 
 # Third-party library: how its headers are recognised, and the layers that may include it.
@@ -45,12 +49,12 @@ THIRD_PARTY = {
     "libpng": (r"png\.h", {"service/io"}),
     "libtiff": (r"tiff", {"service/io"}),
     "Ceres": (r"ceres/", {"service/graph"}),
-    "Boost": (r"boost/", {"service/io"}),
+    "Boost": (r"boost/", {"service/io", "service/view"}),
     "zstd": (r"zstd\.h", {"service/io"}),
     "LZ4": (r"lz4frame\.h", {"service/io"}),
     "bzip2": (r"bzlib\.h", {"service/io"}),
     "SQLite": (r"sqlite3\.h", {"service/io"}),
-    "nlohmann-json": (r"nlohmann/", {"service/pipeline"}),
+    "nlohmann-json": (r"nlohmann/", {"service/pipeline", "service/view"}),
     "Cyclone DDS": (r"dds/(dds\.h|dds[a-z]*/)", {"service/dds", "idl"}),
     "fmt": (r"fmt/", {layer for layer in MAY_USE if layer.startswith("service/")}),
     "spdlog": (r"spdlog/", {"service/pipeline", "service/apps"}),

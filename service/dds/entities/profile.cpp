@@ -35,6 +35,8 @@ constexpr Terms TermsOf(Profile profile) {
     case Profile::kStaticTransforms:
       return {.reliable = true, .latched = true, .depth = 100};
     case Profile::kSharedScans:
+    case Profile::kSharedScansIn:
+    case Profile::kSharedScansOfOthers:
       return {.reliable = true, .latched = true, .depth = kAllSharedScans};
   }
   return {};
@@ -61,8 +63,9 @@ Qos QosOf(Profile profile) {
                                 DDS_LENGTH_UNLIMITED);
   }
   // A service knows its own scans.
-  if (profile == Profile::kSharedScans)
+  if (profile == Profile::kSharedScansOfOthers) {
     dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
+  }
   return qos;
 }
 

@@ -21,8 +21,10 @@ enum class Profile {
   kTransforms,     ///< Writes /tf.
   kStaticTransforms,  ///< Reads /tf_static: what everybody has said, also before the reader came.
   kStaticTransformsOut,
-  /// Reads and writes relevant scans: all there ever were, for services that come later.
+  /// Writes relevant scans: all there ever were, for services that come later.
   kSharedScans,
+  kSharedScansIn,        ///< Reads all relevant scans.
+  kSharedScansOfOthers,  ///< Reads the relevant scans of other participants.
 };
 
 using Qos = std::unique_ptr<dds_qos, void (*)(dds_qos*)>;

@@ -25,6 +25,11 @@ bool OffersReliability(const dds_qos_t* qos) {
   return dds_qget_reliability(qos, &kind, &longest_wait) && kind == DDS_RELIABILITY_RELIABLE;
 }
 
+bool KeepsSamples(const dds_qos_t* qos) {
+  dds_durability_kind_t kind = DDS_DURABILITY_VOLATILE;
+  return dds_qget_durability(qos, &kind) && kind != DDS_DURABILITY_VOLATILE;
+}
+
 void Tell(const dds_builtintopic_endpoint_t& endpoint,
           bool is_alive,
           const std::function<void(const Publication&)>& take) {
@@ -40,6 +45,7 @@ void Tell(const dds_builtintopic_endpoint_t& endpoint,
   publication.topic = endpoint.topic_name;
   publication.type = endpoint.type_name;
   publication.is_reliable = OffersReliability(endpoint.qos);
+  publication.is_latched = KeepsSamples(endpoint.qos);
   take(publication);
 }
 

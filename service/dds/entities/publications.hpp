@@ -20,6 +20,7 @@ struct Publication {
   std::string_view type{};
   std::string_view user_data{};
   bool is_reliable = false;
+  bool is_latched = false;  ///< What was written is kept for readers that come later.
 };
 
 /// Finds out who publishes what in the domain.

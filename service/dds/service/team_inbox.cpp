@@ -15,7 +15,7 @@ TeamInbox::TeamInbox(const Participant& participant,
                      Refusals& refusals)
     : service_(service),
       refusals_(refusals),
-      shared_scans_(participant, kSharedScansTopic, Profile::kSharedScans),
+      shared_scans_(participant, kSharedScansTopic, Profile::kSharedScansOfOthers),
       robots_(participant, robots, service.robots(), std::move(topics), refusals) {
   robots_.wait_set().Add(shared_scans_.handle());
 }

@@ -46,6 +46,42 @@ constexpr std::array kDefinitions{
           "std_msgs/Header header\nfloat32 angle_min\nfloat32 angle_max\n"
           "float32 angle_increment\nfloat32 time_increment\nfloat32 scan_time\n"
           "float32 range_min\nfloat32 range_max\nfloat32[] ranges\nfloat32[] intensities\n"},
+    Entry{"sensor_msgs/PointField",
+          "uint8 INT8=1\nuint8 UINT8=2\nuint8 INT16=3\nuint8 UINT16=4\nuint8 INT32=5\n"
+          "uint8 UINT32=6\nuint8 FLOAT32=7\nuint8 FLOAT64=8\n"
+          "string name\nuint32 offset\nuint8 datatype\nuint32 count\n"},
+    Entry{"sensor_msgs/PointCloud2",
+          "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\n"
+          "bool is_bigendian\nuint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n"},
+    Entry{"geometry_msgs/PoseStamped", "std_msgs/Header header\ngeometry_msgs/Pose pose\n"},
+    Entry{"nav_msgs/Path", "std_msgs/Header header\ngeometry_msgs/PoseStamped[] poses\n"},
+    Entry{"diagnostic_msgs/KeyValue", "string key\nstring value\n"},
+    Entry{"diagnostic_msgs/DiagnosticStatus",
+          "byte OK=0\nbyte WARN=1\nbyte ERROR=2\nbyte STALE=3\n"
+          "byte level\nstring name\nstring message\nstring hardware_id\n"
+          "diagnostic_msgs/KeyValue[] values\n"},
+    Entry{"diagnostic_msgs/DiagnosticArray",
+          "std_msgs/Header header\ndiagnostic_msgs/DiagnosticStatus[] status\n"},
+    Entry{"qwsm_msgs/Pose2D", "float64 x\nfloat64 y\nfloat64 theta\n"},
+    Entry{"qwsm_msgs/MatchReport",
+          "uint8 FIRST=0\nuint8 MATCHED=1\nuint8 EXTENDED=2\nuint8 DEAD_RECKONED=3\n"
+          "std_msgs/Header header\nstring robot\nqwsm_msgs/Pose2D pose\nfloat64[9] covariance\n"
+          "uint8 status\nstring reason\nbool relevant\nuint32 pairs\nuint32 iterations\n"
+          "float64 overlap\nfloat64 mean_residual\nfloat64 position_trace\nfloat64 duration\n"
+          "float64 latency\nuint64 scans\nuint64 dropped\n"},
+    Entry{"qwsm_msgs/RelevantScan",
+          "std_msgs/Header header\nstring origin\nstring robot\nuint64 sequence_number\n"
+          "qwsm_msgs/Pose2D pose\nfloat64[9] covariance\nbool has_odometry\n"
+          "qwsm_msgs/Pose2D odometry\nqwsm_msgs/Pose2D laser\nfloat32 angle_min\n"
+          "float32 angle_increment\nfloat32 range_min\nfloat32 range_max\nfloat32[] ranges\n"},
+    Entry{"qwsm_msgs/RegistrationReport",
+          "std_msgs/Header header\nstring robot\ngeometry_msgs/PoseWithCovariance pose\n"
+          "uint8 status\nstring reason\nuint32 points\nuint32 pairs\nuint32 iterations\n"
+          "float64 overlap\nfloat64 rms_residual\nuint32[] loops\nfloat64 duration\n"
+          "float64 latency\nuint64 scans\nuint64 dropped\n"},
+    Entry{"qwsm_msgs/MapTile",
+          "std_msgs/Header header\nuint32 generation\nfloat32 resolution\nfloat64 x\nfloat64 y\n"
+          "uint32 width\nuint32 height\nuint8[] runs\n"},
 };
 
 // As rosidl computes them since Iron.

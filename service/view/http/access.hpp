@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "service/view/http/web_server.hpp"
+#include "service/view/view_options.hpp"
+
+namespace qwsm::view {
+
+/// Decides who may connect.
+///
+/// A page of somebody else, open in the operator's browser, can reach this computer's ports, too: a
+/// browser is let in only from our own page, or those named. On the loopback it must call us by a
+/// name of the loopback, for any other name may have been pointed here to make its page ours.
+class Access {
+ public:
+  /// @throws WebError where others could reach the port, and no token is set.
+  explicit Access(const ViewOptions& options);
+
+  /// Why a socket is refused; nothing where it is let in.
+  std::optional<WebAnswer> Objection(const WebRequest& request) const;
+
+ private:
+  bool IsOwnOrigin(const WebRequest& request) const;
+  bool IsTokenRight(std::string_view target) const;
+
+  ViewOptions options_;
+  bool is_loopback_;
+};
+
+}  // namespace qwsm::view

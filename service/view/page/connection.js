@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+// The socket to the service: version 1 of the Foxglove WebSocket protocol, and again after each loss.
+
+const kProtocol = 'foxglove.websocket.v1';
+const kFirstPause_ms = 500;
+const kLongestPause_ms = 4000;
+
+export class Connection {
+  // `handlers`: opened(info), lost(), channels(list), message(channel, view, stamp_ms), status(status).
+  constructor(url, handlers) {
+    this.url = url;
+    this.handlers = handlers;
+    this.channels = new Map();  // By id.
+    this.wanted = () => false;
+    this.subscriptions = new Map();  // Channel by subscription id.
+    this.publications = new Map();  // Our channel id by topic.
+    this.lastId = 0;
+    this.pause_ms = kFirstPause_ms;
+    this.bytes = 0;
+    this.#connect();
+  }
+
+  // Subscribes to the channels of which `isWanted(channel)` is true, now and as they come.
+  want(isWanted) {
+    this.wanted = isWanted;
+    this.#subscribe();
+  }
+
+  publish(topic, schemaName, payload) {
+    if (this.socket?.readyState !== WebSocket.OPEN) return false;
+    this.prepare(topic, schemaName);
+    const message = new Uint8Array(5 + payload.length);
+    message[0] = 1;
+    new DataView(message.buffer).setUint32(1, this.publications.get(topic), true);
+    message.set(payload, 5);
+    this.socket.send(message);
+    return true;
+  }
+
+  prepare(topic, schemaName) {
+    if (this.publications.has(topic)) return;
+    const id = ++this.lastId;
+    this.publications.set(topic, id);
+    this.#send({op: 'advertise', channels: [{id, topic, encoding: 'cdr', schemaName}]});
+  }
+
+  #connect() {
+    this.socket = new WebSocket(this.url, [kProtocol]);
+    this.socket.binaryType = 'arraybuffer';
+    this.socket.onmessage = ({data}) => typeof data === 'string' ? this.#takeText(JSON.parse(data)) : this.#takeBytes(data);
+    this.socket.onclose = () => this.#lose();
+  }
+
+  #lose() {
+    this.channels.clear();
+    this.subscriptions.clear();
+    this.publications.clear();
+    this.handlers.lost();
+    setTimeout(() => this.#connect(), this.pause_ms);
+    this.pause_ms = Math.min(2 * this.pause_ms, kLongestPause_ms);
+  }
+
+  #takeText(message) {
+    switch (message.op) {
+      case 'serverInfo':
+        this.pause_ms = kFirstPause_ms;
+        this.handlers.opened(message);
+        break;
+      case 'advertise':
+        for (const channel of message.channels) this.channels.set(channel.id, channel);
+        this.#subscribe();
+        this.handlers.channels([...this.channels.values()]);
+        break;
+      case 'unadvertise':
+        for (const id of message.channelIds) this.#forget(id);
+        this.handlers.channels([...this.channels.values()]);
+        break;
+      case 'status':
+        this.handlers.status(message);
+        break;
+    }
+  }
+
+  #forget(channelId) {
+    this.channels.delete(channelId);
+    for (const [id, channel] of this.subscriptions) {
+      if (channel.id === channelId) this.subscriptions.delete(id);
+    }
+  }
+
+  #takeBytes(data) {
+    this.bytes += data.byteLength;
+    const view = new DataView(data);
+    if (view.getUint8(0) !== 1) return;  // The service's time.
+    const channel = this.subscriptions.get(view.getUint32(1, true));
+    if (!channel) return;
+    const stamp_ms = Number(view.getBigUint64(5, true)) / 1e6;
+    this.handlers.message(channel, new DataView(data, 13), stamp_ms);
+  }
+
+  #subscribe() {
+    if (this.socket?.readyState !== WebSocket.OPEN) return;
+    const have = new Set([...this.subscriptions.values()].map((channel) => channel.id));
+    const subscriptions = [];
+    for (const channel of this.channels.values()) {
+      if (have.has(channel.id) || !this.wanted(channel)) continue;
+      const id = ++this.lastId;
+      this.subscriptions.set(id, channel);
+      subscriptions.push({id, channelId: channel.id});
+    }
+    const subscriptionIds = [...this.subscriptions].filter(([, channel]) => !this.wanted(channel)).map(([id]) => id);
+    for (const id of subscriptionIds) this.subscriptions.delete(id);
+    if (subscriptions.length > 0) this.#send({op: 'subscribe', subscriptions});
+    if (subscriptionIds.length > 0) this.#send({op: 'unsubscribe', subscriptionIds});
+  }
+
+  #send(message) { this.socket.send(JSON.stringify(message)); }
+}

@@ -1,0 +1,289 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+// The map on its canvas: what stays is drawn once into a picture behind, what moves in every frame.
+import {condition} from './model.js';
+
+const kFit_px = 60;
+const kMost_px_per_m = 400;
+const kLeast_px_per_m = 0.2;
+const kEllipse_sigmas = 2.45;  // Holds 95 % of a Gaussian of two dimensions.
+const kBackgroundPeriod_ms = 400;
+
+export const kThemes = {
+  light: {ground: '#dfe5ec', unknownDot: '#b9c4d0', palette: [[0, 0, 0, 0], [255, 255, 255, 255], [0, 40, 120, 255]], ink: '#16202c', paper: '#ffffff', point: '#00284f'},
+  dark: {ground: '#10151c', unknownDot: '#2a3541', palette: [[0, 0, 0, 0], [36, 46, 58, 255], [196, 222, 247, 255]], ink: '#eef4fa', paper: '#10151c', point: '#cfe6ff'},
+};
+
+export const kMarkKinds = {
+  victim: {word: 'Victim', color: '#f00a0a', shape: 'disc'},
+  hazard: {word: 'Hazard', color: '#ff641e', shape: 'diamond'},
+  note: {word: 'Note', color: '#0a0af0', shape: 'square'},
+};
+
+// White or black, whichever is read better on a colour.
+export function inkOn(color) {
+  const [r, g, b] = [1, 3, 5].map((i) => parseInt(color.slice(i, i + 2), 16));
+  return 0.299 * r + 0.587 * g + 0.114 * b > 140 ? '#000' : '#fff';
+}
+
+export class Camera {
+  constructor() { this.x = 0; this.y = 0; this.scale = 40; this.width = 1; this.height = 1; }
+  toScreen(x, y) { return [this.width / 2 + (x - this.x) * this.scale, this.height / 2 - (y - this.y) * this.scale]; }
+  toMap(px, py) { return [this.x + (px - this.width / 2) / this.scale, this.y - (py - this.height / 2) / this.scale]; }
+  zoom(factor, px = this.width / 2, py = this.height / 2) {
+    const [x, y] = this.toMap(px, py);
+    this.scale = Math.min(kMost_px_per_m, Math.max(kLeast_px_per_m, this.scale * factor));
+    const [nx, ny] = this.toMap(px, py);
+    this.x += x - nx;
+    this.y += y - ny;
+  }
+  pan(dx, dy) { this.x -= dx / this.scale; this.y += dy / this.scale; }
+  fit({left, right, bottom, top}, margins) {
+    const width = this.width - margins.left - margins.right - 2 * kFit_px, height = this.height - margins.top - margins.bottom - 2 * kFit_px;
+    this.scale = Math.min(kMost_px_per_m / 4, Math.max(kLeast_px_per_m, Math.min(width / Math.max(right - left, 1), height / Math.max(top - bottom, 1))));
+    this.x = (left + right) / 2 + (margins.right - margins.left) / 2 / this.scale;
+    this.y = (bottom + top) / 2 - (margins.bottom - margins.top) / 2 / this.scale;
+  }
+  get key() { return `${this.x},${this.y},${this.scale},${this.width},${this.height}`; }
+}
+
+export class MapView {
+  constructor(canvas, model, state) {
+    this.canvas = canvas;
+    this.context = canvas.getContext('2d', {alpha: false});
+    this.behind = document.createElement('canvas');
+    this.model = model;
+    this.state = state;  // {layers, selected, theme, shownStamp}
+    this.camera = new Camera();
+    this.overlay = null;  // Drawn by a tool, on top.
+    this.frames = 0;
+  }
+
+  resize() {
+    const ratio = window.devicePixelRatio || 1;
+    this.ratio = ratio;
+    this.camera.width = this.canvas.clientWidth;
+    this.camera.height = this.canvas.clientHeight;
+    for (const canvas of [this.canvas, this.behind]) {
+      canvas.width = Math.round(this.camera.width * ratio);
+      canvas.height = Math.round(this.camera.height * ratio);
+    }
+    this.backgroundKey = null;
+  }
+
+  get theme() { return kThemes[this.state.theme]; }
+
+  bounds() {
+    const boxes = [...this.model.maps.values()].map((map) => map.bounds).filter(Boolean);
+    for (const {last} of this.model.robots.values()) if (last) boxes.push({left: last.x - 3, right: last.x + 3, bottom: last.y - 3, top: last.y + 3});
+    if (boxes.length === 0) return null;
+    return {left: Math.min(...boxes.map((b) => b.left)), right: Math.max(...boxes.map((b) => b.right)), bottom: Math.min(...boxes.map((b) => b.bottom)), top: Math.max(...boxes.map((b) => b.top))};
+  }
+
+  draw(now_ms) {
+    this.#drawBehind(now_ms);
+    const c = this.context;
+    c.setTransform(1, 0, 0, 1, 0, 0);
+    c.drawImage(this.behind, 0, 0);
+    c.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    const isLive = this.state.shownStamp === null;
+    const robots = [...this.model.robots.values()];
+    if (isLive && this.state.layers.scans) for (const robot of robots) this.#drawScan(c, robot, now_ms);
+    if (this.state.layers.marks) this.#drawMarks(c);
+    for (const robot of robots) {
+      const pose = isLive ? robot.last : this.model.poseAt(robot, this.state.shownStamp);
+      if (pose) this.#drawRobot(c, robot, pose, isLive ? condition(robot, now_ms) : {level: 0, text: ''});
+    }
+    this.overlay?.(c, this.camera, this.theme);
+    ++this.frames;
+    this.#noteLatencies();
+  }
+
+  // From publication to the screen, on this computer's clock.
+  #noteLatencies() {
+    const now_ms = performance.timeOrigin + performance.now();
+    for (const robot of this.model.robots.values()) {
+      if (!robot.isFresh) continue;
+      robot.isFresh = false;
+      this.model.latencies_ms.push(now_ms - robot.published_ms);
+    }
+    if (this.model.latencies_ms.length > 10000) this.model.latencies_ms.splice(0, 5000);
+  }
+
+  #drawBehind(now_ms) {
+    const {layers, shownStamp} = this.state;
+    const view = [this.camera.key, this.state.theme, JSON.stringify(layers), shownStamp].join();
+    const content = [this.model.mapVersion, [...this.model.robots.values()].map((r) => r.trail.length)].join();
+    const isDue = content !== this.contentKey && now_ms - this.behindAt > kBackgroundPeriod_ms;
+    if (view === this.backgroundKey && !isDue) return;
+    this.backgroundKey = view;
+    this.contentKey = content;
+    this.behindAt = now_ms;
+    const c = this.behind.getContext('2d', {alpha: false});
+    c.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    c.fillStyle = this.theme.ground;
+    c.fillRect(0, 0, this.camera.width, this.camera.height);
+    if (shownStamp === null && layers.occupancy) this.#drawMaps(c);
+    if (layers.grid) this.#drawGrid(c);
+    if (shownStamp !== null || layers.relevant) this.#drawRelevant(c);
+    if (layers.trails) for (const robot of this.model.robots.values()) this.#drawTrail(c, robot);
+  }
+
+  #drawMaps(c) {
+    c.imageSmoothingEnabled = this.camera.scale < 20;
+    for (const map of this.model.maps.values()) {
+      for (const chunk of map.chunks.values()) {
+        const [left, top] = this.camera.toScreen(chunk.x, chunk.y + chunk.size_m);
+        const side = chunk.size_m * this.camera.scale;
+        if (left > this.camera.width || top > this.camera.height || left + side < 0 || top + side < 0) continue;
+        c.drawImage(chunk.picture(this.theme.palette), left, top, side, side);
+      }
+    }
+  }
+
+  #drawGrid(c) {
+    const step = [0.5, 1, 2, 5, 10, 20, 50, 100].find((m) => m * this.camera.scale > 42) ?? 200;
+    const [left, top] = this.camera.toMap(0, 0), [right, bottom] = this.camera.toMap(this.camera.width, this.camera.height);
+    c.fillStyle = this.theme.unknownDot;
+    for (let x = Math.ceil(left / step) * step; x < right; x += step) {
+      for (let y = Math.ceil(bottom / step) * step; y < top; y += step) {
+        const [px, py] = this.camera.toScreen(x, y);
+        c.fillRect(px - 0.75, py - 0.75, 1.5, 1.5);
+      }
+    }
+  }
+
+  #drawRelevant(c) {
+    const until = this.state.shownStamp ?? Infinity;
+    const size = Math.max(1.2, Math.min(3, this.camera.scale * 0.03));
+    c.fillStyle = this.theme.point;
+    c.globalAlpha = 0.75;
+    for (const {stamp, points} of this.model.relevant.values()) {
+      if (stamp <= until) this.#drawPoints(c, points, size);
+    }
+    c.globalAlpha = 1;
+  }
+
+  #drawPoints(c, points, size) {
+    const {x, y, scale, width, height} = this.camera;
+    for (let i = 0; i < points.length; i += 2) {
+      c.fillRect(width / 2 + (points[i] - x) * scale - size / 2, height / 2 - (points[i + 1] - y) * scale - size / 2, size, size);
+    }
+  }
+
+  #drawTrail(c, robot) {
+    const until = this.state.shownStamp ?? Infinity;
+    c.beginPath();
+    let last = null;
+    for (const {x, y, stamp} of robot.trail) {
+      if (stamp > until) break;
+      const [px, py] = this.camera.toScreen(x, y);
+      if (last && Math.abs(px - last[0]) + Math.abs(py - last[1]) < 2) continue;
+      if (last) c.lineTo(px, py); else c.moveTo(px, py);
+      last = [px, py];
+    }
+    c.strokeStyle = robot.color;
+    c.lineWidth = this.state.selected === robot.name ? 3.5 : 2;
+    c.lineJoin = 'round';
+    c.globalAlpha = 0.85;
+    c.stroke();
+    c.globalAlpha = 1;
+  }
+
+  #drawScan(c, robot, now_ms) {
+    if (!robot.points || now_ms - robot.arrived_ms > 2000) return;
+    c.fillStyle = robot.color;
+    this.#drawPoints(c, robot.points, Math.max(2, Math.min(4, this.camera.scale * 0.05)));
+  }
+
+  #drawRobot(c, robot, pose, {level, text}) {
+    const [px, py] = this.camera.toScreen(pose.x, pose.y);
+    if (this.state.layers.uncertainty && pose.cov) this.#drawEllipse(c, robot, pose.cov, px, py);
+    const radius = Math.max(11, Math.min(26, 0.3 * this.camera.scale));
+    const isSelected = this.state.selected === robot.name;
+    c.save();
+    c.translate(px, py);
+    c.rotate(-pose.theta);
+    c.beginPath();
+    c.moveTo(radius * 1.75, 0);
+    c.arc(0, 0, radius, 0.62, -0.62);
+    c.closePath();
+    c.lineWidth = isSelected ? 6 : 3.5;
+    c.strokeStyle = this.theme.ink;
+    c.globalAlpha = level >= 2 ? 0.55 : 1;
+    c.stroke();
+    c.lineWidth = isSelected ? 3 : 1.5;
+    c.strokeStyle = this.theme.paper;
+    c.stroke();
+    c.fillStyle = robot.color;
+    c.fill();
+    c.restore();
+    c.font = `700 ${Math.round(radius * 1.05)}px system-ui, "DejaVu Sans", sans-serif`;
+    c.textAlign = 'center';
+    c.textBaseline = 'middle';
+    c.fillStyle = inkOn(robot.color);
+    c.fillText(robot.label, px, py + 0.5);
+    if (level > 0) this.#drawCaption(c, px, py + radius + 15, text, level);
+  }
+
+  // A robot that needs attention says so on the map, too, in words.
+  #drawCaption(c, px, py, text, level) {
+    c.font = '600 12px system-ui, "DejaVu Sans", sans-serif';
+    const width = c.measureText(text).width + 14;
+    c.fillStyle = level >= 2 ? '#b3261e' : '#8a4b00';
+    c.beginPath();
+    c.roundRect(px - width / 2, py - 9, width, 19, 9);
+    c.fill();
+    c.fillStyle = '#fff';
+    c.fillText(text, px, py + 1);
+  }
+
+  #drawEllipse(c, robot, cov, px, py) {
+    const [xx, xy, , , yy] = cov;
+    const middle = (xx + yy) / 2, spread = Math.hypot((xx - yy) / 2, xy);
+    const major = Math.sqrt(Math.max(0, middle + spread)), minor = Math.sqrt(Math.max(0, middle - spread));
+    if (major * this.camera.scale * kEllipse_sigmas > 20000) return;
+    c.beginPath();
+    c.ellipse(px, py, Math.max(1, kEllipse_sigmas * major * this.camera.scale), Math.max(1, kEllipse_sigmas * minor * this.camera.scale), -0.5 * Math.atan2(2 * xy, xx - yy), 0, 2 * Math.PI);
+    c.fillStyle = robot.color + '33';
+    c.fill();
+    c.strokeStyle = robot.color;
+    c.lineWidth = 1.5;
+    c.setLineDash([5, 3]);
+    c.stroke();
+    c.setLineDash([]);
+  }
+
+  #drawMarks(c) {
+    let number = 0;
+    for (const mark of this.model.marks.values()) {
+      ++number;
+      if (mark.removed) continue;
+      const kind = kMarkKinds[mark.kind] ?? kMarkKinds.note;
+      const [px, py] = this.camera.toScreen(mark.x, mark.y);
+      const r = Math.max(11, Math.min(20, 0.35 * this.camera.scale));
+      c.beginPath();
+      if (kind.shape === 'disc') c.arc(px, py, r, 0, 2 * Math.PI);
+      else if (kind.shape === 'square') c.roundRect(px - r * 0.85, py - r * 0.85, 1.7 * r, 1.7 * r, 4);
+      else { c.moveTo(px, py - 1.25 * r); c.lineTo(px + 1.25 * r, py); c.lineTo(px, py + 1.25 * r); c.lineTo(px - 1.25 * r, py); c.closePath(); }
+      c.fillStyle = kind.color;
+      c.fill();
+      c.lineWidth = 2;
+      c.strokeStyle = '#fff';
+      c.stroke();
+      c.fillStyle = inkOn(kind.color);
+      c.font = `700 ${Math.round(r)}px system-ui, "DejaVu Sans", sans-serif`;
+      c.textAlign = 'center';
+      c.textBaseline = 'middle';
+      c.fillText(mark.number ?? number, px, py + 1);
+      if (mark.text) {
+        c.font = '600 12px system-ui, "DejaVu Sans", sans-serif';
+        c.lineWidth = 3;
+        c.strokeStyle = this.theme.paper;
+        c.strokeText(mark.text, px, py + r + 13);
+        c.fillStyle = this.theme.ink;
+        c.fillText(mark.text, px, py + r + 13);
+      }
+    }
+  }
+}

@@ -1,0 +1,299 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+// What is known of the team: robots, the map's tiles, relevant scans, marks, events.
+
+const kMostHistory = 20000;  // Reports of a robot: half an hour at 10 Hz.
+const kMostTrail = 4000;
+const kTrailStep_m = 0.05;
+const kRecentScans = 4;
+export const kSilent_s = 2;
+const kChunkTiles = 4;  // Tiles of a chunk, along each side: few pictures, each redrawn rarely.
+
+export const Status = {first: 0, matched: 1, extended: 2, deadReckoned: 3};
+
+// Okabe and Ito's colours, which the colour-blind tell apart; robots are numbered all the same.
+const kColors = ['#0072b2', '#e69f00', '#009e73', '#cc79a7', '#56b4e9', '#d55e00', '#f0e442', '#8c8c8c'];
+
+export function compose(a, b) {
+  const c = Math.cos(a.theta), s = Math.sin(a.theta);
+  return {x: a.x + c * b.x - s * b.y, y: a.y + s * b.x + c * b.y, theta: a.theta + b.theta};
+}
+
+// End points of a scan's beams, in the frame of the pose's parent, as x, y, x, y...
+export function scanPoints(scan, sensor) {
+  const points = [];
+  for (let i = 0; i < scan.ranges.length; ++i) {
+    const range = scan.ranges[i];
+    if (!(range >= scan.rangeMin && range < scan.rangeMax)) continue;
+    const bearing = sensor.theta + scan.angleMin + i * scan.angleIncrement;
+    points.push(sensor.x + range * Math.cos(bearing), sensor.y + range * Math.sin(bearing));
+  }
+  return Float32Array.from(points);
+}
+
+class Robot {
+  constructor(name, index) {
+    this.name = name;
+    this.index = index;
+    this.label = /(\d+)$/.exec(name)?.[1] ?? String(index + 1);
+    this.color = kColors[index % kColors.length];
+    this.history = [];
+    this.trail = [];
+    this.scans = [];  // Recent ones that wait for their pose.
+    this.points = null;  // Of the scan of now, on the map.
+    this.health = '';
+    this.lastMatch = null;
+    this.arrived_ms = 0;
+  }
+  get last() { return this.history.at(-1); }
+  get sigma_m() { return this.last ? Math.sqrt(Math.max(0, this.last.cov[0] + this.last.cov[4])) : 0; }
+
+  takeReport(report, now_ms, stamp_ms) {
+    const {stamp, pose, covariance, status, reason, meanResidual, overlap, scans, dropped, latency} = report;
+    if (this.last && stamp < this.last.stamp - 1) this.beginAnew();
+    this.history.push({stamp, ...pose, cov: covariance, status, reason, residual_m: meanResidual, overlap, scans, dropped, latency});
+    if (this.history.length > kMostHistory) this.history.splice(0, kMostHistory / 10);
+    if (status !== Status.deadReckoned) this.lastMatch = stamp;
+    this.arrived_ms = now_ms;
+    this.published_ms = stamp_ms;
+    this.isFresh = true;
+    const end = this.trail.at(-1);
+    if (!end || Math.hypot(pose.x - end.x, pose.y - end.y) > kTrailStep_m) this.trail.push({x: pose.x, y: pose.y, stamp});
+    if (this.trail.length > kMostTrail) this.trail = this.trail.filter((_, i) => i % 2 === 0 || i > kMostTrail / 2);
+  }
+  beginAnew() { this.history = []; this.trail = []; this.lastMatch = null; }
+
+  // Index of the last report at or before a stamp; -1 where there is none.
+  indexAt(stamp) {
+    let low = 0, high = this.history.length;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (this.history[middle].stamp <= stamp) low = middle + 1; else high = middle;
+    }
+    return low - 1;
+  }
+}
+
+// Cells of some tiles as one picture.
+class Chunk {
+  constructor(cells) {
+    this.side = cells;
+    this.states = new Uint8Array(cells * cells);
+    this.canvas = null;
+  }
+  put(tile, firstX, firstY) {
+    let at = 0;
+    for (const run of tile.runs) {
+      const state = run >> 6;
+      for (let left = (run & 63) + 1; left > 0; --left, ++at) {
+        const x = firstX + at % tile.width;
+        // A picture's first row is the highest.
+        const y = this.side - 1 - (firstY + Math.floor(at / tile.width));
+        this.states[y * this.side + x] = state;
+      }
+    }
+    this.canvas = null;
+  }
+  // `palette`: for unknown, free, occupied, each [r, g, b, a].
+  picture(palette) {
+    if (this.canvas && this.palette === palette) return this.canvas;
+    this.palette = palette;
+    this.canvas = document.createElement('canvas');
+    this.canvas.width = this.canvas.height = this.side;
+    const context = this.canvas.getContext('2d');
+    const image = context.createImageData(this.side, this.side);
+    const colors = new Uint32Array(image.data.buffer);
+    const packed = palette.map(([r, g, b, a]) => ((a << 24) | (b << 16) | (g << 8) | r) >>> 0);
+    for (let i = 0; i < this.states.length; ++i) colors[i] = packed[this.states[i]];
+    context.putImageData(image, 0, 0);
+    return this.canvas;
+  }
+}
+
+class GridMap {
+  constructor() { this.clear(); }
+  clear() { this.chunks = new Map(); this.generation = null; this.bounds = null; }
+  take(tile) {
+    if (this.generation !== null && tile.generation < this.generation) return;
+    if (tile.generation !== this.generation) this.clear();
+    this.generation = tile.generation;
+    const side_m = tile.resolution * tile.width;
+    const column = Math.round(tile.x / side_m), row = Math.round(tile.y / side_m);
+    const chunkColumn = Math.floor(column / kChunkTiles), chunkRow = Math.floor(row / kChunkTiles);
+    const key = `${chunkColumn},${chunkRow}`;
+    let chunk = this.chunks.get(key);
+    if (!chunk) {
+      chunk = new Chunk(kChunkTiles * tile.width);
+      chunk.size_m = kChunkTiles * side_m;
+      chunk.x = tile.x - (column - chunkColumn * kChunkTiles) * side_m;
+      chunk.y = tile.y - (row - chunkRow * kChunkTiles) * side_m;
+      this.chunks.set(key, chunk);
+    }
+    chunk.put(tile, (column - chunkColumn * kChunkTiles) * tile.width, (row - chunkRow * kChunkTiles) * tile.width);
+    this.#extend(tile.x, tile.y, side_m);
+  }
+  #extend(x, y, side_m) {
+    const b = this.bounds ?? {left: x, bottom: y, right: x, top: y};
+    this.bounds = {left: Math.min(b.left, x), bottom: Math.min(b.bottom, y), right: Math.max(b.right, x + side_m), top: Math.max(b.top, y + side_m)};
+  }
+}
+
+export class Model {
+  constructor() {
+    this.robots = new Map();
+    this.maps = new Map();  // By topic.
+    this.sensors = new Map();  // Poses on the robot, by frame.
+    this.relevant = new Map();  // By origin, robot and number.
+    this.marks = new Map();
+    this.events = [];
+    this.service = {};
+    this.mapVersion = 0;
+    this.now = null;  // Stamp of the newest report.
+    this.latencies_ms = [];
+  }
+
+  // After the service has come back: its map begins anew; what was seen of the robots stays.
+  beginSession() {
+    this.maps.clear();
+    this.sensors.clear();
+    this.relevant.clear();
+    this.marks.clear();
+    ++this.mapVersion;
+  }
+
+  robot(name) {
+    if (!this.robots.has(name)) {
+      this.robots.set(name, new Robot(name, this.robots.size));
+      this.tell(`${name || 'robot'} is here`);
+    }
+    return this.robots.get(name);
+  }
+
+  tell(text, stamp = this.now) {
+    this.events.unshift({text, stamp, at_ms: Date.now()});
+    this.events.length = Math.min(this.events.length, 200);
+  }
+
+  take(channel, message, stamp_ms) {
+    const robotName = channel.topic.split('/').slice(1, -1).join('/');
+    switch (channel.schemaName) {
+      case 'qwsm_msgs/msg/MatchReport': return this.#takeReport(message, stamp_ms);
+      case 'sensor_msgs/msg/LaserScan': return this.#takeScan(this.robot(robotName), message);
+      case 'qwsm_msgs/msg/MapTile': return this.#takeTile(channel.topic, message);
+      case 'qwsm_msgs/msg/RelevantScan': return this.#takeRelevant(message);
+      case 'qwsm_msgs/msg/Mark': return this.marks.set(message.id, message);
+      case 'tf2_msgs/msg/TFMessage': return message.forEach((t) => this.sensors.set(t.child, t));
+      case 'diagnostic_msgs/msg/DiagnosticArray': return this.#takeHealth(message);
+    }
+  }
+
+  #takeReport(report, stamp_ms) {
+    const robot = this.robot(report.robot);
+    const before = robot.last?.status;
+    robot.takeReport(report, Date.now(), stamp_ms);
+    if (this.now === null || report.stamp > this.now || report.stamp < this.now - 60) this.now = report.stamp;
+    const isLost = report.status === Status.deadReckoned;
+    if (before !== undefined && isLost !== (before === Status.deadReckoned)) {
+      this.tell(`${report.robot || 'robot'} ${isLost ? `dead reckons: ${report.reason}` : 'is matched again'}`, report.stamp);
+    }
+    this.#placeScan(robot);
+  }
+
+  #takeScan(robot, scan) {
+    robot.scans.push(scan);
+    if (robot.scans.length > kRecentScans) robot.scans.shift();
+    this.#placeScan(robot);
+  }
+
+  // A scan is drawn where its own answer says, not where the robot is when it arrives.
+  #placeScan(robot) {
+    const scan = robot.last && robot.scans.find(({stamp}) => Math.abs(stamp - robot.last.stamp) < 1e-6);
+    if (!scan) return;
+    const sensor = this.sensors.get(scan.frame) ?? {x: 0, y: 0, theta: 0};
+    robot.points = scanPoints(scan, compose(robot.last, sensor));
+  }
+
+  #takeTile(topic, tile) {
+    if (!this.maps.has(topic)) this.maps.set(topic, new GridMap());
+    this.maps.get(topic).take(tile);
+    ++this.mapVersion;
+  }
+
+  #takeRelevant(scan) {
+    const key = `${scan.origin}/${scan.robot}/${scan.number}`;
+    if (this.relevant.has(key)) return;
+    const points = scanPoints(scan, compose(scan.pose, scan.laser));
+    this.relevant.set(key, {stamp: scan.stamp, robot: scan.robot, ...scan.pose, points});
+    ++this.mapVersion;
+  }
+
+  #takeHealth({status}) {
+    for (const {name, message, values} of status) {
+      const what = name.replace(/^qwsm: /, '');
+      if (what === 'service') this.service = {...this.service, name: message, ...values};
+      else if (what === 'journal') this.service.journal = `${values.stored} stored, ${values.waiting} waiting${message.includes('/') || message.includes('.db') ? '' : ` (${message})`}`;
+      else if (what === 'refused samples') this.#takeRefusals(values);
+      else this.#takeRobotHealth(what, message, values);
+    }
+  }
+
+  #takeRefusals(values) {
+    const count = Object.values(values).reduce((sum, n) => sum + Number(n), 0);
+    if (count > (this.service.refused ?? 0)) {
+      for (const [why, n] of Object.entries(values)) {
+        if (n !== this.refusals?.[why]) this.tell(`refused: ${why} (${n})`);
+      }
+    }
+    this.refusals = values;
+    this.service.refused = count;
+  }
+
+  #takeRobotHealth(shown, state, values) {
+    // A robot without a namespace is shown as `robot`.
+    const name = !this.robots.has(shown) && shown === 'robot' ? '' : shown;
+    const robot = this.robot(name);
+    if (robot.health && robot.health !== state) this.tell(`${shown}: ${state}`);
+    robot.health = state;
+    robot.counts = values;
+  }
+
+  // First and last stamp of what can be looked back at; null where there is nothing.
+  get span() {
+    let first = Infinity, last = -Infinity;
+    for (const robot of this.robots.values()) {
+      if (!robot.last) continue;
+      first = Math.min(first, robot.history[0].stamp);
+      last = Math.max(last, robot.last.stamp);
+    }
+    for (const {stamp} of this.relevant.values()) { first = Math.min(first, stamp); last = Math.max(last, stamp); }
+    return first < last ? {first, last} : null;
+  }
+
+  // Where a robot was at a stamp: from its reports, else from its relevant scans.
+  poseAt(robot, stamp) {
+    const index = robot.indexAt(stamp);
+    if (index >= 0) return robot.history[index];
+    let best = null;
+    for (const scan of this.relevant.values()) {
+      if (scan.robot === robot.name && scan.stamp <= stamp && (!best || scan.stamp > best.stamp)) best = scan;
+    }
+    return best;
+  }
+}
+
+const ago = (s) => s < 90 ? `${Math.round(s)} s` : s < 5400 ? `${Math.round(s / 60)} min` : `${Math.round(s / 3600)} h`;
+
+// How a robot is, in words, and how much it needs attention: 0 not, 3 most.
+export function condition(robot, now_ms) {
+  const age_s = robot.arrived_ms ? (now_ms - robot.arrived_ms) / 1000 : Infinity;
+  if (robot.health === 'unplaced') return {level: 3, text: 'lost: searching for its place on the map', age_s};
+  if (robot.health === 'lost') return {level: 2, text: age_s < Infinity ? `gone for ${ago(age_s)}; this is where it was last` : 'gone', age_s};
+  if (!robot.last) return {level: robot.health === 'expected' ? 1 : 2, text: robot.health === 'expected' ? 'expected, not heard of yet' : 'no pose yet', age_s};
+  if (age_s > kSilent_s) return {level: 2, text: `silent for ${ago(age_s)}`, age_s};
+  if (robot.last.status === Status.deadReckoned) {
+    const since_s = robot.lastMatch === null ? 0 : robot.last.stamp - robot.lastMatch;
+    return {level: since_s > 3 ? 2 : 1, text: `dead reckoning for ${ago(since_s)}`, age_s};
+  }
+  if (robot.health === 'answered by another service') return {level: 0, text: 'matched, by another service', age_s};
+  return {level: 0, text: robot.last.status === Status.extended ? 'matched, exploring' : 'matched', age_s};
+}

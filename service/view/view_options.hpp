@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace qwsm::view {
+
+/// Says who may look at the service, and where.
+struct ViewOptions {
+  int port = 8765;
+  std::string address = "127.0.0.1";
+  std::string token;
+  std::string origins;
+  int max_clients = 32;
+};
+
+template <class Visitor>
+void Describe(Visitor& visit, ViewOptions& o) {
+  visit("port", o.port, {.help = "TCP port of the page; 0: any free one", .min = 0, .max = 65535});
+  visit(
+      "address", o.address, {.help = "on which it listens; 0.0.0.0: all, which needs view.token"});
+  visit("token",
+        o.token,
+        {.help = "whoever connects must know it, as ?token=...; empty: for this computer alone"});
+  visit(
+      "origins",
+      o.origins,
+      {.help = "pages of others that may connect, such as https://app.foxglove.dev; with commas"});
+  visit("max_clients", o.max_clients, {.help = "so many may look at once", .min = 1, .max = 1000});
+}
+
+}  // namespace qwsm::view
