@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "service/apps/command.hpp"
+#include "service/apps/output.hpp"
 #include "service/apps/serving.hpp"
 #include "service/dds/service/service_outbox.hpp"
 #include "service/dds/service/team_inbox.hpp"
@@ -37,7 +40,7 @@ class TeamServer {
                  Sinks(),
                  arguments.journal),
         inbox_(participant_, arguments.robots, service_, {&outbox_}, refusals_) {
-    if (arguments.view) ShowIn(options.view);
+    if (arguments.view) Show(options.view, arguments);
   }
 
   void Run(const pipeline::Interruption& interruption) {
@@ -46,12 +49,18 @@ class TeamServer {
   team::TeamStatus Status() const { return service_.Status(); }
 
  private:
-  void ShowIn(const view::ViewOptions& options) {
+  void Show(const view::ViewOptions& options, const ServeArguments& arguments) {
+    std::filesystem::path marks = arguments.journal;
+    if (!marks.empty()) marks += ".marks.json";
     view_ = std::make_unique<view::LiveView>(
-        participant_, graph_, options, "qwsm " + service_.identity(), [](const std::string& text) {
-          messages::Warn(text);
-        });
+        participant_,
+        graph_,
+        options,
+        view::LiveView::Service{.name = "qwsm " + service_.identity(),
+                                .marks_file = std::move(marks),
+                                .warn = [](const std::string& text) { messages::Warn(text); }});
     messages::Info("look at {}", view_->url());
+    if (!arguments.network.verbosity.quiet) Print("look at {}\n", view_->url());
   }
 
   // Files before topics: who hears of an answer finds it on disk.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -14,16 +15,20 @@ namespace qwsm::view {
 /// Shows in browsers what happens on the network, and takes from them where robots are.
 class LiveView {
  public:
+  /// What a service says of itself to its view.
+  struct Service {
+    std::string name;                              ///< For those who look.
+    std::filesystem::path marks_file;              ///< Where marks are kept; empty: nowhere.
+    std::function<void(const std::string&)> warn;  ///< Told what cannot be shown, in any thread.
+  };
+
   /// Begins to serve.
   /// @param participant and graph outlive this.
-  /// @param name of the service, for those who look.
-  /// @param warn is told what cannot be shown, in any thread.
   /// @throws WebError, dds::DdsError.
   LiveView(const dds::Participant& participant,
            const dds::RosGraph& graph,
            const ViewOptions& options,
-           const std::string& name,
-           std::function<void(const std::string&)> warn);
+           Service service);
   ~LiveView();
 
   /// Where the page is, for a browser on this computer.

@@ -34,6 +34,8 @@ constexpr Terms TermsOf(Profile profile) {
       return {.reliable = true, .latched = false, .depth = 100};
     case Profile::kStaticTransforms:
       return {.reliable = true, .latched = true, .depth = 100};
+    case Profile::kMarks:
+      return {.reliable = true, .latched = true, .depth = 1024};
     case Profile::kSharedScans:
     case Profile::kSharedScansIn:
     case Profile::kSharedScansOfOthers:

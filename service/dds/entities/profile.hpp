@@ -21,6 +21,7 @@ enum class Profile {
   kTransforms,     ///< Writes /tf.
   kStaticTransforms,  ///< Reads /tf_static: what everybody has said, also before the reader came.
   kStaticTransformsOut,
+  kMarks,  ///< Reads and writes marks on the map: all there ever were, for who comes later.
   /// Writes relevant scans: all there ever were, for services that come later.
   kSharedScans,
   kSharedScansIn,        ///< Reads all relevant scans.

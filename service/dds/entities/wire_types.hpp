@@ -33,6 +33,7 @@ using KeyValue = diagnostic_msgs_msg_dds__KeyValue_;
 using MatchReport = qwsm_msgs_msg_dds__MatchReport_;
 using RegistrationReport = qwsm_msgs_msg_dds__RegistrationReport_;
 using RelevantScan = qwsm_msgs_msg_dds__RelevantScan_;
+using Mark = qwsm_msgs_msg_dds__Mark_;
 using Pose2D = qwsm_msgs_msg_dds__Pose2D_;
 using ParticipantEntitiesInfo = rmw_dds_common_msg_dds__ParticipantEntitiesInfo_;
 using HumbleParticipantEntitiesInfo = rmw_dds_common_msg_humble__ParticipantEntitiesInfo_;
@@ -67,6 +68,8 @@ inline const dds_topic_descriptor_t* const kDescriptor<DiagnosticArray> =
 template <>
 inline const dds_topic_descriptor_t* const kDescriptor<MatchReport> =
     &qwsm_msgs_msg_dds__MatchReport__desc;
+template <>
+inline const dds_topic_descriptor_t* const kDescriptor<Mark> = &qwsm_msgs_msg_dds__Mark__desc;
 template <>
 inline const dds_topic_descriptor_t* const kDescriptor<Path> = &nav_msgs_msg_dds__Path__desc;
 template <>

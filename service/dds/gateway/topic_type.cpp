@@ -23,6 +23,7 @@ const std::array kTopicTypes{
     TypeOf<wire::OccupancyGrid>("nav_msgs/msg/OccupancyGrid"),
     TypeOf<wire::Path>("nav_msgs/msg/Path"),
     TypeOf<wire::DiagnosticArray>("diagnostic_msgs/msg/DiagnosticArray"),
+    TypeOf<wire::Mark>("qwsm_msgs/msg/Mark"),
     TypeOf<wire::MatchReport>("qwsm_msgs/msg/MatchReport"),
     TypeOf<wire::RegistrationReport>("qwsm_msgs/msg/RegistrationReport"),
     TypeOf<wire::RelevantScan>("qwsm_msgs/msg/RelevantScan"),
@@ -33,6 +34,7 @@ const std::array kTopicTypes{
 Profile TopicType::ReaderProfile(bool is_latched) const {
   if (!is_latched) return Profile::kSensorIn;
   if (descriptor == wire::kDescriptor<wire::RelevantScan>) return Profile::kSharedScansIn;
+  if (descriptor == wire::kDescriptor<wire::Mark>) return Profile::kMarks;
   // Each program that has transforms to tell tells them once.
   if (descriptor == wire::kDescriptor<wire::TFMessage>) return Profile::kStaticTransforms;
   return Profile::kLatchedIn;

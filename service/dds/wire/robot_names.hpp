@@ -54,6 +54,7 @@ inline constexpr const char* kNewPointsTopic = "/map_points";
 inline constexpr const char* kDiagnosticsTopic = "/diagnostics";
 inline constexpr const char* kGraphTopic = "/ros_discovery_info";
 inline constexpr const char* kSharedScansTopic = "/qwsm/relevant_scans";
+inline constexpr const char* kMarksTopic = "/qwsm/marks";
 
 /// Types robots are known by.
 inline constexpr const char* kLaserScanType = "sensor_msgs::msg::dds_::LaserScan_";

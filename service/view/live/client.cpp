@@ -8,7 +8,9 @@
 #include <chrono>
 #include <utility>
 
+#include "service/dds/wire/robot_names.hpp"
 #include "service/io/bags/messages/message_reader.hpp"
+#include "service/view/protocol/told_mark.hpp"
 #include "service/view/protocol/told_pose.hpp"
 
 namespace qwsm::view {
@@ -20,6 +22,7 @@ constexpr std::size_t kMostPublications = 256;
 constexpr std::size_t kMostTexts = 16;
 constexpr std::chrono::milliseconds kTimePeriod{100};
 
+constexpr std::string_view kMarkSchema = "qwsm_msgs/msg/Mark";
 constexpr std::string_view kPoseSchema = "geometry_msgs/msg/PoseWithCovarianceStamped";
 constexpr std::string_view kOldPoseSchema = "geometry_msgs/PoseWithCovarianceStamped";
 
@@ -44,17 +47,21 @@ void Client::TakeText(std::string_view text) {
 
 void Client::TakeBytes(std::string_view bytes) {
   try {
-    const ClientData data = ParseClientData(bytes);
-    const auto topic = publications_.find(data.channel);
-    if (topic == publications_.end()) {
-      throw ProtocolError(fmt::format("channel {} was not advertised", data.channel));
-    }
-    uplink_.tell_pose(topic->second, DecodeToldPose(data.cdr));
+    Publish(ParseClientData(bytes));
   } catch (const ProtocolError& error) {
     Tell(StatusLevel::kError, error.what());
   } catch (const io::MessageError& error) {
-    Tell(StatusLevel::kError, fmt::format("the pose cannot be read: {}", error.what()));
+    Tell(StatusLevel::kError, fmt::format("the message cannot be read: {}", error.what()));
   }
+}
+
+void Client::Publish(const ClientData& data) {
+  const auto topic = publications_.find(data.channel);
+  if (topic == publications_.end()) {
+    throw ProtocolError(fmt::format("channel {} was not advertised", data.channel));
+  }
+  if (topic->second == dds::kMarksTopic) return uplink_.tell_mark(DecodeMark(data.cdr));
+  uplink_.tell_pose(topic->second, DecodeToldPose(data.cdr));
 }
 
 void Client::Take(const Subscribe& subscribe) {
@@ -97,20 +104,23 @@ void Client::Take(const Advertise& advertise) {
 }
 
 void Client::Add(const ClientChannel& channel) {
-  const bool is_pose = channel.schema == kPoseSchema || channel.schema == kOldPoseSchema;
-  if (channel.encoding != "cdr" || !is_pose || !board_.IsPoseTopic(channel.topic)) {
-    return Tell(
-        StatusLevel::kError,
-        fmt::format("'{}' is not taken; only NAME/initialpose of a robot that is there, as {} "
-                    "in cdr",
-                    channel.topic,
-                    kPoseSchema));
+  const bool is_pose = (channel.schema == kPoseSchema || channel.schema == kOldPoseSchema) &&
+                       board_.IsPoseTopic(channel.topic);
+  const bool is_mark = channel.schema == kMarkSchema && channel.topic == dds::kMarksTopic;
+  if (channel.encoding != "cdr" || !(is_pose || is_mark)) {
+    return Tell(StatusLevel::kError,
+                fmt::format("'{}' is not taken; only, in cdr, {} as {}, and NAME/initialpose of a "
+                            "robot that is there as {}",
+                            channel.topic,
+                            dds::kMarksTopic,
+                            kMarkSchema,
+                            kPoseSchema));
   }
   if (publications_.size() >= kMostPublications) {
     return Tell(StatusLevel::kError, "there are too many channels of this client");
   }
   publications_.insert_or_assign(channel.id, channel.topic);
-  uplink_.prepare_pose(channel.topic);
+  if (is_pose) uplink_.prepare_pose(channel.topic);
 }
 
 void Client::Take(const Unadvertise& unadvertise) {

@@ -23,6 +23,7 @@ struct Uplink {
   std::function<void(const std::string& topic)> want;
   std::function<void(const std::string& topic)> prepare_pose;
   std::function<void(const std::string& topic, const dds::ToldPose&)> tell_pose;
+  std::function<void(const dds::Mark&)> tell_mark;
 };
 
 /// A message to a client.
@@ -67,6 +68,7 @@ class Client {
   void Take(const NotOffered& request);
   void Add(const Subscription& subscription);
   void Add(const ClientChannel& channel);
+  void Publish(const ClientData& data);
   void Tell(StatusLevel level, const std::string& text);
   void NoteChannels();
   void DropReadings(const std::function<bool(const Reading&)>& is_void);

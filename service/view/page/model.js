@@ -80,6 +80,7 @@ class Chunk {
     this.side = cells;
     this.states = new Uint8Array(cells * cells);
     this.canvas = null;
+    this.known = null;  // Cells between which something is known: left, bottom, right, top.
   }
   put(tile, firstX, firstY) {
     let at = 0;
@@ -87,12 +88,19 @@ class Chunk {
       const state = run >> 6;
       for (let left = (run & 63) + 1; left > 0; --left, ++at) {
         const x = firstX + at % tile.width;
+        const y = firstY + Math.floor(at / tile.width);
         // A picture's first row is the highest.
-        const y = this.side - 1 - (firstY + Math.floor(at / tile.width));
-        this.states[y * this.side + x] = state;
+        this.states[(this.side - 1 - y) * this.side + x] = state;
+        if (state > 0) this.#extend(x, y);
       }
     }
     this.canvas = null;
+  }
+  #extend(x, y) {
+    this.known ??= {left: x, bottom: y, right: x + 1, top: y + 1};
+    const {left, bottom, right, top} = this.known;
+    if (x < left) this.known.left = x; else if (x >= right) this.known.right = x + 1;
+    if (y < bottom) this.known.bottom = y; else if (y >= top) this.known.top = y + 1;
   }
   // `palette`: for unknown, free, occupied, each [r, g, b, a].
   picture(palette) {
@@ -112,7 +120,7 @@ class Chunk {
 
 class GridMap {
   constructor() { this.clear(); }
-  clear() { this.chunks = new Map(); this.generation = null; this.bounds = null; }
+  clear() { this.chunks = new Map(); this.generation = null; }
   take(tile) {
     if (this.generation !== null && tile.generation < this.generation) return;
     if (tile.generation !== this.generation) this.clear();
@@ -130,11 +138,17 @@ class GridMap {
       this.chunks.set(key, chunk);
     }
     chunk.put(tile, (column - chunkColumn * kChunkTiles) * tile.width, (row - chunkRow * kChunkTiles) * tile.width);
-    this.#extend(tile.x, tile.y, side_m);
   }
-  #extend(x, y, side_m) {
-    const b = this.bounds ?? {left: x, bottom: y, right: x, top: y};
-    this.bounds = {left: Math.min(b.left, x), bottom: Math.min(b.bottom, y), right: Math.max(b.right, x + side_m), top: Math.max(b.top, y + side_m)};
+  // Of what is known, in metres; null where nothing is.
+  get bounds() {
+    let bounds = null;
+    for (const {known, x, y, size_m, side} of this.chunks.values()) {
+      if (!known) continue;
+      const cell_m = size_m / side;
+      const box = {left: x + known.left * cell_m, bottom: y + known.bottom * cell_m, right: x + known.right * cell_m, top: y + known.top * cell_m};
+      bounds = bounds ? {left: Math.min(bounds.left, box.left), bottom: Math.min(bounds.bottom, box.bottom), right: Math.max(bounds.right, box.right), top: Math.max(bounds.top, box.top)} : box;
+    }
+    return bounds;
   }
 }
 
@@ -181,7 +195,7 @@ export class Model {
       case 'sensor_msgs/msg/LaserScan': return this.#takeScan(this.robot(robotName), message);
       case 'qwsm_msgs/msg/MapTile': return this.#takeTile(channel.topic, message);
       case 'qwsm_msgs/msg/RelevantScan': return this.#takeRelevant(message);
-      case 'qwsm_msgs/msg/Mark': return this.marks.set(message.id, message);
+      case 'qwsm_msgs/msg/Mark': return this.#takeMark(message);
       case 'tf2_msgs/msg/TFMessage': return message.forEach((t) => this.sensors.set(t.child, t));
       case 'diagnostic_msgs/msg/DiagnosticArray': return this.#takeHealth(message);
     }
@@ -225,6 +239,11 @@ export class Model {
     const points = scanPoints(scan, compose(scan.pose, scan.laser));
     this.relevant.set(key, {stamp: scan.stamp, robot: scan.robot, ...scan.pose, points});
     ++this.mapVersion;
+  }
+
+  #takeMark(mark) {
+    const known = this.marks.get(mark.id);
+    if (!known || mark.stamp > known.stamp) this.marks.set(mark.id, mark);
   }
 
   #takeHealth({status}) {

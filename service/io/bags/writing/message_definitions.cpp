@@ -82,6 +82,9 @@ constexpr std::array kDefinitions{
     Entry{"qwsm_msgs/MapTile",
           "std_msgs/Header header\nuint32 generation\nfloat32 resolution\nfloat64 x\nfloat64 y\n"
           "uint32 width\nuint32 height\nuint8[] runs\n"},
+    Entry{"qwsm_msgs/Mark",
+          "std_msgs/Header header\nstring id\nstring kind\nstring text\nstring author\n"
+          "float64 x\nfloat64 y\nbool removed\n"},
 };
 
 // As rosidl computes them since Iron.
