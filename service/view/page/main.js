@@ -10,6 +10,7 @@ import {TimeLine} from './time_line.js';
 import {Tools} from './tools.js';
 
 const kPanelPeriod_ms = 250;
+const kMoving_ms = 200;
 const kPoseSchema = 'geometry_msgs/msg/PoseWithCovarianceStamped';
 const kMarkSchema = 'qwsm_msgs/msg/Mark';
 const kMarkTopic = '/qwsm/marks';
@@ -196,7 +197,8 @@ function frame() {
     // Until somebody moves the map, all of it is shown as it grows.
     if (!hasFitted && model.robots.size > 0) { fit(); hasFitted = false; }
   }
-  if (!isDirty) return;
+  // While robots move, each frame shows them a little further.
+  if (!isDirty && now_ms - model.reported_ms > kMoving_ms) return;
   isDirty = false;
   const followed = model.robots.get(state.followed)?.last;
   if (followed) Object.assign(view.camera, {x: followed.x, y: followed.y});

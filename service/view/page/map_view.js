@@ -8,6 +8,7 @@ const kMost_px_per_m = 400;
 const kLeast_px_per_m = 0.2;
 const kEllipse_sigmas = 2.45;  // Holds 95 % of a Gaussian of two dimensions.
 const kBackgroundPeriod_ms = 400;
+const kGlide_ms = 60;  // In which a robot's picture comes to where the robot is.
 
 export const kThemes = {
   light: {ground: '#dfe5ec', unknownDot: '#b9c4d0', palette: [[0, 0, 0, 0], [255, 255, 255, 255], [0, 40, 120, 255]], ink: '#16202c', paper: '#ffffff', point: '#00284f'},
@@ -24,6 +25,21 @@ export const kMarkKinds = {
 export function inkOn(color) {
   const [r, g, b] = [1, 3, 5].map((i) => parseInt(color.slice(i, i + 2), 16));
   return 0.299 * r + 0.587 * g + 0.114 * b > 140 ? '#000' : '#fff';
+}
+
+// A robot moves on the screen instead of jumping ten times a second.
+function glide(robot, pose, now_ms) {
+  const {shown} = robot;
+  const passed_ms = now_ms - (robot.shown_ms ?? 0);
+  robot.shown_ms = now_ms;
+  const share = Math.min(1, passed_ms / kGlide_ms);
+  const isFar = !shown || Math.hypot(pose.x - shown.x, pose.y - shown.y) > 1;
+  if (isFar || share === 1) robot.shown = {x: pose.x, y: pose.y, theta: pose.theta};
+  else {
+    const turn = Math.atan2(Math.sin(pose.theta - shown.theta), Math.cos(pose.theta - shown.theta));
+    robot.shown = {x: shown.x + share * (pose.x - shown.x), y: shown.y + share * (pose.y - shown.y), theta: shown.theta + share * turn};
+  }
+  return {...pose, ...robot.shown};
 }
 
 export class Camera {
@@ -92,7 +108,7 @@ export class MapView {
     if (this.state.layers.marks) this.#drawMarks(c);
     for (const robot of robots) {
       const pose = isLive ? robot.last : this.model.poseAt(robot, this.state.shownStamp);
-      if (pose) this.#drawRobot(c, robot, pose, isLive ? condition(robot, now_ms) : {level: 0, text: ''});
+      if (pose) this.#drawRobot(c, robot, isLive ? glide(robot, pose, now_ms) : pose, isLive ? condition(robot, now_ms) : {level: 0, text: ''});
     }
     this.overlay?.(c, this.camera, this.theme);
     ++this.frames;

@@ -162,6 +162,7 @@ export class Model {
     this.events = [];
     this.service = {};
     this.mapVersion = 0;
+    this.reported_ms = 0;
     this.now = null;  // Stamp of the newest report.
     this.latencies_ms = [];
   }
@@ -204,7 +205,8 @@ export class Model {
   #takeReport(report, stamp_ms) {
     const robot = this.robot(report.robot);
     const before = robot.last?.status;
-    robot.takeReport(report, Date.now(), stamp_ms);
+    this.reported_ms = Date.now();
+    robot.takeReport(report, this.reported_ms, stamp_ms);
     if (this.now === null || report.stamp > this.now || report.stamp < this.now - 60) this.now = report.stamp;
     const isLost = report.status === Status.deadReckoned;
     if (before !== undefined && isLost !== (before === Status.deadReckoned)) {

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The page in Debian's chromium, with a service and four simulated robots behind it.
+import assert from 'node:assert/strict';
+import {readFileSync} from 'node:fs';
+import {createRequire} from 'node:module';
+import {after, before, test} from 'node:test';
+import {chromium} from 'playwright-core';
+import {freePort, Programs, until} from './programs.mjs';
+
+const kAxe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+const kBrowser = {
+  executablePath: process.env.QWSM_CHROMIUM ?? '/usr/bin/chromium',
+  args: ['--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run',
+    '--disable-background-networking', '--disable-component-update', '--disable-sync'],
+};
+
+let programs, browser, page, port, service;
+const complaints = [];
+
+before(async () => {
+  programs = new Programs();
+  port = await freePort();
+  service = await programs.serve(port);
+  programs.simulate('team', ['--duration', '300']);
+  browser = await chromium.launch(kBrowser);
+  // axe is a script of its own, which the page itself would not let in.
+  const context = await browser.newContext({viewport: {width: 1280, height: 800}, colorScheme: 'dark', bypassCSP: true});
+  page = await context.newPage();
+  page.on('pageerror', (error) => complaints.push(error.message));
+  await page.goto(`http://localhost:${port}/`);
+});
+
+after(async () => {
+  await browser?.close();
+  await programs?.stop();
+});
+
+const inPage = (ask) => page.evaluate(ask);
+const untilInPage = (ask, what) => until(() => inPage(ask), what);
+
+test('four robots are on the map, with their state in words', async () => {
+  await untilInPage(() => window.qwsm.model.robots.size === 4, 'four robots');
+  await untilInPage(() => [...document.querySelectorAll('.robot .state')].every((node) => node.textContent.startsWith('matched')), 'all are matched');
+  await untilInPage(() => window.qwsm.model.maps.get('/map_tiles')?.chunks.size > 0, 'the map');
+  assert.equal(await page.locator('.robot').count(), 4);
+  assert.equal(await page.locator('#link').getAttribute('data-state'), 'live');
+  // The scan of now lies on the map: most of it on what is drawn as a wall.
+  await untilInPage(() => [...window.qwsm.model.robots.values()].every(({points}) => points?.length > 50), 'the scans of now');
+});
+
+test('nothing stands in the way of those who see or hear differently', async () => {
+  await page.keyboard.press('l');
+  await page.locator('.robot').first().click();
+  for (const theme of ['dark', 'light']) {
+    await page.evaluate(kAxe);
+    const {violations} = await inPage(() => window.axe.run(document));
+    assert.deepEqual(violations.map(({id, nodes}) => [theme, id, nodes.map(({html}) => html)]), []);
+    await page.keyboard.press('t');
+  }
+  await page.keyboard.press('l');
+});
+
+test('dragging says where a robot is', async () => {
+  await inPage(() => { window.qwsm.state.selected = 'robot_1'; });
+  await page.locator('[data-tool="start"]').click();
+  const contradicted = () => inPage(() => Number(window.qwsm.model.robots.get('robot_1').counts?.contradicted_poses));
+  const before = await contradicted();
+  const from = await inPage(() => {
+    const {view, model} = window.qwsm;
+    const {x, y} = model.robots.get('robot_1').last;
+    return view.camera.toScreen(x + 1.5, y);
+  });
+  await page.mouse.move(...from);
+  await page.mouse.down();
+  await page.mouse.move(from[0] + 60, from[1], {steps: 4});
+  await page.mouse.up();
+  await until(async () => await contradicted() > before, 'the service has put the told pose to a trial');
+});
+
+test('a victim is marked, and known to the service', async () => {
+  await page.locator('#map').focus();
+  await page.keyboard.press('1');
+  await page.mouse.click(500, 300);
+  await page.locator('#mark-text').fill('Anna, awake');
+  await page.keyboard.press('Enter');
+  await untilInPage(() => [...window.qwsm.model.marks.values()].some(({text, kind}) => text === 'Anna, awake' && kind === 'victim'), 'the mark has come back');
+  await untilInPage(() => document.getElementById('marks').textContent.includes('Victim: Anna, awake'), 'the mark is in the list');
+});
+
+test('the page comes back with the service after kill -9', async () => {
+  service.kill('SIGKILL');
+  await untilInPage(() => document.getElementById('link').dataset.state === 'lost', 'the page says that the service is gone');
+  service = await programs.serve(port);
+  await untilInPage(() => document.getElementById('link').dataset.state === 'live', 'the page is live again');
+  await untilInPage(() => window.qwsm.model.marks.size === 1, 'the mark is there again');
+  await untilInPage(() => window.qwsm.model.maps.get('/map_tiles')?.chunks.size > 0, 'the map is there again');
+  await untilInPage(() => [...window.qwsm.model.robots.values()].every((robot) => Date.now() - robot.arrived_ms < 1000), 'all robots are answered again');
+});
+
+test('the time line goes back to what the journal holds', async () => {
+  await page.locator('#time-slider').focus();
+  await page.keyboard.press('PageDown');
+  await untilInPage(() => window.qwsm.model.relevant.size > 10, 'relevant scans of before');
+  await page.keyboard.press('PageDown');
+  assert.ok(await inPage(() => window.qwsm.state.shownStamp < window.qwsm.model.span.last));
+  assert.match(await page.locator('#time-text').textContent(), /before/);
+  await page.keyboard.press('End');
+  await page.locator('#live').click();
+  assert.equal(await inPage(() => window.qwsm.state.shownStamp), null);
+});
+
+test('what is seen is drawn at once', async (t) => {
+  await inPage(() => { window.qwsm.model.latencies_ms.length = 0; window.qwsm.view.frames = 0; });
+  await new Promise((resolve) => setTimeout(resolve, 3000));
+  const {frames, latencies} = await inPage(() => ({frames: window.qwsm.view.frames, latencies: [...window.qwsm.model.latencies_ms].sort((a, b) => a - b)}));
+  t.diagnostic(`${(frames / 3).toFixed(0)} frames/s, publication to screen ${latencies[latencies.length >> 1].toFixed(0)} ms in the median, ${latencies[Math.floor(latencies.length * 0.99)].toFixed(0)} ms p99`);
+  assert.ok(latencies.length > 30 && frames > 9);
+});
+
+test('nothing went wrong in the page', () => assert.deepEqual(complaints, []));

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The programs of the project as processes, on a network of their own.
+import {spawn} from 'node:child_process';
+import {mkdtempSync, rmSync} from 'node:fs';
+import {createServer} from 'node:net';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
+import {fileURLToPath} from 'node:url';
+
+const kPrograms = process.env.QWSM_PROGRAMS ?? fileURLToPath(new URL('../../build/release/bin', import.meta.url));
+
+export async function freePort() {
+  const server = createServer();
+  await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
+  const {port} = server.address();
+  await new Promise((resolve) => server.close(resolve));
+  return port;
+}
+
+export class Programs {
+  constructor() {
+    this.tag = `browser-${process.pid}`;
+    this.folder = mkdtempSync(join(tmpdir(), 'qwsm-browser-'));
+    this.processes = [];
+  }
+
+  start(args) {
+    const child = spawn(join(kPrograms, 'qwsm'), args, {stdio: ['ignore', 'pipe', 'pipe']});
+    child.said = '';
+    for (const stream of [child.stdout, child.stderr]) stream.on('data', (data) => { child.said += data; });
+    child.ended = new Promise((resolve) => child.on('exit', resolve));
+    this.processes.push(child);
+    return child;
+  }
+
+  // Starts a service with a page, and waits until it is there.
+  async serve(port, more = []) {
+    const service = this.start(['serve', '--view', '--journal', join(this.folder, 'team.db'),
+      '--set', `view.port=${port}`, '--set', 'team.map_period_s=1',
+      '--set', 'network.interface=lo', '--set', `network.tag=${this.tag}`, ...more]);
+    await until(() => service.said.includes('look at'), 'the service tells its address');
+    return service;
+  }
+
+  simulate(scenario, more = []) {
+    return this.start(['sim', scenario, '--dds', '--quiet', '--output', join(this.folder, 'drive'), '--force',
+      '--network', 'interface=lo', '--network', `tag=${this.tag}`, ...more]);
+  }
+
+  async stop() {
+    for (const child of this.processes) child.kill('SIGKILL');
+    await Promise.all(this.processes.map((child) => child.ended));
+    rmSync(this.folder, {recursive: true, force: true});
+  }
+}
+
+// Waits until something is so; what it is, stands in the error if it never is.
+export async function until(isSo, what, timeout_ms = 20000) {
+  const end = Date.now() + timeout_ms;
+  while (!await isSo()) {
+    if (Date.now() > end) throw new Error(`not in ${timeout_ms} ms: ${what}`);
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  }
+}
