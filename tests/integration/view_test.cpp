@@ -5,15 +5,18 @@
 // anything. The page itself is tested in a browser (tests/browser).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <filesystem>
+#include <iostream>
 #include <map>
 #include <random>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "service/dds/entities/writer.hpp"
 #include "tests/support/network.hpp"
 #include "tests/support/process_state.hpp"
 #include "tests/support/robot_in_room.hpp"
@@ -317,6 +320,106 @@ TEST_F(View, WhoeverHangsCostsOnlyItsOwnConnection) {
   EXPECT_TRUE(reading.Sample(3));
   // The map grows a little; what the one who hangs misses would be some megabytes.
   EXPECT_LT(ResidentKilobytes(service.daemon().process()) - before_kB, 3072.0);
+}
+
+/// A map as a service publishes it: walls every so many cells, in both directions.
+class DrawnMap {
+ public:
+  DrawnMap(std::uint32_t side, std::uint32_t between_walls) : cells_(std::size_t{side} * side) {
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      cells_[i] = i % side % between_walls == 0 || i / side % between_walls == 0 ? 100 : 0;
+    }
+    sample_.header.frame_id = frame_.data();
+    sample_.info = {
+        .map_load_time = {}, .resolution = 0.05F, .width = side, .height = side, .origin = {}};
+    const auto size = static_cast<std::uint32_t>(cells_.size());
+    sample_.data = {._maximum = size, ._length = size, ._buffer = cells_.data(), ._release = false};
+  }
+  DrawnMap(const DrawnMap&) = delete;
+  DrawnMap& operator=(const DrawnMap&) = delete;
+
+  const dds::wire::OccupancyGrid& sample() const { return sample_; }
+
+ private:
+  std::string frame_ = "map";
+  std::vector<std::int8_t> cells_;
+  dds::wire::OccupancyGrid sample_{};
+};
+
+TEST_F(View, WhoeverComesLateGetsTheWholeMap) {
+  constexpr std::uint32_t kSide = 2000;  // 100 m at 5 cm.
+  constexpr int kTiles = 32 * 32;
+  ViewedService service(network_);
+  const dds::Participant participant({.interface = "lo", .tag = network_.tag()});
+  const dds::Writer<dds::wire::OccupancyGrid> maps(
+      participant, "/large/map", dds::Profile::kLatched);
+  const DrawnMap map(kSide, 40);
+  maps.Write(map.sample());
+  Onlooker first(service.port());
+  ASSERT_TRUE(first.Subscribe("/large/map_tiles", 1));
+  ASSERT_TRUE(first.Sample(1));
+  const auto begin = std::chrono::steady_clock::now();
+  Onlooker late(service.port());
+  ASSERT_TRUE(late.Subscribe("/large/map_tiles", 1));
+  for (int i = 0; i < kTiles; ++i) ASSERT_TRUE(late.Sample(1)) << i;
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  std::cout << "the whole map after " << took.count() << " s\n";
+  EXPECT_LT(took.count(), 5.0);  // A second is what is wanted where nothing else runs.
+}
+
+TEST_F(View, ASlowLineHasThePosesWhileTheMapIsOnItsWay) {
+  constexpr std::size_t kBytesEach20ms = 2500;  // 1 Mbit/s.
+  ViewedService service(network_);
+  RobotInRoom robot(network_);
+  const dds::Writer<dds::wire::OccupancyGrid> maps(
+      robot.participant(), "/large/map", dds::Profile::kLatched);
+  const DrawnMap map(2000, 3);
+  maps.Write(map.sample());
+  ASSERT_FALSE(robot.DriveUntilAnswered(3).empty());
+  Onlooker slow(service.port(), 2048);
+  ASSERT_TRUE(slow.Subscribe("/robot1/match_report", 2));
+  ASSERT_TRUE(slow.Subscribe("/large/map_tiles", 1));
+  std::vector<double> ages_s;
+  std::size_t tiles = 0;
+  for (int i = 0; i < 200; ++i) {
+    if (i % 5 == 0) robot.Drive(1ms);
+    slow.client().ReadAtMost(kBytesEach20ms);
+    while (const auto frame = slow.client().TakeFrame()) {
+      if (frame->opcode != WebClient::kBinary || frame->payload[0] != 1) continue;
+      std::uint64_t stamp_ns = 0;
+      std::memcpy(&stamp_ns, frame->payload.data() + 5, sizeof stamp_ns);
+      const auto now = std::chrono::system_clock::now().time_since_epoch();
+      if (frame->payload[1] == 1)
+        ++tiles;
+      else
+        ages_s.push_back(
+            std::chrono::duration<double>(now - std::chrono::nanoseconds(stamp_ns)).count());
+    }
+    usleep(19'000);
+  }
+  ASSERT_GT(ages_s.size(), 20U);
+  EXPECT_GT(tiles, 20U);
+  EXPECT_LT(tiles, 1024U);  // The map was on its way all the time.
+  std::ranges::sort(ages_s);
+  std::cout << ages_s.size() << " poses, median " << ages_s[ages_s.size() / 2] << " s, oldest "
+            << ages_s.back() << " s, beside " << tiles << " tiles\n";
+  EXPECT_LT(ages_s[ages_s.size() / 2], 0.2);
+}
+
+TEST_F(View, FiveHundredConnectionsLeaveNothingBehind) {
+  ViewedService service(network_);
+  RobotInRoom robot(network_);
+  ASSERT_FALSE(robot.DriveUntilAnswered(3).empty());
+  double before_kB = 0.0;
+  for (int i = 0; i < 600; ++i) {
+    if (i == 100) before_kB = ResidentKilobytes(service.daemon().process());
+    Onlooker onlooker(service.port());
+    ASSERT_TRUE(onlooker.Subscribe("/robot1/match_report", 1));
+    ASSERT_TRUE(onlooker.Subscribe("/tf", 2));
+  }
+  const double grown_kB = ResidentKilobytes(service.daemon().process()) - before_kB;
+  std::cout << "500 connections: " << grown_kB << " kB more\n";
+  EXPECT_LT(grown_kB, 1024.0);
 }
 
 TEST_F(View, MarksOutliveTheService) {

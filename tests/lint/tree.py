@@ -7,7 +7,7 @@ import pathlib
 import subprocess
 from dataclasses import dataclass
 
-NOT_OURS = {".git", ".cache", "build", "results"}
+NOT_OURS = {".git", ".cache", "build", "node_modules", "results"}
 
 
 @dataclass(frozen=True)

@@ -124,15 +124,7 @@ class WebClient {
     return std::nullopt;
   }
 
- private:
-  std::uint64_t Number(std::size_t at, std::size_t size) const {
-    std::uint64_t number = 0;
-    for (std::size_t i = at; i < at + size; ++i) {
-      number = (number << 8U) | static_cast<std::uint8_t>(received_[i]);
-    }
-    return number;
-  }
-
+  /// The next message of those that have been read.
   std::optional<Frame> TakeFrame() {
     if (received_.size() < 2) return std::nullopt;
     std::uint64_t size = Number(1, 1);
@@ -144,6 +136,22 @@ class WebClient {
                 .payload = received_.substr(2 + wide, size)};
     received_.erase(0, 2 + wide + size);
     return frame;
+  }
+
+  /// Reads what is there, but no more than so much, without waiting.
+  void ReadAtMost(std::size_t bytes) {
+    std::string buffer(bytes, '\0');
+    const ssize_t got = recv(socket_, buffer.data(), bytes, MSG_DONTWAIT);
+    if (got > 0) received_.append(buffer, 0, static_cast<std::size_t>(got));
+  }
+
+ private:
+  std::uint64_t Number(std::size_t at, std::size_t size) const {
+    std::uint64_t number = 0;
+    for (std::size_t i = at; i < at + size; ++i) {
+      number = (number << 8U) | static_cast<std::uint8_t>(received_[i]);
+    }
+    return number;
   }
 
   /// Waits for bytes. @returns false where none came in time, or none will ever come.

@@ -41,7 +41,7 @@ constexpr int kMessagesPerSecond = 200;
 // Connections that have not become sockets: of one browser, six.
 constexpr std::size_t kMostPlainConnections = 64;
 // What waits in the kernel cannot be overtaken by what is newer.
-constexpr int kUnsentBytes = 16 * 1024;
+constexpr int kUnsentBytes = 4 * 1024;
 
 /// What all connections share. Used by the server's thread, but for the counts.
 struct Server {

@@ -7,7 +7,7 @@ const kMostTrail = 4000;
 const kTrailStep_m = 0.05;
 const kRecentScans = 4;
 export const kSilent_s = 2;
-const kChunkTiles = 4;  // Tiles of a chunk, along each side: few pictures, each redrawn rarely.
+const kChunkTiles = 8;  // Tiles of a chunk, along each side: few pictures, each redrawn rarely.
 
 export const Status = {first: 0, matched: 1, extended: 2, deadReckoned: 3};
 
