@@ -1,15 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "service/apps/command.hpp"
-#include "service/apps/output.hpp"
 #include "service/apps/serving.hpp"
 #include "service/dds/service/service_outbox.hpp"
 #include "service/dds/service/team_inbox.hpp"
@@ -39,9 +36,8 @@ class TeamServer {
         service_({.team = options.team, .mapper = options.mapper, .rendering = options.rendering},
                  Sinks(),
                  arguments.journal),
-        inbox_(participant_, arguments.robots, service_, {&outbox_}, refusals_) {
-    if (arguments.view) Show(options.view, arguments);
-  }
+        inbox_(participant_, arguments.robots, service_, {&outbox_}, refusals_),
+        view_(ShowLive(arguments, options.view, {participant_, graph_, service_.identity()})) {}
 
   void Run(const pipeline::Interruption& interruption) {
     Serve(Serving{service_, inbox_, results_.get()}, interruption);
@@ -49,20 +45,6 @@ class TeamServer {
   team::TeamStatus Status() const { return service_.Status(); }
 
  private:
-  void Show(const view::ViewOptions& options, const ServeArguments& arguments) {
-    std::filesystem::path marks = arguments.journal;
-    if (!marks.empty()) marks += ".marks.json";
-    view_ = std::make_unique<view::LiveView>(
-        participant_,
-        graph_,
-        options,
-        view::LiveView::Service{.name = "qwsm " + service_.identity(),
-                                .marks_file = std::move(marks),
-                                .warn = [](const std::string& text) { messages::Warn(text); }});
-    messages::Info("look at {}", view_->url());
-    if (!arguments.network.verbosity.quiet) Print("look at {}\n", view_->url());
-  }
-
   // Files before topics: who hears of an answer finds it on disk.
   std::vector<team::TeamSink*> Sinks() {
     std::vector<team::TeamSink*> sinks{&log_, &outbox_, &map_outbox_};

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <utility>
 
 #include "service/apps/output.hpp"
 #include "service/io/files/atomic_file.hpp"
@@ -36,6 +37,21 @@ std::optional<pipeline::ResultsFolder> BeginResults(const ServeArguments& argume
   CopyMessagesTo(folder / "run.log");
   io::WriteTextFile(folder / "config.yaml", configuration);
   return folder;
+}
+
+std::unique_ptr<view::LiveView> ShowLive(const ServeArguments& arguments,
+                                         const view::ViewOptions& options,
+                                         const Shown& shown) {
+  if (!arguments.view) return nullptr;
+  view::LiveView::Service service{.name = shown.identity,
+                                  .marks_file = arguments.journal,
+                                  .warn = [](const std::string& text) { messages::Warn(text); }};
+  if (!arguments.journal.empty()) service.marks_file += ".marks.json";
+  auto view =
+      std::make_unique<view::LiveView>(shown.participant, shown.graph, options, std::move(service));
+  messages::Info("look at {}", view->url());
+  if (!arguments.network.verbosity.quiet) Print("look at {}\n", view->url());
+  return view;
 }
 
 void Summarize(const team::TeamStatus& status) {

@@ -18,6 +18,7 @@
 #include "service/pipeline/run/interruption.hpp"
 #include "service/pipeline/text/messages.hpp"
 #include "service/team/sinks/team_status.hpp"
+#include "service/view/live_view.hpp"
 
 namespace qwsm::apps {
 
@@ -49,6 +50,19 @@ std::optional<pipeline::ResultsFolder> BeginResults(const ServeArguments& argume
 
 /// Tells on standard output what became of the robots' scans, a line for each robot.
 void Summarize(const team::TeamStatus& status);
+
+/// What a live page shows.
+struct Shown {
+  const dds::Participant& participant;
+  const dds::RosGraph& graph;
+  std::string identity;  ///< The service's.
+};
+
+/// Serves the live page and tells where it is, if that is wanted; else null.
+/// @param shown what it refers to outlives the page. @throws view::WebError.
+std::unique_ptr<view::LiveView> ShowLive(const ServeArguments& arguments,
+                                         const view::ViewOptions& options,
+                                         const Shown& shown);
 
 /// A service, the topics it listens to, and what is left of it in the end.
 /// @tparam Service has identity(), Start() and Stop(). @tparam Inbox delivers to it.

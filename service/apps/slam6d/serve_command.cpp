@@ -38,11 +38,10 @@ class CloudServer {
         closer_(graph::MakeLoopCloser(options.loop_error)),
         service_(
             {.team = options.team, .slam = options.slam}, *closer_, Sinks(), arguments.journal),
-        inbox_(participant_,
-               arguments.robots,
-               service_.robots(),
-               {&map_outbox_, &outbox_},
-               refusals_) {}
+        inbox_(
+            participant_, arguments.robots, service_.robots(), {&map_outbox_, &outbox_}, refusals_),
+        view_(qwsm::apps::ShowLive(
+            arguments, options.view, {participant_, graph_, service_.identity()})) {}
 
   void Run(const qwsm::pipeline::Interruption& interruption) {
     qwsm::apps::Serve(qwsm::apps::Serving{service_, inbox_, results_.get()}, interruption);
@@ -67,6 +66,7 @@ class CloudServer {
   std::unique_ptr<LoopCloser> closer_;
   qwsm::team::CloudService service_;
   qwsm::dds::CloudInbox inbox_;
+  std::unique_ptr<qwsm::view::LiveView> view_;  // Null where nobody wants to look.
 };
 
 }  // namespace
@@ -79,6 +79,7 @@ Command AddServeCommand(CLI::App& program) {
            "  slam6d serve                      for whoever publishes clouds, until Ctrl-C\n"
            "  slam6d serve --output run-7       and leave poses, models and pictures there\n"
            "  slam6d serve --journal team.db    and have the models back when started again\n"
+           "  slam6d serve --view               and be seen at http://localhost:8765/\n"
            "  ROS_DOMAIN_ID=7 slam6d serve      in another DDS domain",
        .run = qwsm::apps::RunServe<CloudServer, options::ProgramOptions>});
 }

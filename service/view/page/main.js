@@ -33,6 +33,8 @@ const changed = () => { isDirty = true; };
 const unused = new Set(['/tf']);
 const wants = (channel) => {
   if (!decodes(channel.schemaName) || unused.has(channel.topic)) return false;
+  // Of clouds the model, not what each scan added to it.
+  if (channel.schemaName === 'sensor_msgs/msg/PointCloud2') return channel.topic.endsWith('/cloud_map');
   if (channel.schemaName === 'qwsm_msgs/msg/RelevantScan') return state.layers.relevant || state.looksBack;
   return true;
 };

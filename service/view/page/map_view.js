@@ -27,6 +27,34 @@ export function inkOn(color) {
   return 0.299 * r + 0.587 * g + 0.114 * b > 140 ? '#000' : '#fff';
 }
 
+// Colours of heights, from blue by green to yellow: also the colour-blind see which is higher.
+const kHeights = Uint32Array.from({length: 256}, (_, i) => {
+  const stops = [[62, 74, 137], [38, 130, 142], [53, 183, 121], [253, 231, 37]];
+  const at = i / 256 * 3, stop = Math.floor(at);
+  const [r, g, b] = stops[stop].map((low, k) => Math.round(low + (at - stop) * (stops[stop + 1][k] - low)));
+  return ((255 << 24) | (b << 16) | (g << 8) | r) >>> 0;
+});
+
+// Between which heights most points lie: of every hundredth, without the lowest and highest.
+function heightRange(points) {
+  const sample = [];
+  for (let i = 2; i < points.length; i += 3 * Math.max(1, Math.floor(points.length / 3000))) sample.push(points[i]);
+  sample.sort((a, b) => a - b);
+  const low = sample[Math.floor(sample.length * 0.02)] ?? 0, high = sample[Math.floor(sample.length * 0.98)] ?? 1;
+  return {low, high: Math.max(high, low + 0.1)};
+}
+
+function boxOf(points) {
+  const box = {left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity};
+  for (let i = 0; i < points.length; i += 3) {
+    box.left = Math.min(box.left, points[i]);
+    box.right = Math.max(box.right, points[i]);
+    box.bottom = Math.min(box.bottom, points[i + 1]);
+    box.top = Math.max(box.top, points[i + 1]);
+  }
+  return box;
+}
+
 // A robot moves on the screen instead of jumping ten times a second.
 function glide(robot, pose, now_ms) {
   const {shown} = robot;
@@ -91,6 +119,7 @@ export class MapView {
 
   bounds() {
     const boxes = [...this.model.maps.values()].map((map) => map.bounds).filter(Boolean);
+    for (const points of this.model.clouds.values()) boxes.push(boxOf(points));
     for (const {last} of this.model.robots.values()) if (last) boxes.push({left: last.x - 3, right: last.x + 3, bottom: last.y - 3, top: last.y + 3});
     if (boxes.length === 0) return null;
     return {left: Math.min(...boxes.map((b) => b.left)), right: Math.max(...boxes.map((b) => b.right)), bottom: Math.min(...boxes.map((b) => b.bottom)), top: Math.max(...boxes.map((b) => b.top))};
@@ -140,6 +169,7 @@ export class MapView {
     c.fillStyle = this.theme.ground;
     c.fillRect(0, 0, this.camera.width, this.camera.height);
     if (shownStamp === null && layers.occupancy) this.#drawMaps(c);
+    if (layers.occupancy) for (const points of this.model.clouds.values()) this.#drawCloud(c, points);
     if (layers.grid) this.#drawGrid(c);
     if (shownStamp !== null || layers.relevant) this.#drawRelevant(c);
     if (layers.trails) for (const robot of this.model.robots.values()) this.#drawTrail(c, robot);
@@ -155,6 +185,28 @@ export class MapView {
         c.drawImage(chunk.picture(this.theme.palette), left, top, side, side);
       }
     }
+  }
+
+  // A cloud from above, coloured by height: dark blue is low, yellow is high.
+  #drawCloud(c, points) {
+    const {x, y, scale, width, height} = this.camera;
+    const image = new ImageData(Math.max(1, Math.round(width)), Math.max(1, Math.round(height)));
+    const pixels = new Uint32Array(image.data.buffer);
+    const heights = new Float32Array(pixels.length).fill(-Infinity);
+    const range = heightRange(points);
+    for (let i = 0; i < points.length; i += 3) {
+      const px = Math.round(width / 2 + (points[i] - x) * scale), py = Math.round(height / 2 - (points[i + 1] - y) * scale);
+      if (px < 0 || py < 0 || px >= image.width || py >= image.height) continue;
+      const at = py * image.width + px;
+      if (points[i + 2] <= heights[at]) continue;
+      heights[at] = points[i + 2];
+      pixels[at] = kHeights[Math.max(0, Math.min(255, Math.floor(256 * (points[i + 2] - range.low) / (range.high - range.low))))];
+    }
+    const layer = document.createElement('canvas');
+    layer.width = image.width;
+    layer.height = image.height;
+    layer.getContext('2d').putImageData(image, 0, 0);
+    c.drawImage(layer, 0, 0, width, height);
   }
 
   #drawGrid(c) {
@@ -202,7 +254,9 @@ export class MapView {
     c.lineWidth = this.state.selected === robot.name ? 3.5 : 2;
     c.lineJoin = 'round';
     c.globalAlpha = 0.85;
+    c.setLineDash(robot.isSecond ? [9, 5] : []);  // Who shares a colour does not share the line.
     c.stroke();
+    c.setLineDash([]);
     c.globalAlpha = 1;
   }
 
@@ -239,6 +293,13 @@ export class MapView {
     c.textBaseline = 'middle';
     c.fillStyle = inkOn(robot.color);
     c.fillText(robot.label, px, py + 0.5);
+    if (robot.isSecond) {
+      c.beginPath();
+      c.arc(px, py, radius * 0.8, 0, 2 * Math.PI);
+      c.lineWidth = 1.5;
+      c.strokeStyle = inkOn(robot.color);
+      c.stroke();
+    }
     if (level > 0) this.#drawCaption(c, px, py + radius + 15, text, level);
   }
 

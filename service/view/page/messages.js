@@ -18,6 +18,19 @@ function transform(r) {
   return {stamp, frame, child, x, y, theta: yawOf(qz, qw)};
 }
 
+// A cloud's points as x, y, z, x, y, z...; none where it has no coordinates of single precision.
+function cloudPoints(fields, step, data, isLittle) {
+  const kFloat32 = 7;
+  const offsets = ['x', 'y', 'z'].map((axis) => fields.find(({name, type}) => name === axis && type === kFloat32)?.offset);
+  if (offsets.includes(undefined) || step === 0) return new Float32Array(0);
+  const view = new DataView(data.buffer, data.byteOffset, data.byteLength);
+  const points = new Float32Array(3 * Math.floor(data.byteLength / step));
+  for (let i = 0; i < points.length; ++i) {
+    points[i] = view.getFloat32(Math.floor(i / 3) * step + offsets[i % 3], isLittle);
+  }
+  return points;
+}
+
 const readers = {
   'qwsm_msgs/msg/MatchReport': (r) => ({
     ...header(r), robot: r.string(), pose: pose2(r), covariance: r.float64s(9), status: r.uint8(),
@@ -25,6 +38,30 @@ const readers = {
     overlap: r.float64(), meanResidual: r.float64(), positionTrace: r.float64(),
     duration: r.float64(), latency: r.float64(), scans: r.uint64(), dropped: r.uint64(),
   }),
+  'qwsm_msgs/msg/RegistrationReport': (r) => {
+    const head = {...header(r), robot: r.string()};
+    const [x, y, z] = r.float64s(3);
+    const [, , qz, qw] = r.float64s(4);
+    const c = r.float64s(36);
+    const covariance = [c[0], c[1], c[5], c[6], c[7], c[11], c[30], c[31], c[35]];
+    // Unusable scans are answered as badly matched ones are: by odometry.
+    const status = [0, 1, 3, 3][r.uint8()];
+    const reason = r.string();
+    const [points, pairs, iterations] = [r.uint32(), r.uint32(), r.uint32()];
+    const [overlap, meanResidual] = r.float64s(2);
+    const loops = r.list(() => r.uint32());
+    const [duration, latency] = r.float64s(2);
+    return {...head, pose: {x, y, z, theta: yawOf(qz, qw)}, covariance, status, reason, points, pairs,
+      iterations, overlap, meanResidual, loops, duration, latency, scans: r.uint64(), dropped: r.uint64()};
+  },
+  'sensor_msgs/msg/PointCloud2': (r) => {
+    const head = {...header(r), height: r.uint32(), width: r.uint32()};
+    const fields = r.list(() => ({name: r.string(), offset: r.uint32(), type: r.uint8(), count: r.uint32()}));
+    const [isBigEndian, step] = [r.uint8() !== 0, r.uint32()];
+    r.uint32();  // Bytes of a row: our clouds have one.
+    const data = r.bytes(r.uint32());
+    return {...head, points: cloudPoints(fields, step, data, !isBigEndian)};
+  },
   'qwsm_msgs/msg/MapTile': (r) => {
     const head = header(r);
     const tile = {...head, generation: r.uint32(), resolution: r.float32(), x: r.float64(), y: r.float64(),

@@ -36,7 +36,10 @@ class Robot {
     this.name = name;
     this.index = index;
     this.label = /(\d+)$/.exec(name)?.[1] ?? String(index + 1);
-    this.color = kColors[index % kColors.length];
+    // The number tells the colour, so that each robot has the same on every page.
+    const place = /^\d+$/.test(this.label) ? Number(this.label) - 1 : index;
+    this.color = kColors[(place + kColors.length) % kColors.length];
+    this.isSecond = Math.floor(place / kColors.length) % 2 === 1;
     this.history = [];
     this.trail = [];
     this.scans = [];  // Recent ones that wait for their pose.
@@ -156,6 +159,7 @@ export class Model {
   constructor() {
     this.robots = new Map();
     this.maps = new Map();  // By topic.
+    this.clouds = new Map();  // Points of models in space, by topic.
     this.sensors = new Map();  // Poses on the robot, by frame.
     this.relevant = new Map();  // By origin, robot and number.
     this.marks = new Map();
@@ -170,6 +174,7 @@ export class Model {
   // After the service has come back: its map begins anew; what was seen of the robots stays.
   beginSession() {
     this.maps.clear();
+    this.clouds.clear();
     this.sensors.clear();
     this.relevant.clear();
     this.marks.clear();
@@ -192,8 +197,13 @@ export class Model {
   take(channel, message, stamp_ms) {
     const robotName = channel.topic.split('/').slice(1, -1).join('/');
     switch (channel.schemaName) {
+      case 'qwsm_msgs/msg/RegistrationReport':
       case 'qwsm_msgs/msg/MatchReport': return this.#takeReport(message, stamp_ms);
       case 'sensor_msgs/msg/LaserScan': return this.#takeScan(this.robot(robotName), message);
+      case 'sensor_msgs/msg/PointCloud2':
+        this.clouds.set(channel.topic, message.points);
+        ++this.mapVersion;
+        return;
       case 'qwsm_msgs/msg/MapTile': return this.#takeTile(channel.topic, message);
       case 'qwsm_msgs/msg/RelevantScan': return this.#takeRelevant(message);
       case 'qwsm_msgs/msg/Mark': return this.#takeMark(message);
@@ -212,6 +222,7 @@ export class Model {
     if (before !== undefined && isLost !== (before === Status.deadReckoned)) {
       this.tell(`${report.robot || 'robot'} ${isLost ? `dead reckons: ${report.reason}` : 'is matched again'}`, report.stamp);
     }
+    if (report.loops?.length > 0) this.tell(`${report.robot || 'robot'} closed a loop`, report.stamp);
     this.#placeScan(robot);
   }
 

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What the live page costs and how fast it is: node tests/browser/measure.mjs [SECONDS [ROBOTS]]
+// Needs build/release/bin/qwsm and build/release/bench/team_load, which plays the robots at 10 Hz.
+//   live    one page in chromium: frames/s, publication to screen
+//   cost    scan to pose without and with four who look on as pages do, in turns
+//   idle    bytes per second of a page when robots stand still, and when they are silent
+import {spawn} from 'node:child_process';
+import {fileURLToPath} from 'node:url';
+import {chromium} from 'playwright-core';
+import protocol from '@foxglove/ws-protocol';
+import WebSocket from 'ws';
+import {freePort, Programs} from './programs.mjs';
+
+const [seconds = '20', robots = '16'] = process.argv.slice(2);
+const kTeamLoad = fileURLToPath(new URL('../../build/release/bench/team_load', import.meta.url));
+const kPageTopics = /match_report$|\/scan$|_tiles$|tf_static$|diagnostics$|marks$/;
+const kBrowserArguments = ['--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'];
+const sleep = (s) => new Promise((resolve) => setTimeout(resolve, 1000 * s));
+
+// Robots that drive; what team_load says in the end.
+function drive(programs) {
+  const child = spawn(kTeamLoad, [programs.tag, robots, '10', seconds]);
+  let said = '';
+  child.stdout.on('data', (data) => { said += data; });
+  child.stderr.on('data', (data) => { said += data; });
+  return new Promise((resolve) => child.on('exit', () => resolve(said)));
+}
+
+// Somebody who looks on as the page does, but draws nothing.
+class Onlooker {
+  constructor(port) {
+    this.bytes = 0;
+    const socket = new WebSocket(`ws://localhost:${port}/ws`, ['foxglove.websocket.v1']);
+    socket.on('message', (data) => { this.bytes += data.byteLength ?? data.length; });
+    this.client = new protocol.FoxgloveClient({ws: socket});
+    this.client.on('advertise', (channels) => {
+      for (const {id, topic} of channels) if (kPageTopics.test(topic)) this.client.subscribe(id);
+    });
+  }
+  close() { this.client.close(); }
+}
+
+async function withService(measure) {
+  const programs = new Programs();
+  try {
+    const port = await freePort();
+    await programs.serve(port);
+    return await measure(programs, port);
+  } finally {
+    await programs.stop();
+  }
+}
+
+const quantile = (sorted, share) => sorted[Math.min(sorted.length - 1, Math.floor(sorted.length * share))];
+
+async function measureLive() {
+  await withService(async (programs, port) => {
+    const browser = await chromium.launch({executablePath: process.env.QWSM_CHROMIUM ?? '/usr/bin/chromium', args: kBrowserArguments});
+    const page = await browser.newPage({viewport: {width: 1440, height: 900}});
+    await page.goto(`http://localhost:${port}/`);
+    const driven = drive(programs);
+    await page.waitForFunction((count) => window.qwsm.model.robots.size >= count, Number(robots));
+    await sleep(3);
+    await page.evaluate(() => { window.qwsm.model.latencies_ms.length = 0; window.qwsm.view.frames = 0; });
+    const watched_s = Number(seconds) - 8;
+    await sleep(watched_s);
+    const {frames, latencies} = await page.evaluate(() => ({frames: window.qwsm.view.frames, latencies: window.qwsm.model.latencies_ms}));
+    if (process.env.QWSM_PICTURE) await page.screenshot({path: process.env.QWSM_PICTURE});
+    latencies.sort((a, b) => a - b);
+    console.log(`live    ${robots} robots: ${(frames / watched_s).toFixed(1)} frames/s; publication to screen median ${quantile(latencies, 0.5).toFixed(0)} ms, p99 ${quantile(latencies, 0.99).toFixed(0)} ms, of ${latencies.length}`);
+    await driven;
+    await browser.close();
+  });
+}
+
+async function measureCost() {
+  for (const onlookers of [0, 4, 0, 4]) {
+    await withService(async (programs, port) => {
+      const looking = Array.from({length: onlookers}, () => new Onlooker(port));
+      const said = await drive(programs);
+      const line = said.split('\n').find((text) => text.startsWith('scan arrived')) ?? said;
+      console.log(`cost    ${onlookers} look on: ${line}`);
+      for (const one of looking) one.close();
+    });
+  }
+}
+
+async function measureIdle() {
+  await withService(async (programs, port) => {
+    const driven = drive(programs);
+    const onlooker = new Onlooker(port);
+    await sleep(Number(seconds) / 2);
+    const busy = onlooker.bytes;
+    await sleep(2);
+    console.log(`idle    while ${robots} robots drive: ${((onlooker.bytes - busy) * 8 / 2 / 1000).toFixed(0)} kbit/s`);
+    await driven;
+    await sleep(3);
+    const silent = onlooker.bytes;
+    await sleep(5);
+    console.log(`idle    when all are silent: ${((onlooker.bytes - silent) * 8 / 5 / 1000).toFixed(1)} kbit/s`);
+    onlooker.close();
+  });
+}
+
+await measureLive();
+await measureCost();
+await measureIdle();
