@@ -12,7 +12,7 @@ export function drawChart(canvas, values, {color, ink, floor, unit}) {
   c.clearRect(0, 0, width, height);
   if (values.length < 2) return;
   const first = values[0].stamp, span = Math.max(values.at(-1).stamp - first, 1);
-  const top = Math.max(floor, ...values.map(({value}) => value)) * 1.1;
+  const top = Math.max(floor, ...values.map(({value}) => value)) * 1.4;  // Room for the figure of its height.
   c.strokeStyle = ink;
   c.globalAlpha = 0.25;
   c.strokeRect(0.5, 0.5, width - 1, height - 1);

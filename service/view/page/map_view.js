@@ -136,7 +136,7 @@ export class MapView {
     if (isLive && this.state.layers.scans) for (const robot of robots) this.#drawScan(c, robot, now_ms);
     if (this.state.layers.marks) this.#drawMarks(c);
     for (const robot of robots) {
-      const pose = isLive ? robot.last : this.model.poseAt(robot, this.state.shownStamp);
+      const pose = isLive ? robot.last : robot.poseAt(this.state.shownStamp);
       if (pose) this.#drawRobot(c, robot, isLive ? glide(robot, pose, now_ms) : pose, isLive ? condition(robot, now_ms) : {level: 0, text: ''});
     }
     this.overlay?.(c, this.camera, this.theme);
@@ -243,7 +243,9 @@ export class MapView {
     const until = this.state.shownStamp ?? Infinity;
     c.beginPath();
     let last = null;
-    for (const {x, y, stamp} of robot.trail) {
+    const begin = robot.trail[0]?.stamp ?? Infinity;
+    const before = robot.relevant.filter(({stamp}) => stamp < begin);
+    for (const {x, y, stamp} of [...before, ...robot.trail]) {
       if (stamp > until) break;
       const [px, py] = this.camera.toScreen(x, y);
       if (last && Math.abs(px - last[0]) + Math.abs(py - last[1]) < 2) continue;

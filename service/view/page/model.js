@@ -31,6 +31,16 @@ export function scanPoints(scan, sensor) {
   return Float32Array.from(points);
 }
 
+// Index of the last of some things, in the order of their stamps, at or before a stamp; -1 for none.
+function indexAt(things, stamp) {
+  let low = 0, high = things.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (things[middle].stamp <= stamp) low = middle + 1; else high = middle;
+  }
+  return low - 1;
+}
+
 class Robot {
   constructor(name, index) {
     this.name = name;
@@ -42,6 +52,7 @@ class Robot {
     this.isSecond = Math.floor(place / kColors.length) % 2 === 1;
     this.history = [];
     this.trail = [];
+    this.relevant = [];  // Its relevant scans, by their stamps.
     this.scans = [];  // Recent ones that wait for their pose.
     this.points = null;  // Of the scan of now, on the map.
     this.health = '';
@@ -66,14 +77,17 @@ class Robot {
   }
   beginAnew() { this.history = []; this.trail = []; this.lastMatch = null; }
 
-  // Index of the last report at or before a stamp; -1 where there is none.
-  indexAt(stamp) {
-    let low = 0, high = this.history.length;
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if (this.history[middle].stamp <= stamp) low = middle + 1; else high = middle;
-    }
-    return low - 1;
+  // What is known of it until a stamp, from its relevant scans of before this page was opened on.
+  pathUntil(stamp) {
+    const begin = this.history[0]?.stamp ?? Infinity;
+    const before = this.relevant.slice(0, indexAt(this.relevant, Math.min(stamp, begin)) + 1);
+    return [...before, ...this.history.slice(0, indexAt(this.history, stamp) + 1)];
+  }
+  poseAt(stamp) {
+    return this.history[indexAt(this.history, stamp)] ?? this.relevant[indexAt(this.relevant, stamp)] ?? null;
+  }
+  takeRelevant(scan) {
+    this.relevant.splice(indexAt(this.relevant, scan.stamp) + 1, 0, scan);
   }
 }
 
@@ -177,6 +191,7 @@ export class Model {
     this.clouds.clear();
     this.sensors.clear();
     this.relevant.clear();
+    for (const robot of this.robots.values()) robot.relevant = [];
     this.marks.clear();
     ++this.mapVersion;
   }
@@ -250,7 +265,9 @@ export class Model {
     const key = `${scan.origin}/${scan.robot}/${scan.number}`;
     if (this.relevant.has(key)) return;
     const points = scanPoints(scan, compose(scan.pose, scan.laser));
-    this.relevant.set(key, {stamp: scan.stamp, robot: scan.robot, ...scan.pose, points});
+    const kept = {stamp: scan.stamp, ...scan.pose, cov: scan.covariance, points};
+    this.relevant.set(key, kept);
+    this.robot(scan.robot).takeRelevant(kept);
     ++this.mapVersion;
   }
 
@@ -299,17 +316,6 @@ export class Model {
     }
     for (const {stamp} of this.relevant.values()) { first = Math.min(first, stamp); last = Math.max(last, stamp); }
     return first < last ? {first, last} : null;
-  }
-
-  // Where a robot was at a stamp: from its reports, else from its relevant scans.
-  poseAt(robot, stamp) {
-    const index = robot.indexAt(stamp);
-    if (index >= 0) return robot.history[index];
-    let best = null;
-    for (const scan of this.relevant.values()) {
-      if (scan.robot === robot.name && scan.stamp <= stamp && (!best || scan.stamp > best.stamp)) best = scan;
-    }
-    return best;
   }
 }
 

@@ -81,23 +81,24 @@ export class Panel {
     if (!robot?.last) return;
     if (this.detailOf !== robot.name) this.#makeDetail(robot);
     const now = this.state.shownStamp ?? robot.last.stamp;
-    const end = robot.indexAt(now);
-    const pose = robot.history[Math.max(0, end)];
+    const path = robot.pathUntil(now);
+    const pose = path.at(-1) ?? robot.history[0];
     const {facts, sigma, residual} = this.detail;
     const degrees = ((pose.theta * 180 / Math.PI) % 360 + 360) % 360;
     const figures = {
       'Place': `${pose.x.toFixed(2)}, ${pose.y.toFixed(2)} m`, 'Heading': `${degrees.toFixed(0)}°`,
-      'Match': pose.reason || 'good', 'Latency': `${(1000 * pose.latency).toFixed(1)} ms`, 'Scans': `${pose.scans}, ${pose.dropped} dropped`,
+      'Match': pose.reason || 'good', 'Latency': pose.latency === undefined ? '–' : `${(1000 * pose.latency).toFixed(1)} ms`,
+      'Scans': pose.scans === undefined ? '–' : `${pose.scans}, ${pose.dropped} dropped`,
     };
     for (const [name, text] of Object.entries(figures)) setText(facts[name], text);
-    let begin = end;
-    while (begin > 0 && robot.history[begin].stamp > now - kChart_s) --begin;
-    const step = Math.max(1, Math.floor((end - begin) / kChartPoints));
-    const shown = robot.history.slice(Math.max(0, begin), end + 1).filter((_, i) => i % step === 0);
+    const recent = path.filter(({stamp}) => stamp > now - kChart_s);
+    const step = Math.max(1, Math.floor(recent.length / kChartPoints));
+    const shown = recent.filter((_, i) => i % step === 0);
     const style = getComputedStyle(document.documentElement);
     const ink = style.getPropertyValue('--muted'), color = style.getPropertyValue('--accent');
     drawChart(sigma, shown.map(({stamp, cov}) => ({stamp, value: 100 * Math.sqrt(Math.max(0, cov[0] + cov[4]))})), {color, ink, floor: 1, unit: 'cm'});
-    drawChart(residual, shown.map(({stamp, residual_m}) => ({stamp, value: 1000 * residual_m})), {color, ink, floor: 5, unit: 'mm'});
+    // What was in the journal tells no residual.
+    drawChart(residual, shown.filter(({residual_m}) => residual_m !== undefined).map(({stamp, residual_m}) => ({stamp, value: 1000 * residual_m})), {color, ink, floor: 5, unit: 'mm'});
   }
 
   #makeDetail(robot) {

@@ -37,6 +37,7 @@ export class Tools {
       this.actions.select(only);
     }
     this.state.tool = tool;
+    if (tool !== 'look') this.actions.stopFollowing();  // The map must not move under the hand.
     for (const button of document.querySelectorAll('[data-tool]')) button.setAttribute('aria-pressed', String(button.dataset.tool === tool));
     this.view.canvas.style.cursor = tool === 'look' ? 'grab' : 'crosshair';
     this.hint(tool === 'start' ? `${this.state.selected || 'robot'}: ${kHints.start.toLowerCase()}` : kHints[tool]);
