@@ -10,8 +10,8 @@ namespace qwsm::view {
 struct ViewOptions {
   int port = 8765;
   std::string address = "127.0.0.1";
-  std::string token;
-  std::string origins;
+  std::string token{};
+  std::string origins{};
   int max_clients = 32;
 };
 

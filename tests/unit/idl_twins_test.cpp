@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "service/io/bags/writing/message_definitions.hpp"
+
 namespace qwsm {
 namespace {
 
@@ -71,6 +73,7 @@ std::vector<std::string> FieldsOfMsg(const std::string& msg) {
 
 TEST(IdlTwins, HaveTheSameFields) {
   const std::string idl = Read(kIdl / "qwsm_msgs.idl");
+  const std::regex kOwnPackage("^qwsm_msgs/");
   std::set<std::string> messages;
   for (const auto& entry : fs::directory_iterator(kIdl / "qwsm_msgs" / "msg")) {
     const std::string message = entry.path().stem();
@@ -79,6 +82,11 @@ TEST(IdlTwins, HaveTheSameFields) {
     const std::vector<std::string> fields = FieldsOfMsg(Read(entry.path()));
     EXPECT_FALSE(fields.empty());
     EXPECT_EQ(FieldsOfIdl(idl, message), fields);
+    // The definition that goes with recorded and shown messages, without those of the types in it.
+    const std::string definition = io::MessageDefinition("qwsm_msgs/msg/" + message);
+    std::vector<std::string> defined = FieldsOfMsg(definition.substr(0, definition.find("==")));
+    for (std::string& field : defined) field = std::regex_replace(field, kOwnPackage, "");
+    EXPECT_EQ(defined, fields);
     EXPECT_NE(Read(kIdl / "qwsm_msgs" / "CMakeLists.txt").find("msg/" + message + ".msg"),
               std::string::npos);
   }

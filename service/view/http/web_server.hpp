@@ -23,16 +23,16 @@ class WebError : public std::runtime_error {
 /// What a browser asks for.
 struct WebRequest {
   bool is_get = false;
-  std::string_view target;     ///< Path and query.
-  std::string_view host;       ///< What the client calls us.
-  std::string_view origin;     ///< The page that asks; empty where no browser does.
-  std::string_view protocols;  ///< What a socket may speak, in order of preference.
+  std::string_view target{};     ///< Path and query.
+  std::string_view host{};       ///< What the client calls us.
+  std::string_view origin{};     ///< The page that asks; empty where no browser does.
+  std::string_view protocols{};  ///< What a socket may speak, in order of preference.
 };
 
 struct WebAnswer {
   int status = 200;
-  std::string_view type;
-  std::string_view body;  ///< Lives as long as the program.
+  std::string_view type{};
+  std::string_view body{};  ///< Lives as long as the program.
 };
 
 /// What is behind the port. Called in the server's thread.
