@@ -13,10 +13,10 @@ namespace qwsm::dds {
 struct Mark {
   Timestamp stamp{};  ///< Of one id, the newest counts.
   std::string frame = "map";
-  std::string id;
-  std::string kind;
-  std::string text;
-  std::string author;
+  std::string id{};
+  std::string kind{};
+  std::string text{};
+  std::string author{};
   double x_m = 0.0;
   double y_m = 0.0;
   bool is_removed = false;

@@ -45,7 +45,8 @@ dds::Mark FromJson(const MarkJson& json) {
 
 MarkStore::MarkStore(std::filesystem::path file, Warn warn)
     : file_(std::move(file)), warn_(std::move(warn)) {
-  if (!file_.empty() && std::filesystem::exists(file_)) Load();
+  std::error_code ignored;
+  if (!file_.empty() && std::filesystem::exists(file_, ignored)) Load();
 }
 
 void MarkStore::Load() {
