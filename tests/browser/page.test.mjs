@@ -65,18 +65,23 @@ test('nothing stands in the way of those who see or hear differently', async () 
 test('dragging says where a robot is', async () => {
   await inPage(() => { window.qwsm.state.selected = 'robot_1'; });
   await page.locator('[data-tool="start"]').click();
-  const contradicted = () => inPage(() => Number(window.qwsm.model.robots.get('robot_1').counts?.contradicted_poses));
-  const before = await contradicted();
-  const from = await inPage(() => {
+  const {from, place, reports, contradicted} = await inPage(() => {
     const {view, model} = window.qwsm;
-    const {x, y} = model.robots.get('robot_1').last;
-    return view.camera.toScreen(x + 1.5, y);
+    const robot = model.robots.get('robot_1');
+    const {x, y} = robot.last;
+    const place = {x: x + (x > view.camera.x ? -1.5 : 1.5), y};
+    return {from: view.camera.toScreen(place.x, place.y), place, reports: robot.history.length, contradicted: Number(robot.counts.contradicted_poses)};
   });
   await page.mouse.move(...from);
   await page.mouse.down();
-  await page.mouse.move(from[0] + 60, from[1], {steps: 4});
+  await page.mouse.move(from[0], from[1] - 60, {steps: 4});
   await page.mouse.up();
-  await until(async () => await contradicted() > before, 'the service has put the told pose to a trial');
+  // The service puts that to a trial: the robot is where it was told, until its scans contradict.
+  await until(() => page.evaluate(([told, since, before]) => {
+    const {history, counts} = window.qwsm.model.robots.get('robot_1');
+    const isThere = history.slice(since).some(({x, y}) => Math.hypot(x - told.x, y - told.y) < 0.75);
+    return isThere || Number(counts.contradicted_poses) > before;
+  }, [place, reports, contradicted]), 'the service has heard of it');
 });
 
 test('a victim is marked, and known to the service', async () => {
