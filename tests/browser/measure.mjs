@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What the live page costs and how fast it is: node tests/browser/measure.mjs [SECONDS [ROBOTS]]
+// What the live page costs and how fast it is: node tests/browser/measure.mjs [SECONDS [ROBOTS [WHAT]]]
 // Needs build/release/bin/qwsm and build/release/bench/team_load, which plays the robots at 10 Hz.
 //   live    one page in chromium: frames/s, publication to screen
 //   cost    scan to pose without and with four who look on as pages do, in turns
-//   idle    bytes per second of a page when robots stand still, and when they are silent
+//   idle    what a page is sent while robots drive, and when they are silent
 import {spawn} from 'node:child_process';
 import {fileURLToPath} from 'node:url';
 import {chromium} from 'playwright-core';
@@ -13,7 +13,7 @@ import protocol from '@foxglove/ws-protocol';
 import WebSocket from 'ws';
 import {freePort, Programs} from './programs.mjs';
 
-const [seconds = '20', robots = '16'] = process.argv.slice(2);
+const [seconds = '20', robots = '16', only] = process.argv.slice(2);
 const kTeamLoad = fileURLToPath(new URL('../../build/release/bench/team_load', import.meta.url));
 const kPageTopics = /match_report$|\/scan$|_tiles$|tf_static$|diagnostics$|marks$/;
 const kBrowserArguments = ['--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'];
@@ -89,21 +89,25 @@ async function measureCost() {
 
 async function measureIdle() {
   await withService(async (programs, port) => {
+    const browser = await chromium.launch({executablePath: process.env.QWSM_CHROMIUM ?? '/usr/bin/chromium', args: kBrowserArguments});
+    const page = await browser.newPage();
+    await page.goto(`http://localhost:${port}/`);
+    const kilobitsIn = async (s) => {
+      const before = await page.evaluate(() => window.qwsm.connection.bytes);
+      await sleep(s);
+      return (8 * (await page.evaluate(() => window.qwsm.connection.bytes) - before) / s / 1000).toFixed(1);
+    };
     const driven = drive(programs);
-    const onlooker = new Onlooker(port);
     await sleep(Number(seconds) / 2);
-    const busy = onlooker.bytes;
-    await sleep(2);
-    console.log(`idle    while ${robots} robots drive: ${((onlooker.bytes - busy) * 8 / 2 / 1000).toFixed(0)} kbit/s`);
+    console.log(`idle    while ${robots} robots drive: ${await kilobitsIn(2)} kbit/s`);
     await driven;
-    await sleep(3);
-    const silent = onlooker.bytes;
-    await sleep(5);
-    console.log(`idle    when all are silent: ${((onlooker.bytes - silent) * 8 / 5 / 1000).toFixed(1)} kbit/s`);
-    onlooker.close();
+    await sleep(6);
+    console.log(`idle    when all are silent: ${await kilobitsIn(12)} kbit/s`);
+    await browser.close();
   });
 }
 
-await measureLive();
-await measureCost();
-await measureIdle();
+const measurements = {live: measureLive, cost: measureCost, idle: measureIdle};
+for (const [name, measure] of Object.entries(measurements)) {
+  if (!only || only === name) await measure();
+}

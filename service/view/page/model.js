@@ -181,6 +181,7 @@ export class Model {
     this.service = {};
     this.mapVersion = 0;
     this.reported_ms = 0;
+    this.health_ms = 0;
     this.now = null;  // Stamp of the newest report.
     this.latencies_ms = [];
   }
@@ -277,6 +278,7 @@ export class Model {
   }
 
   #takeHealth({status}) {
+    this.health_ms = Date.now();
     for (const {name, message, values} of status) {
       const what = name.replace(/^qwsm: /, '');
       if (what === 'service') this.service = {...this.service, name: message, ...values};
