@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Who may include what.
 
-    service/apps                       composition
+    service/apps   python              composition
     service/pipeline                   sources and sinks
     service/options                    what can be configured of the programs
     service/view                       the network in browsers
@@ -37,6 +37,7 @@ MAY_USE = {
     "service/apps": LIBRARIES | BORDER | {
         "service/options", "service/team", "service/view", "service/pipeline"
     },
+    "python": {"qwsm", "slam6d", "service/config", "service/io", "service/graph", "service/pipeline"},
 }
 
 # Third-party library: how its headers are recognised, and the layers that may include it.
@@ -56,9 +57,10 @@ THIRD_PARTY = {
     "SQLite": (r"sqlite3\.h", {"service/io"}),
     "nlohmann-json": (r"nlohmann/", {"service/pipeline", "service/view"}),
     "Cyclone DDS": (r"dds/(dds\.h|dds[a-z]*/)", {"service/dds", "idl"}),
-    "fmt": (r"fmt/", {layer for layer in MAY_USE if layer.startswith("service/")}),
+    "fmt": (r"fmt/", {layer for layer in MAY_USE if layer.startswith(("service/", "python"))}),
     "spdlog": (r"spdlog/", {"service/pipeline", "service/apps"}),
     "systemd": (r"systemd/", {"service/apps"}),
+    "pybind11": (r"pybind11/", {"python"}),
     "Fast DDS": (r"fast(dds|rtps|cdr)/", set()),
     "GoogleTest": (r"g(test|mock)/", set()),
     "Google Benchmark": (r"benchmark/", set()),

@@ -20,9 +20,11 @@ constexpr const char* kOdometry = "ODOM 1 2 3 0 0 0 1.0 host 1.0\n";
 
 TEST(OpenLog, SaysWhatItExpectedOfAFileThatIsNoLog) {
   EXPECT_EQ(FailureOf(""), "test.log: the file is empty");
-  EXPECT_EQ(FailureOf("hello world\n"),
-            "test.log: this is no robot log: none of its first 1 lines is a message of CARMEN "
-            "(FLASER, ODOM, ...), Player or DP-SLAM");
+  EXPECT_EQ(
+      FailureOf("hello world\n"),
+      "test.log: this is no robot log: none of its first 1 lines is a message of CARMEN "
+      "(FLASER, ODOM, ...), Player or DP-SLAM, and it is no bag of ROS (.bag, .mcap, .db3 or a "
+      "folder)");
   EXPECT_NE(FailureOf("# only a comment\n"), "");
   EXPECT_NE(FailureOf(std::string(100'000, '\0')), "");
 }

@@ -66,7 +66,8 @@ void TextLogReader::Recognize() {
   }
   if (report_.lines == 0) Throw(" the file is empty");
   Throw(" this is no robot log: none of its first " + std::to_string(report_.lines) +
-        " lines is a message of CARMEN (FLASER, ODOM, ...), Player or DP-SLAM");
+        " lines is a message of CARMEN (FLASER, ODOM, ...), Player or DP-SLAM, and it is no bag of "
+        "ROS (.bag, .mcap, .db3 or a folder)");
 }
 
 std::optional<LogRecord> TextLogReader::Next() {
