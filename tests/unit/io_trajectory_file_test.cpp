@@ -6,7 +6,9 @@
 #include <sstream>
 #include <string>
 
+#include "service/io/trajectories/graph_file.hpp"
 #include "service/io/trajectories/trajectory_file.hpp"
+#include "tests/support/program.hpp"
 
 namespace qwsm::io {
 namespace {
@@ -30,6 +32,28 @@ TEST(TumTrajectory, ReadsBackWhatItWrote) {
   EXPECT_EQ(trajectory[0].T_map_robot.x_m, pose.T_map_robot.x_m);
   EXPECT_EQ(trajectory[0].T_map_robot.y_m, pose.T_map_robot.y_m);
   EXPECT_NEAR(trajectory[0].T_map_robot.theta_rad, pose.T_map_robot.theta_rad, 1e-15);
+}
+
+TEST(KittiTrajectory, HasTheUpperRowsOfEachMatrix) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "trajectory.kitti";
+  WriteKittiFile(
+      file, {{.stamp = 1s, .T_map_robot = {1.5, -2.0, 0.0}}, {.stamp = 2s, .T_map_robot = {}}});
+  EXPECT_EQ(test::ReadFile(file), "1 0 0 1.5 0 1 0 -2 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 0\n");
+}
+
+TEST(PoseGraphFile, ListsTheInformationAsEachFormatDoes) {
+  const test::TemporaryFolder folder;
+  PoseGraph graph{.T_map_node = {{}, {1.0, 2.0, 0.5}},
+                  .edges = {{.from = 0, .to = 1, .T_from_to = {1.0, 2.0, 0.5}}}};
+  graph.edges[0].information << 11, 12, 13, 12, 22, 23, 13, 23, 33;
+  WriteG2oFile(folder.path() / "graph.g2o", graph);
+  WriteToroFile(folder.path() / "graph.toro", graph);
+  EXPECT_EQ(test::ReadFile(folder.path() / "graph.g2o"),
+            "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 2 0.5\nFIX 0\n"
+            "EDGE_SE2 0 1 1 2 0.5 11 12 13 22 23 33\n");
+  EXPECT_EQ(test::ReadFile(folder.path() / "graph.toro"),
+            "VERTEX2 0 0 0 0\nVERTEX2 1 1 2 0.5\nEDGE2 0 1 1 2 0.5 11 12 22 33 13 23\n");
 }
 
 TEST(TumTrajectory, TakesTheYawOfAPoseInSpace) {

@@ -15,6 +15,7 @@
 #include "service/io/clouds/ply_file.hpp"
 #include "service/io/clouds/trajectory3_file.hpp"
 #include "service/io/clouds/uos_scan.hpp"
+#include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace slam6d::io {
@@ -176,6 +177,13 @@ TEST_F(PointFiles, PosesComeBackFromFramesAndTum) {
     EXPECT_LT((read.translation_m - pose.translation_m).norm(), 1e-12);
     EXPECT_LT(RotationAngle(read.rotation.transpose() * pose.rotation), 1e-12);
   }
+}
+
+TEST_F(PointFiles, PosesOfKittiAreTheUpperRowsOfTheirMatrices) {
+  const fs::path file = folder_.path() / "trajectory.kitti";
+  WriteKitti3(file, {{}, {.translation_m = {1.5, -2.5, 0.25}}});
+  EXPECT_EQ(qwsm::test::ReadFile(file),
+            "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 1.5 0 1 0 -2.5 0 0 1 0.25\n");
 }
 
 }  // namespace

@@ -86,6 +86,20 @@ void WriteTum3(const fs::path& file, const std::vector<Pose3>& T_map_scan) {
   WriteTum3(file, T_map_scan, numbers);
 }
 
+void WriteKitti3(const fs::path& file, const std::vector<Pose3>& T_map_scan) {
+  std::string text;
+  for (const Pose3& pose : T_map_scan) {
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 4; ++column) {
+        const double value = column < 3 ? pose.rotation(row, column) : pose.translation_m(row);
+        qwsm::io::AppendNumber(text, value);
+        text += row == 2 && column == 3 ? '\n' : ' ';
+      }
+    }
+  }
+  qwsm::io::WriteTextFile(file, text);
+}
+
 NumberedPoses ReadPoses(const fs::path& path) {
   if (!fs::is_directory(path)) return ReadTum3(path);
   if (fs::exists(path / "trajectory.tum")) return ReadTum3(path / "trajectory.tum");

@@ -25,6 +25,11 @@ void WriteTum3(const std::filesystem::path& file,
                const std::vector<Pose3>& T_map_scan,
                const std::vector<qwsm::Timestamp>& stamps);
 
+/// Writes poses as KITTI's odometry benchmark has them: one line per pose, the upper three rows of
+/// its 4x4 matrix, x forward and z up.
+/// @throws qwsm::io::WriteError where it cannot be written.
+void WriteKitti3(const std::filesystem::path& file, const std::vector<Pose3>& T_map_scan);
+
 /// Reads poses: a TUM trajectory, a folder of results that holds one, or a folder of `.frames` or
 /// else `.pose` files of 3DTK.
 /// @throws std::runtime_error naming file and line where there are none.

@@ -13,4 +13,8 @@ namespace qwsm::io {
 /// @throws WriteError where it cannot be written.
 void WriteG2oFile(const std::filesystem::path& path, const PoseGraph& graph);
 
+/// Writes a graph in the format of TORO (VERTEX2, EDGE2), which Karto's kin and MATLAB read, too.
+/// @throws WriteError where it cannot be written.
+void WriteToroFile(const std::filesystem::path& path, const PoseGraph& graph);
+
 }  // namespace qwsm::io

@@ -63,6 +63,22 @@ void WriteTumFile(const std::filesystem::path& path, const Trajectory& trajector
   file.Commit();
 }
 
+void WriteKittiFile(const std::filesystem::path& path, const Trajectory& trajectory) {
+  AtomicFile file(path);
+  for (const StampedPose2& pose : trajectory) {
+    const Pose2& T = pose.T_map_robot;
+    const double c = std::cos(T.theta_rad);
+    const double s = std::sin(T.theta_rad);
+    std::string line;
+    for (const double value : {c, 0.0 - s, 0.0, T.x_m, s, c, 0.0, T.y_m, 0.0, 0.0, 1.0, 0.0}) {
+      if (!line.empty()) line += ' ';
+      AppendNumber(line, value);
+    }
+    file.stream() << line << '\n';
+  }
+  file.Commit();
+}
+
 Trajectory ReadTum(std::istream& stream, std::string_view name) {
   Trajectory trajectory;
   ReadTable(stream, name, "a line is 't x y z qx qy qz qw'", [&](FieldReader& fields) {

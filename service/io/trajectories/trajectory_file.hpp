@@ -18,6 +18,11 @@ void WriteTumLine(std::ostream& stream, const StampedPose2& pose);
 /// @throws WriteError where it cannot be written.
 void WriteTumFile(const std::filesystem::path& path, const Trajectory& trajectory);
 
+/// Writes a trajectory as KITTI's odometry benchmark has it, without stamps: one line per pose, the
+/// upper three rows of its 4x4 matrix, x forward and z up.
+/// @throws WriteError where it cannot be written.
+void WriteKittiFile(const std::filesystem::path& path, const Trajectory& trajectory);
+
 /// Reads a TUM trajectory; `#` begins a comment. Of poses in space x, y and yaw are kept.
 /// @throws std::runtime_error with file:line where a line is no pose.
 Trajectory ReadTum(std::istream& stream, std::string_view name);

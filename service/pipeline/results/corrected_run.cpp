@@ -49,6 +49,7 @@ void WriteLoops(const ResultsFolder& folder, const Correction& correction, const
   for (const Loop& loop : correction.loops) table.stream() << LineOf(loop, map);
   table.Commit();
   io::WriteG2oFile(folder / "graph.g2o", correction.graph);
+  io::WriteToroFile(folder / "graph.toro", correction.graph);
 }
 
 std::vector<io::LoopLine> LoopLines(const Correction& correction) {

@@ -38,7 +38,8 @@ class CorrectionSink final : public StepSink {
   MapCorrector corrector_;
 };
 
-/// Writes loops.csv, a line per loop that was found, and graph.g2o.
+/// Writes loops.csv, a line per loop that was found, and the graph as graph.g2o and
+/// graph.toro.
 /// @throws io::WriteError.
 void WriteLoops(const ResultsFolder& folder, const Correction& correction, const ScanMap& map);
 

@@ -17,6 +17,8 @@
 namespace qwsm::pipeline {
 namespace {
 
+constexpr const char* kKittiFile = "trajectory.kitti";
+
 Trajectory TrajectoryOf(std::span<const io::PathPose> path) {
   Trajectory trajectory;
   trajectory.reserve(path.size());
@@ -48,6 +50,7 @@ void ResultsWriter::Finish(const ScanMap& map,
                            const Trajectory& truth) {
   trajectory_.Commit();
   table_.Commit();
+  io::WriteKittiFile(folder_ / kKittiFile, TrajectoryOf(history_.path()));
   WriteFigures({.map = map, .matcher = matcher, .path = history_.path(), .loops = {}}, truth);
   Draw({.map = map, .overlay = history_.Overlay()}, rendering);
 }
@@ -65,7 +68,9 @@ void ResultsWriter::Finish(const Mapper& mapper,
   overlay.path = CorrectedPath(correction);
   overlay.loops = LoopLines(correction);
   AddCorrectedPoses(folder_ / "scans.csv", correction.map_robot);
-  io::WriteTumFile(folder_ / "trajectory.tum", TrajectoryOf(overlay.path));
+  const Trajectory trajectory = TrajectoryOf(overlay.path);
+  io::WriteTumFile(folder_ / "trajectory.tum", trajectory);
+  io::WriteKittiFile(folder_ / kKittiFile, trajectory);
   WriteLoops(folder_, correction, corrected.map);
   WriteFigures({.map = corrected.map,
                 .matcher = mapper.options().matcher,

@@ -99,6 +99,7 @@ void WriteResults(const Registration& registration,
   std::vector<qwsm::Timestamp> stamps;
   for (const RegisteredScan& scan : registration.scans) stamps.push_back(scan.stamp);
   io::WriteTum3(folder / "trajectory.tum", after, stamps);
+  io::WriteKitti3(folder / "trajectory.kitti", after);
   for (std::size_t i = 0; i < after.size(); ++i) {
     io::WriteUosFrames(folder / (registration.scans[i].name + ".frames"), before[i], after[i]);
   }
