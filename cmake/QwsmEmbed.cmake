@@ -1,48 +1,31 @@
 # SPDX-FileCopyrightText: 2026 the Q-WSM developers
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# qwsm_embed_page(OUTPUT VARIABLE TEMPLATE ... STYLE ... SCRIPTS ...): a source that holds a page of HTML
-# as `extern const std::string_view VARIABLE`, its style sheet and scripts, in their order, put in place
-# of {{style}} and {{script}}. The page stands in the source tree as files that editors and browsers know.
+# qwsm_embed_files(OUTPUT FOLDER FILE ...): a source with the contents of text files as string literals, a
+# line `QWSM_FILE("/name", R"...")` for each, in their order, to be included where QWSM_FILE is defined.
+# Pages stand in the source tree as files that editors and browsers know, and are a part of the program.
 #
 # Run as a script, with -D of what the function passes on, it writes that source.
 
-function(qwsm_embed_page output variable)
-  cmake_parse_arguments(PARSE_ARGV 2 arg "" "TEMPLATE;STYLE" "SCRIPTS")
-  list(JOIN arg_SCRIPTS "|" scripts)
+function(qwsm_embed_files output folder)
+  list(TRANSFORM ARGN PREPEND ${folder}/ OUTPUT_VARIABLE paths)
+  list(JOIN ARGN "|" files)
   add_custom_command(OUTPUT ${output}
-    COMMAND ${CMAKE_COMMAND} -D OUTPUT=${output} -D VARIABLE=${variable} -D TEMPLATE=${arg_TEMPLATE}
-      -D STYLE=${arg_STYLE} -D "SCRIPTS=${scripts}" -P ${PROJECT_SOURCE_DIR}/cmake/QwsmEmbed.cmake
-    DEPENDS ${arg_TEMPLATE} ${arg_STYLE} ${arg_SCRIPTS} ${PROJECT_SOURCE_DIR}/cmake/QwsmEmbed.cmake
-    WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}
-    COMMENT "Embedding ${arg_TEMPLATE}" VERBATIM)
+    COMMAND ${CMAKE_COMMAND} -D OUTPUT=${output} -D FOLDER=${folder} -D "FILES=${files}"
+      -P ${PROJECT_SOURCE_DIR}/cmake/QwsmEmbed.cmake
+    DEPENDS ${paths} ${PROJECT_SOURCE_DIR}/cmake/QwsmEmbed.cmake
+    COMMENT "Embedding ${folder}" VERBATIM)
 endfunction()
 
 if(NOT CMAKE_SCRIPT_MODE_FILE)
   return()
 endif()
 
-file(READ ${TEMPLATE} page)
-file(READ ${STYLE} style)
-string(REPLACE "|" ";" files "${SCRIPTS}")
-set(script "")
+string(REPLACE "|" ";" files "${FILES}")
+set(source "")
 foreach(name IN LISTS files)
-  file(READ ${name} part)
-  string(APPEND script "${part}")
+  file(READ ${FOLDER}/${name} content)
+  # A raw literal keeps all but its own end as it is.
+  string(APPEND source "QWSM_FILE(\"/${name}\", R\"qwsm-file(${content})qwsm-file\")\n")
 endforeach()
-string(REPLACE "{{style}}" "${style}" page "${page}")
-string(REPLACE "{{script}}" "${script}" page "${page}")
-string(FIND "${page}" ")page\"" ends_early)
-if(NOT ends_early EQUAL -1)
-  message(FATAL_ERROR "${TEMPLATE}: the page holds )page\", which ends the literal it is put in")
-endif()
-file(WRITE ${OUTPUT} "// Made by cmake/QwsmEmbed.cmake of ${TEMPLATE}.
-#include <string_view>
-
-namespace qwsm::pipeline {
-
-extern const std::string_view ${VARIABLE};
-const std::string_view ${VARIABLE} = R\"page(${page})page\";
-
-}  // namespace qwsm::pipeline
-")
+file(WRITE ${OUTPUT} "${source}")

@@ -8,15 +8,27 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <map>
 
 #include "service/io/files/atomic_file.hpp"
 
 namespace qwsm::pipeline {
 
-/// The page without title and data, embedded from service/pipeline/report/page.
-extern const std::string_view kReportTemplate;
-
 namespace {
+
+/// A part of the page, from service/pipeline/report/page.
+struct PagePart {
+  std::string_view name;
+  std::string_view text;
+};
+
+#define QWSM_FILE(file_name, file_text) PagePart{.name = file_name, .text = file_text},
+
+constexpr auto kParts = std::to_array<PagePart>({
+#include "report_files.inc"
+});
+
+#undef QWSM_FILE
 
 constexpr std::string_view kLetters =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -65,18 +77,25 @@ std::string WithoutTags(std::string_view json) {
   return text;
 }
 
-/// The template with each `{{name}}` replaced; what is put in is not looked at again.
-std::string Filled(std::string_view page, std::string_view title, std::string_view data) {
+/// All parts of a kind, one after the other.
+std::string PartsThatEndIn(std::string_view ending) {
   std::string text;
-  text.reserve(page.size() + title.size() + data.size());
+  for (const PagePart& part : kParts) {
+    if (part.name.ends_with(ending)) text += part.text;
+  }
+  return text;
+}
+
+/// The page with each `{{name}}` replaced; what is put in is not looked at again.
+std::string Filled(std::string_view page, const std::map<std::string_view, std::string>& texts) {
+  std::string filled;
   while (true) {
     const std::size_t hole = page.find("{{");
-    text += page.substr(0, hole);
-    if (hole == std::string_view::npos) return text;
-    page.remove_prefix(hole);
-    const std::size_t end = page.find("}}") + 2;
-    text += page.substr(0, end) == "{{title}}" ? title : data;
-    page.remove_prefix(end);
+    filled += page.substr(0, hole);
+    if (hole == std::string_view::npos) return filled;
+    const std::size_t end = page.find("}}", hole);
+    filled += texts.at(page.substr(hole + 2, end - hole - 2));
+    page.remove_prefix(end + 2);
   }
 }
 
@@ -93,7 +112,11 @@ Json ReportData(const RunTitle& title) {
 }
 
 std::string ReportPage(const RunTitle& title, const Json& data) {
-  return Filled(kReportTemplate, Escaped(TitleText(title)), WithoutTags(data.Line()));
+  return Filled(PartsThatEndIn(".html"),
+                {{"style", PartsThatEndIn(".css")},
+                 {"script", PartsThatEndIn(".js")},
+                 {"title", Escaped(TitleText(title))},
+                 {"data", WithoutTags(data.Line())}});
 }
 
 void WriteReportPage(const std::filesystem::path& path, const RunTitle& title, const Json& data) {
