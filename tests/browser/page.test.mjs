@@ -69,14 +69,14 @@ test('dragging says where a robot is', async () => {
     const {view, model} = window.qwsm;
     const robot = model.robots.get('robot_1');
     const {x, y} = robot.last;
-    const place = {x: x + (x > view.camera.x ? -1.5 : 1.5), y};
+    const place = {x: x + (x > view.camera.x ? -5 : 5), y};
     return {from: view.camera.toScreen(place.x, place.y), place, reports: robot.history.length, contradicted: Number(robot.counts.contradicted_poses)};
   });
   await page.mouse.move(...from);
   await page.mouse.down();
   await page.mouse.move(from[0], from[1] - 60, {steps: 4});
   await page.mouse.up();
-  // The service puts that to a trial: the robot is where it was told, until its scans contradict.
+  // The service puts that to a trial, and its scans contradict: it is too far off to be found from there.
   await until(() => page.evaluate(([told, since, before]) => {
     const {history, counts} = window.qwsm.model.robots.get('robot_1');
     const isThere = history.slice(since).some(({x, y}) => Math.hypot(x - told.x, y - told.y) < 0.75);
