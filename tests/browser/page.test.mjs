@@ -42,9 +42,9 @@ const untilInPage = (ask, what) => until(() => inPage(ask), what);
 
 test('four robots are on the map, with their state in words', async () => {
   await untilInPage(() => window.qwsm.model.robots.size === 4, 'four robots');
+  await untilInPage(() => document.querySelectorAll('.robot').length === 4, 'four robots in the list');
   await untilInPage(() => [...document.querySelectorAll('.robot .state')].every((node) => node.textContent.startsWith('matched')), 'all are matched');
   await untilInPage(() => window.qwsm.model.maps.get('/map_tiles')?.chunks.size > 0, 'the map');
-  assert.equal(await page.locator('.robot').count(), 4);
   assert.equal(await page.locator('#link').getAttribute('data-state'), 'live');
   // The scan of now lies on the map: most of it on what is drawn as a wall.
   await untilInPage(() => [...window.qwsm.model.robots.values()].every(({points}) => points?.length > 50), 'the scans of now');
@@ -96,6 +96,7 @@ test('a victim is marked, and known to the service', async () => {
 
 test('the page comes back with the service after kill -9', async () => {
   service.kill('SIGKILL');
+  await service.ended;
   await untilInPage(() => document.getElementById('link').dataset.state === 'lost', 'the page says that the service is gone');
   service = await programs.serve(port);
   await untilInPage(() => document.getElementById('link').dataset.state === 'live', 'the page is live again');
