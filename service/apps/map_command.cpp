@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,6 +21,7 @@
 #include "service/pipeline/results/answer_bag.hpp"
 #include "service/pipeline/results/corrected_run.hpp"
 #include "service/pipeline/results/results_writer.hpp"
+#include "service/pipeline/run/parallel.hpp"
 #include "service/pipeline/simulation/simulator_source.hpp"
 
 namespace qwsm::apps {
@@ -107,24 +107,26 @@ ExitCode MapAll(const MapArguments& arguments,
                 const options::ProgramOptions& options,
                 pipeline::ScanSource& source,
                 const RunSession& session) {
-  const bool corrects = Corrects(options);
-  Mapper mapper(options.mapper);
+  std::optional<SelfCorrectingMapper> correcting;
+  if (Corrects(options)) correcting.emplace(options.mapper, pipeline::BeginOnAnotherThread);
+  Mapper incremental(options.mapper);
   pipeline::ResultsWriter results(
       session.folder(),
-      {.trajectory = corrects ? "trajectory_live.tum" : "trajectory.tum",
+      {.trajectory = correcting ? "trajectory_live.tum" : "trajectory.tum",
        .pictures = session.has_pictures()});
-  pipeline::CorrectionSink correction(options.mapper);
   pipeline::AnswerBag answers;
   std::vector<pipeline::StepSink*> sinks{&results};
-  if (corrects) sinks.push_back(&correction);
   if (arguments.bag) sinks.push_back(&answers);
-  const pipeline::ReplayResult end =
-      session.Run("map", source, std::bind_front(&Mapper::Process, &mapper), sinks);
+  const auto answer = [&](const Observation& observation) {
+    return correcting ? correcting->Process(observation) : incremental.Process(observation);
+  };
+  const pipeline::ReplayResult end = session.Run("map", source, answer, sinks);
   results.SetTitle(session.Title("map", end));
 
   std::optional<pipeline::CorrectedRun> corrected;
-  if (corrects) {
-    corrected = correction.Correct(mapper.map());
+  const Mapper& mapper = correcting ? correcting->mapper() : incremental;
+  if (correcting) {
+    corrected = pipeline::CorrectAtTheEnd(*correcting);
     results.Finish(mapper, *corrected, options.rendering, source.truth());
     if (arguments.bag) answers.Correct(corrected->correction.map_robot);
   } else {

@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
+#include "qwsm/correction/node_maker.hpp"
 #include "qwsm/mapping/mapper.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/simulated_drive.hpp"
@@ -53,11 +56,27 @@ double WorstError_m(const std::vector<UncertainPose2>& path, const std::vector<P
   return worst_m;
 }
 
-Correction Corrected(const std::vector<MappingStep>& steps) {
-  MapCorrector corrector;
-  for (const MappingStep& step : steps) corrector.Take(step);
-  return corrector.Correct();
+/// Of the steps that are relevant.
+Answers Relevant(const Answers& all) {
+  Answers relevant;
+  for (std::size_t i = 0; i < all.steps.size(); ++i) {
+    if (!all.steps[i].relevant) continue;
+    relevant.steps.push_back(all.steps[i]);
+    relevant.T_map_true.push_back(all.T_map_true[i]);
+  }
+  return relevant;
 }
+
+MapCorrector Fed(const std::vector<MappingStep>& steps) {
+  MapCorrector corrector;
+  NodeMaker nodes;
+  for (const MappingStep& step : steps) {
+    if (auto node = nodes.Take(step)) corrector.Add(std::move(*node));
+  }
+  return corrector;
+}
+
+Correction Corrected(const std::vector<MappingStep>& steps) { return Fed(steps).Correct(); }
 
 std::vector<UncertainPose2> PathOf(const std::vector<MappingStep>& steps) {
   std::vector<UncertainPose2> path;
@@ -68,21 +87,61 @@ std::vector<UncertainPose2> PathOf(const std::vector<MappingStep>& steps) {
 TEST(MapCorrector, MendsThePathOnceTheRobotIsBack) {
   Answers answers = Drive(OfficeLoop());
   Bend(answers.steps, 0.0003);
-  const double before_m = WorstError_m(PathOf(answers.steps), answers.T_map_true);
+  const Answers relevant = Relevant(answers);
+  const double before_m = WorstError_m(PathOf(relevant.steps), relevant.T_map_true);
   ASSERT_GT(before_m, 0.5);
   const Correction correction = Corrected(answers.steps);
-  ASSERT_EQ(correction.map_robot.size(), answers.steps.size());
+  ASSERT_EQ(correction.map_node.size(), relevant.steps.size());
   EXPECT_GT(std::ranges::count(correction.loops, LoopVerdict::kAccepted, &Loop::verdict), 3);
-  EXPECT_LT(WorstError_m(correction.map_robot, answers.T_map_true), 0.2 * before_m);
+  EXPECT_LT(WorstError_m(correction.map_node, relevant.T_map_true), 0.2 * before_m);
+}
+
+// Two halves of a drive, as if two robots had taken turns.
+TEST(MapCorrector, KeepsTheScansOfEachRobotInAChainOfItsOwn) {
+  Answers answers = Drive(OfficeLoop());
+  Bend(answers.steps, 0.0003);
+  const Answers relevant = Relevant(answers);
+  const std::size_t half = relevant.steps.size() / 2;
+  MapCorrector corrector;
+  std::array<NodeMaker, 2> nodes;
+  std::vector<Pose2> T_map_true;
+  for (std::size_t i = 0; i < half; ++i) {
+    for (std::size_t robot = 0; robot < 2; ++robot) {
+      auto node = nodes[robot].Take(relevant.steps[robot * half + i]);
+      node->robot = robot;
+      corrector.Add(std::move(*node));
+      T_map_true.push_back(relevant.T_map_true[robot * half + i]);
+    }
+  }
+  const Correction correction = corrector.Correct();
+  const double before_m = WorstError_m(PathOf(relevant.steps), relevant.T_map_true);
+  EXPECT_LT(WorstError_m(correction.map_node, T_map_true), 0.2 * before_m);
+}
+
+TEST(MapCorrector, ProposesWhereTheMapContradictsItselfAndIsContentThen) {
+  Answers answers = Drive(OfficeLoop());
+  Bend(answers.steps, 0.0003);
+  const Answers relevant = Relevant(answers);
+  MapCorrector corrector = Fed(answers.steps);
+  const auto proposed = corrector.Propose();
+  ASSERT_TRUE(proposed);
+  const double before_m = WorstError_m(PathOf(relevant.steps), relevant.T_map_true);
+  EXPECT_LT(WorstError_m(*proposed, relevant.T_map_true), 0.5 * before_m);
+  corrector.Adopt(*proposed);
+  EXPECT_FALSE(corrector.Propose());
+}
+
+TEST(MapCorrector, ProposesNothingWhereTheMapIsRight) {
+  EXPECT_FALSE(Fed(Drive(OfficeLoop()).steps).Propose());
 }
 
 TEST(MapCorrector, GivesTheSameTwice) {
   const Answers answers = Drive(OfficeLoop());
   const Correction once = Corrected(answers.steps);
   const Correction twice = Corrected(answers.steps);
-  ASSERT_EQ(once.map_robot.size(), twice.map_robot.size());
-  for (std::size_t i = 0; i < once.map_robot.size(); ++i) {
-    EXPECT_EQ(once.map_robot[i].T_a_b, twice.map_robot[i].T_a_b) << i;
+  ASSERT_EQ(once.map_node.size(), twice.map_node.size());
+  for (std::size_t i = 0; i < once.map_node.size(); ++i) {
+    EXPECT_EQ(once.map_node[i].T_a_b, twice.map_node[i].T_a_b) << i;
   }
 }
 
@@ -92,10 +151,11 @@ TEST(MapCorrector, LeavesAPathWithoutLoopsAsItWasAnswered) {
   const Answers answers = Drive(scene);
   const Correction correction = Corrected(answers.steps);
   EXPECT_TRUE(correction.loops.empty());
-  ASSERT_EQ(correction.map_robot.size(), answers.steps.size());
-  for (std::size_t i = 0; i < answers.steps.size(); ++i) {
-    EXPECT_EQ(correction.map_robot[i].T_a_b, answers.steps[i].map_robot.T_a_b) << i;
-    EXPECT_EQ(correction.map_robot[i].covariance, answers.steps[i].map_robot.covariance) << i;
+  const std::vector<MappingStep> relevant = Relevant(answers).steps;
+  ASSERT_EQ(correction.map_node.size(), relevant.size());
+  for (std::size_t i = 0; i < relevant.size(); ++i) {
+    EXPECT_EQ(correction.map_node[i].T_a_b, relevant[i].map_robot.T_a_b) << i;
+    EXPECT_EQ(correction.map_node[i].covariance, relevant[i].map_robot.covariance) << i;
   }
 }
 
@@ -109,34 +169,25 @@ TEST(MapCorrector, MendsAStepThatWasAnsweredWrongly) {
     answers.steps[i].map_robot.covariance.diagonal() += Eigen::Vector3d(0.1, 0.1, 0.001);
   }
   const Correction correction = Corrected(answers.steps);
-  EXPECT_LT(WorstError_m({correction.map_robot.back()}, {answers.T_map_true.back()}), 0.1);
+  EXPECT_LT(WorstError_m({correction.map_node.back()}, {Relevant(answers).T_map_true.back()}), 0.1);
 }
 
-TEST(MapCorrector, TakesScansThatShowNothing) {
+TEST(MapCorrector, HasNothingToCorrectWithoutScans) {
   MapCorrector corrector;
-  EXPECT_TRUE(corrector.Correct().map_robot.empty());
-  corrector.Take({.stamp = {}, .map_robot = {.T_a_b = {.x_m = 1.0}}});
-  const Correction correction = corrector.Correct();
-  ASSERT_EQ(correction.map_robot.size(), 1U);
-  EXPECT_EQ(correction.map_robot.front().T_a_b.x_m, 1.0);
-  EXPECT_TRUE(correction.map_node.empty());
+  EXPECT_TRUE(corrector.Correct().map_node.empty());
+  EXPECT_FALSE(corrector.Propose());
+  EXPECT_TRUE(corrector.MapAt({}).empty());
 }
 
 TEST(MapCorrector, InsertsScansAnewWhereTheyBelong) {
-  const Answers answers = Drive(FurnishedRoom());
-  ScanMap map;
-  std::vector<UncertainPose2> moved;
-  for (const MappingStep& step : answers.steps) {
-    if (!step.relevant) continue;
-    map.Insert(step.relevant_scan, ToPoints(step.relevant_scan), step.map_robot);
-    moved.push_back({.T_a_b = Pose2{.x_m = 5.0} * step.map_robot.T_a_b,
-                     .covariance = step.map_robot.covariance});
-  }
-  const ScanMap elsewhere = Reinserted(map, moved);
-  ASSERT_EQ(elsewhere.scans().size(), map.scans().size());
-  EXPECT_NEAR(elsewhere.scans().back().map_robot.T_a_b.x_m,
-              map.scans().back().map_robot.T_a_b.x_m + 5.0,
-              1e-9);
+  const std::vector<MappingStep> steps = Drive(FurnishedRoom()).steps;
+  const MapCorrector corrector = Fed(steps);
+  std::vector<UncertainPose2> moved = corrector.Correct().map_node;
+  const double x_m = moved.back().T_a_b.x_m;
+  for (UncertainPose2& map_node : moved) map_node.T_a_b = Pose2{.x_m = 5.0} * map_node.T_a_b;
+  const ScanMap elsewhere = corrector.MapAt(moved);
+  ASSERT_EQ(elsewhere.scans().size(), moved.size());
+  EXPECT_NEAR(elsewhere.scans().back().map_robot.T_a_b.x_m, x_m + 5.0, 1e-9);
 }
 
 }  // namespace

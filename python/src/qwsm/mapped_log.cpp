@@ -11,9 +11,10 @@
 #include "python/src/option_dict.hpp"
 #include "python/src/qwsm/bindings.hpp"
 #include "python/src/qwsm/lists.hpp"
-#include "qwsm/correction/map_corrector.hpp"
+#include "qwsm/correction/self_correcting_mapper.hpp"
 #include "qwsm/mapping/mapper.hpp"
 #include "service/pipeline/run/log_source.hpp"
+#include "service/pipeline/run/parallel.hpp"
 
 namespace qwsm::python {
 namespace {
@@ -46,28 +47,26 @@ void Append(const MappingStep& step, MappedLog& mapped) {
   mapped.status.emplace_back(Name(step.status));
 }
 
-void Correct(const MapCorrector& corrector, const ScanMap& map, MappedLog& mapped) {
-  Correction correction = corrector.Correct();
-  mapped.map = Reinserted(map, correction.map_node);
+void Correct(SelfCorrectingMapper& mapper, MappedLog& mapped) {
+  Correction correction = mapper.Correct();
+  mapped.map = mapper.MapAt(correction.map_node);
   mapped.map_robot = std::move(correction.map_robot);
   mapped.loops = std::move(correction.loops);
 }
 
 MappedLog MapScans(pipeline::LogSource& source, const MapperOptions& options, bool correct) {
   constexpr std::size_t kScansBetweenSignals = 64;
-  Mapper mapper(options);
-  MapCorrector corrector(options);
+  Mapper incremental(options);
+  SelfCorrectingMapper correcting(options, pipeline::BeginOnAnotherThread);
   MappedLog mapped;
   while (const std::optional<Observation> observation = source.Next()) {
-    const MappingStep step = mapper.Process(*observation);
-    if (correct) corrector.Take(step);
-    Append(step, mapped);
+    Append(correct ? correcting.Process(*observation) : incremental.Process(*observation), mapped);
     if (mapped.live.size() % kScansBetweenSignals == 0) HandleSignals();
   }
   if (correct) {
-    Correct(corrector, mapper.map(), mapped);
+    Correct(correcting, mapped);
   } else {
-    mapped.map = mapper.map();
+    mapped.map = incremental.map();
   }
   mapped.trajectory = mapped.live;
   for (std::size_t i = 0; i < mapped.live.size(); ++i) {

@@ -19,30 +19,26 @@ Pose2 Between(const Pose2& a, const Pose2& b, double share) {
 
 }  // namespace
 
-void AnchoredPath::Take(const MappingStep& step) {
+void AnchoredPath::Take(const MappingStep& step, const UncertainPose2& map_last) {
   if (step.relevant) {
-    anchors_.push_back(
-        {.stamp = step.stamp, .map_robot = step.map_robot, .continues = !step.closed_loop});
+    anchors_.push_back({.stamp = step.stamp, .T_last_this = {}});
+    if (anchors_.size() > 1 && !step.closed_loop) {
+      anchors_.back().T_last_this = map_last.T_a_b.Inverse() * step.map_robot.T_a_b;
+    }
   }
-  answers_.push_back({.stamp = step.stamp, .map_robot = step.map_robot, .node = {}});
-  if (!anchors_.empty()) answers_.back().node = static_cast<NodeId>(anchors_.size() - 1);
-}
-
-std::vector<UncertainPose2> AnchoredPath::AsAnswered() const {
-  std::vector<UncertainPose2> path;
-  path.reserve(answers_.size());
-  for (const Answer& answer : answers_) path.push_back(answer.map_robot);
-  return path;
+  answers_.push_back({.stamp = step.stamp, .node_robot = step.map_robot, .node = {}});
+  if (anchors_.empty()) return;
+  answers_.back().node = static_cast<NodeId>(anchors_.size() - 1);
+  answers_.back().node_robot = step.relevant ? UncertainPose2{} : Since(map_last, step.map_robot);
 }
 
 std::vector<UncertainPose2> AnchoredPath::At(std::span<const UncertainPose2> map_node) const {
   std::vector<UncertainPose2> path;
   path.reserve(answers_.size());
   for (const Answer& answer : answers_) {
-    path.push_back(answer.map_robot);
+    path.push_back(answer.node_robot);
     if (!answer.node) continue;
-    path.back() =
-        map_node[*answer.node] * Since(anchors_[*answer.node].map_robot, answer.map_robot);
+    path.back() = map_node[*answer.node] * answer.node_robot;
     path.back().T_a_b = Interpolated(answer, map_node);
   }
   return path;
@@ -50,17 +46,16 @@ std::vector<UncertainPose2> AnchoredPath::At(std::span<const UncertainPose2> map
 
 Pose2 AnchoredPath::Interpolated(const Answer& answer,
                                  std::span<const UncertainPose2> map_node) const {
-  const auto by = [&](NodeId node) {
-    return map_node[node].T_a_b *
-           (anchors_[node].map_robot.T_a_b.Inverse() * answer.map_robot.T_a_b);
-  };
   const NodeId before = *answer.node;
   const NodeId after = before + 1;
-  if (after == anchors_.size() || !anchors_[after].continues) return by(before);
+  const Pose2 by_before = map_node[before].T_a_b * answer.node_robot.T_a_b;
+  if (after == anchors_.size() || !anchors_[after].T_last_this) return by_before;
+  const Pose2 T_before_map = *anchors_[after].T_last_this * map_node[after].T_a_b.Inverse();
+  const Pose2 by_after = T_before_map.Inverse() * answer.node_robot.T_a_b;
   using Seconds = std::chrono::duration<double>;
   const Seconds since = answer.stamp - anchors_[before].stamp;
   const Seconds whole = anchors_[after].stamp - anchors_[before].stamp;
-  return Between(by(before), by(after), whole.count() > 0.0 ? since / whole : 0.0);
+  return Between(by_before, by_after, whole.count() > 0.0 ? since / whole : 0.0);
 }
 
 }  // namespace qwsm

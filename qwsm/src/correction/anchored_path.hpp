@@ -15,10 +15,9 @@ namespace qwsm {
 class AnchoredPath {
  public:
   /// Takes the answer to a scan. If it is relevant, it is a node, the first one being node 0.
-  void Take(const MappingStep& step);
+  /// @param map_last the last node in the map of the answer.
+  void Take(const MappingStep& step, const UncertainPose2& map_last);
 
-  /// The path as it was answered.
-  std::vector<UncertainPose2> AsAnswered() const;
   /// The path when the nodes are there. Between two nodes it goes from the correction of the one
   /// to that of the other as time goes; where the answers did not continue, it keeps the first.
   std::vector<UncertainPose2> At(std::span<const UncertainPose2> map_node) const;
@@ -26,13 +25,12 @@ class AnchoredPath {
  private:
   struct Answer {
     Timestamp stamp{};
-    UncertainPose2 map_robot;
+    UncertainPose2 node_robot;   // As seen from that node; else in the map.
     std::optional<NodeId> node;  // The last one before it, or itself.
   };
   struct Anchor {
     Timestamp stamp{};
-    UncertainPose2 map_robot;
-    bool continues = true;
+    std::optional<Pose2> T_last_this;  // As seen from the node before, if the answers continued.
   };
 
   Pose2 Interpolated(const Answer& answer, std::span<const UncertainPose2> map_node) const;

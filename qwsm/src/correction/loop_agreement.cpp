@@ -7,7 +7,6 @@
 namespace qwsm {
 namespace {
 
-constexpr NodeId kSamePass = 16;  // Nodes between scans of the same pass, at most.
 constexpr int kMinAgreeing = 2;
 constexpr double kMaxChi2 = 7.815;  // 95 % of right ones are below, for three degrees of freedom.
 
@@ -22,9 +21,9 @@ double SquaredMahalanobisDistance(const UncertainPose2& a, const UncertainPose2&
 // the same place.
 bool Agree(const FoundLoop& a,
            const FoundLoop& b,
-           const ReferencePoses& references,
-           const ScanChain& chain) {
-  const UncertainPose2 to_last = chain.Relative(a.loop.edge.to, b.loop.edge.to);
+           ReferencePoses& references,
+           const ScanChains& chains) {
+  const UncertainPose2 to_last = chains.Relative(a.loop.edge.to, b.loop.edge.to);
   const UncertainPose2 by_a = MeasuredBy(a.loop.edge) * to_last;
   const UncertainPose2 by_b = MeasuredBy(b.loop.edge);
   const double chi2 =
@@ -34,27 +33,50 @@ bool Agree(const FoundLoop& a,
   return chi2 <= kMaxChi2;
 }
 
+// Whether the submaps that two loops come from are the same robot's.
+bool IsOfOneRobot(const FoundLoop& a, const FoundLoop& b, const ScanChains& chains) {
+  return chains.submaps()[a.submap].robot == chains.submaps()[b.submap].robot;
+}
+
 }  // namespace
 
-void ConfirmByOthers(std::vector<FoundLoop>& loops,
-                     const ReferencePoses& references,
-                     const ScanChain& chain) {
+std::vector<NodeId> ReferencePoses::From(std::size_t submap) const {
+  std::vector<NodeId> references;
+  for (const RigidSubmap& later : chains_.submaps().subspan(submap)) {
+    references.push_back(later.reference());
+  }
+  return references;
+}
+
+const UncertainPose2& ReferencePoses::Between(std::size_t submap, std::size_t other) {
+  std::vector<UncertainPose2>& seen = seen_[submap];
+  if (seen.empty()) {
+    const std::vector<NodeId> references = From(submap);
+    seen = estimate_.SeenFrom(references.front(), references);
+  }
+  return seen[other - submap];
+}
+
+void ConfirmByOthers(std::span<FoundLoop> loops,
+                     ReferencePoses& references,
+                     const ScanChains& chains) {
   std::vector<int> agreeing(loops.size());
   std::vector<int> disagreeing(loops.size());
   for (std::size_t i = 0; i < loops.size(); ++i) {
     for (std::size_t j = i + 1; j < loops.size(); ++j) {
-      const NodeId apart = loops[j].loop.edge.to - loops[i].loop.edge.to;
-      if (apart > kSamePass) break;
-      if (apart == 0) continue;
+      const std::optional<std::size_t> apart =
+          chains.NodesBetween(loops[i].loop.edge.to, loops[j].loop.edge.to);
+      if (!apart || *apart > kSamePass) break;
+      if (*apart == 0 || !IsOfOneRobot(loops[i], loops[j], chains)) continue;
       std::vector<int>& count =
-          Agree(loops[i], loops[j], references, chain) ? agreeing : disagreeing;
+          Agree(loops[i], loops[j], references, chains) ? agreeing : disagreeing;
       ++count[i];
       ++count[j];
     }
   }
   for (std::size_t i = 0; i < loops.size(); ++i) {
     const bool is_confirmed = agreeing[i] >= kMinAgreeing && agreeing[i] > disagreeing[i];
-    loops[i].loop.verdict = is_confirmed ? LoopVerdict::kAccepted : LoopVerdict::kUnconfirmed;
+    if (is_confirmed) loops[i].loop.verdict = LoopVerdict::kAccepted;
   }
 }
 

@@ -4,7 +4,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <utility>
+#include <tuple>
 
 #include "submap_match.hpp"
 
@@ -17,7 +17,7 @@ constexpr double kWindowSigmas = 3.0;
 constexpr double kMaxWindow_m = 5.0;
 constexpr double kMinOverlap = 0.65;
 // Fewer nodes after a submap the robot is still on the same pass.
-constexpr NodeId kNodesBetweenPasses = 8;
+constexpr std::size_t kNodesBetweenPasses = 8;
 // What the error model does not know of: poses are never taken to be more certain.
 constexpr double kModelSigma_m = 0.1;
 constexpr double kModelSigma_rad = 0.02;
@@ -34,89 +34,127 @@ Eigen::Matrix3d InformationWith(const Eigen::Matrix3d& of_match, const Eigen::Ma
 
 }  // namespace
 
-std::vector<Loop> LoopFinder::Find(const PoseEstimate& estimate, std::span<const Loop> last) const {
-  ReferencePoses references;
-  std::vector<Candidate> candidates = NearPasses(estimate, references);
+std::vector<FoundLoop> LoopFinder::Find(NodeId first,
+                                        const PoseEstimate& estimate,
+                                        std::span<const FoundLoop> last) const {
+  ReferencePoses references(estimate, chains_);
+  std::vector<Candidate> candidates = NearPasses(first, estimate, references);
   std::vector<FoundLoop> found = RecogniseAll(candidates, last);
-  std::ranges::sort(
-      found, {}, [](const FoundLoop& f) { return std::pair(f.loop.edge.to, f.submap); });
-  ConfirmByOthers(found, references, chain_);
-  std::vector<Loop> loops;
-  loops.reserve(found.size());
-  for (const FoundLoop& one : found) loops.push_back(one.loop);
-  return loops;
+  const std::vector<FoundLoop> settled = AddThoseNear(first, last, found);
+  const auto order = [this](const FoundLoop& f) {
+    return std::tuple(chains_.RobotOf(f.loop.edge.to), f.loop.edge.to, f.submap);
+  };
+  std::ranges::sort(found, {}, order);
+  ConfirmByOthers(found, references, chains_);
+  found.insert(found.end(), settled.begin(), settled.end());
+  std::ranges::sort(found, {}, order);
+  return found;
+}
+
+// Adds the loops of scans before the first one that new ones may yet confirm.
+// @return those that none can.
+std::vector<FoundLoop> LoopFinder::AddThoseNear(NodeId first,
+                                                std::span<const FoundLoop> last,
+                                                std::vector<FoundLoop>& found) const {
+  const std::vector<FoundLoop> news = found;
+  std::vector<FoundLoop> settled;
+  for (const FoundLoop& old : last) {
+    if (old.loop.edge.to >= first) continue;
+    const bool is_near = std::ranges::any_of(news, [&](const FoundLoop& one) {
+      return chains_.NodesBetween(old.loop.edge.to, one.loop.edge.to).value_or(kSamePass + 1) <=
+             kSamePass;
+    });
+    (is_near ? found : settled).push_back(old);
+  }
+  return settled;
 }
 
 // Submap by submap, since the surfaces of one are made for it.
 std::vector<FoundLoop> LoopFinder::RecogniseAll(std::span<Candidate> candidates,
-                                                std::span<const Loop> last) const {
+                                                std::span<const FoundLoop> last) const {
   std::ranges::sort(candidates, {}, [](const Candidate& c) { return std::pair(c.submap, c.node); });
   std::vector<FoundLoop> found;
   std::optional<SurfaceMap> surfaces;
   std::size_t of_submap = 0;
   for (const Candidate& candidate : candidates) {
-    if (const Loop* known = AcceptedAmong(last, candidate)) {
-      found.push_back({*known, candidate.submap});
+    if (const FoundLoop* known = AcceptedAmong(last, candidate)) {
+      found.push_back(*known);
+      found.back().loop.verdict = LoopVerdict::kUnconfirmed;
       continue;
     }
     if (!surfaces || of_submap != candidate.submap) {
       of_submap = candidate.submap;
-      surfaces = chain_.SurfacesOf(chain_.submaps()[of_submap], nodes_);
+      surfaces = chains_.SurfacesOf(chains_.submaps()[of_submap], nodes_);
     }
     if (const auto loop = Recognise(candidate, *surfaces)) found.push_back({*loop, of_submap});
   }
   return found;
 }
 
-const Loop* LoopFinder::AcceptedAmong(std::span<const Loop> loops,
-                                      const Candidate& candidate) const {
-  const std::pair ends(candidate.node, chain_.submaps()[candidate.submap].reference());
-  const auto loop = std::ranges::lower_bound(
-      loops, ends, {}, [](const Loop& l) { return std::pair(l.edge.to, l.edge.from); });
-  const bool is_accepted = loop != loops.end() && loop->edge.to == ends.first &&
-                           loop->edge.from == ends.second &&
-                           loop->verdict == LoopVerdict::kAccepted;
-  return is_accepted ? &*loop : nullptr;
+const FoundLoop* LoopFinder::AcceptedAmong(std::span<const FoundLoop> loops,
+                                           const Candidate& candidate) const {
+  const auto key = [this](NodeId to, std::size_t submap) {
+    return std::tuple(chains_.RobotOf(to), to, submap);
+  };
+  const auto found = std::ranges::lower_bound(
+      loops, key(candidate.node, candidate.submap), {}, [&](const FoundLoop& f) {
+        return key(f.loop.edge.to, f.submap);
+      });
+  const bool is_known = found != loops.end() && found->submap == candidate.submap &&
+                        found->loop.edge.to == candidate.node &&
+                        found->loop.edge.from == chains_.submaps()[candidate.submap].reference();
+  return is_known && found->loop.verdict == LoopVerdict::kAccepted ? &*found : nullptr;
 }
 
 // Of each pass, which is a row of submaps that came near, the nearest one.
-std::vector<LoopFinder::Candidate> LoopFinder::NearPasses(const PoseEstimate& estimate,
+std::vector<LoopFinder::Candidate> LoopFinder::NearPasses(NodeId first,
+                                                          const PoseEstimate& estimate,
                                                           ReferencePoses& references) const {
   std::vector<Candidate> near;
-  const std::span<const RigidSubmap> submaps = chain_.submaps();
+  const std::span<const RigidSubmap> submaps = chains_.submaps();
   for (std::size_t i = 0; i < submaps.size(); ++i) {
-    std::vector<NodeId> nodes;
-    for (const RigidSubmap& later : submaps.subspan(i)) nodes.push_back(later.reference());
+    const std::vector<NodeId> in_reach = NodesInReach(first, submaps[i], estimate);
+    if (in_reach.empty()) continue;
+    std::vector<NodeId> nodes = references.From(i);
     const auto later_submaps = std::ssize(nodes);
-    AppendNodesInReach(submaps[i], estimate, nodes);
+    nodes.insert(nodes.end(), in_reach.begin(), in_reach.end());
     const auto seen = estimate.SeenFrom(submaps[i].reference(), nodes);
-    references.Add({seen.begin(), seen.begin() + later_submaps});
+    references.Keep(i, {seen.begin(), seen.begin() + later_submaps});
     for (auto k = static_cast<std::size_t>(later_submaps); k < seen.size(); ++k) {
       const double distance_m = seen[k].T_a_b.translation_m().norm();
       if (distance_m <= ReachOf(seen[k])) near.push_back({nodes[k], i, seen[k], distance_m});
     }
   }
-  std::ranges::sort(near, {}, [](const Candidate& c) { return std::pair(c.node, c.submap); });
+  std::ranges::sort(near, {}, [&](const Candidate& c) {
+    return std::tuple(c.node, submaps[c.submap].robot, c.submap);
+  });
   return NearestOfEachPass(near);
 }
 
 // Later nodes that may be in reach, however uncertain they are.
-void LoopFinder::AppendNodesInReach(const RigidSubmap& submap,
-                                    const PoseEstimate& estimate,
-                                    std::vector<NodeId>& nodes) const {
+std::vector<NodeId> LoopFinder::NodesInReach(NodeId first,
+                                             const RigidSubmap& submap,
+                                             const PoseEstimate& estimate) const {
+  std::vector<NodeId> nodes;
   const Eigen::Vector2d reference_m = estimate.T_map_node(submap.reference()).translation_m();
-  for (NodeId node = submap.end + kNodesBetweenPasses; node < nodes_.size(); ++node) {
+  for (NodeId node = std::max(first, submap.nodes.back()); node < nodes_.size(); ++node) {
+    const std::optional<std::size_t> behind = chains_.NodesBetween(submap.nodes.back(), node);
+    if (behind && *behind <= kNodesBetweenPasses) continue;
     const Eigen::Vector2d apart_m = estimate.T_map_node(node).translation_m() - reference_m;
     if (apart_m.norm() <= kReach_m + kMaxWindow_m) nodes.push_back(node);
   }
+  return nodes;
 }
 
-std::vector<LoopFinder::Candidate> LoopFinder::NearestOfEachPass(std::span<const Candidate> near) {
+std::vector<LoopFinder::Candidate> LoopFinder::NearestOfEachPass(
+    std::span<const Candidate> near) const {
   std::vector<Candidate> nearest;
   const Candidate* last = nullptr;
   for (const Candidate& candidate : near) {
-    const bool same_pass =
-        last != nullptr && candidate.node == last->node && candidate.submap == last->submap + 1;
+    const RigidSubmap& submap = chains_.submaps()[candidate.submap];
+    const bool same_pass = last != nullptr && candidate.node == last->node &&
+                           submap.robot == chains_.submaps()[last->submap].robot &&
+                           submap.ordinal == chains_.submaps()[last->submap].ordinal + 1;
     if (!same_pass) {
       nearest.push_back(candidate);
     } else if (candidate.distance_m < nearest.back().distance_m) {
@@ -129,8 +167,8 @@ std::vector<LoopFinder::Candidate> LoopFinder::NearestOfEachPass(std::span<const
 
 std::optional<Loop> LoopFinder::Recognise(const Candidate& candidate,
                                           const SurfaceMap& surfaces) const {
-  const RigidSubmap& submap = chain_.submaps()[candidate.submap];
-  const Pose2& T_chain_reference = chain_.T_chain_node()[submap.reference()];
+  const RigidSubmap& submap = chains_.submaps()[candidate.submap];
+  const Pose2& T_chain_reference = chains_.T_chain_node()[submap.reference()];
   UncertainPose2 expected = UncertainPose2{.T_a_b = T_chain_reference} * candidate.reference_node;
   expected.covariance += UncertainPose2::WithSigmas({}, kModelSigma_m, kModelSigma_rad).covariance;
   const MatchResult match =
@@ -152,8 +190,9 @@ std::optional<Loop> LoopFinder::Recognise(const Candidate& candidate,
 
 // How wrong the scans of a submap lie to its reference: that of one half way to its end.
 Eigen::Matrix3d LoopFinder::ErrorWithin(const RigidSubmap& submap) const {
-  const NodeId half_way = (submap.reference() + submap.end) / 2;
-  return chain_.Relative(submap.reference(), half_way).covariance;
+  const std::size_t size = submap.nodes.size();
+  const NodeId half_way = submap.nodes[(size / 2 + size) / 2];
+  return chains_.Relative(submap.reference(), half_way).covariance;
 }
 
 }  // namespace qwsm

@@ -9,7 +9,7 @@
 #include "loop_agreement.hpp"
 #include "pose_estimate.hpp"
 #include "qwsm/correction/loop.hpp"
-#include "scan_chain.hpp"
+#include "scan_chains.hpp"
 
 namespace qwsm {
 
@@ -17,17 +17,22 @@ namespace qwsm {
 /// near to.
 class LoopFinder {
  public:
-  /// @param nodes, chain of these nodes: outlive this.
-  LoopFinder(const MapperOptions& options, std::span<const ScanNode> nodes, const ScanChain& chain)
+  /// @param nodes, chains of these nodes: outlive this.
+  LoopFinder(const MapperOptions& options,
+             std::span<const ScanNode> nodes,
+             const ScanChains& chains)
       : locator_(options.locator),
         matcher_(options.locator.matcher),
         nodes_(nodes),
-        chain_(chain) {}
+        chains_(chains) {}
 
-  /// The loops that are found from there, in the order of scans, then submaps. Their verdicts are
-  /// kAccepted where loops of scans near by agree, else kUnconfirmed.
+  /// The loops that are found from there, in the order of robots, scans, submaps. Their verdicts
+  /// are kAccepted where loops of scans near by agree, else kUnconfirmed.
+  /// @param first scan to look for: loops of those before are taken over from the last time.
   /// @param last found before; those that were accepted are not looked for again.
-  std::vector<Loop> Find(const PoseEstimate& estimate, std::span<const Loop> last) const;
+  std::vector<FoundLoop> Find(NodeId first,
+                              const PoseEstimate& estimate,
+                              std::span<const FoundLoop> last) const;
 
  private:
   // A scan that may be recognised in a submap.
@@ -38,21 +43,27 @@ class LoopFinder {
     double distance_m = 0.0;
   };
 
-  std::vector<Candidate> NearPasses(const PoseEstimate& estimate, ReferencePoses& references) const;
-  void AppendNodesInReach(const RigidSubmap& submap,
-                          const PoseEstimate& estimate,
-                          std::vector<NodeId>& nodes) const;
-  static std::vector<Candidate> NearestOfEachPass(std::span<const Candidate> near);
-  const Loop* AcceptedAmong(std::span<const Loop> loops, const Candidate& candidate) const;
+  std::vector<Candidate> NearPasses(NodeId first,
+                                    const PoseEstimate& estimate,
+                                    ReferencePoses& references) const;
+  std::vector<NodeId> NodesInReach(NodeId first,
+                                   const RigidSubmap& submap,
+                                   const PoseEstimate& estimate) const;
+  std::vector<Candidate> NearestOfEachPass(std::span<const Candidate> near) const;
+  const FoundLoop* AcceptedAmong(std::span<const FoundLoop> loops,
+                                 const Candidate& candidate) const;
+  std::vector<FoundLoop> AddThoseNear(NodeId first,
+                                      std::span<const FoundLoop> last,
+                                      std::vector<FoundLoop>& found) const;
   std::vector<FoundLoop> RecogniseAll(std::span<Candidate> candidates,
-                                      std::span<const Loop> last) const;
+                                      std::span<const FoundLoop> last) const;
   std::optional<Loop> Recognise(const Candidate& candidate, const SurfaceMap& surfaces) const;
   Eigen::Matrix3d ErrorWithin(const RigidSubmap& submap) const;
 
   ScanLocatorOptions locator_;
   WeightedScanMatcher matcher_;
   std::span<const ScanNode> nodes_;
-  const ScanChain& chain_;
+  const ScanChains& chains_;
 };
 
 }  // namespace qwsm

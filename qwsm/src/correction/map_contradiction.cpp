@@ -13,6 +13,8 @@ constexpr std::size_t kStep = 4;  // Of so many scans one is asked.
 constexpr double kNear_m = 15.0;  // Scans so near to each other look at the same surfaces.
 constexpr double kPointSpacing_m = 0.3;
 constexpr double kMaxSigmas = 3.0;
+// It is asked again and again while a robot drives: chance has many tries.
+constexpr double kMinSigmas = 5.0;
 
 // One scan where it is thought to have been taken.
 struct PlacedScan {
@@ -35,19 +37,27 @@ std::vector<PlacedScan> Placed(std::span<const ScanNode> nodes,
   return placed;
 }
 
+// Both counts scatter as those of rare events do.
+double SigmaOfDifference(const Contradiction& a, const Contradiction& b) {
+  const auto variance_of_share = [](const Contradiction& c) {
+    return c.share() / static_cast<double>(std::max<std::size_t>(1, c.looked_at));
+  };
+  return std::sqrt(variance_of_share(a) + variance_of_share(b));
+}
+
 }  // namespace
 
 double Contradiction::share() const {
   return looked_at == 0 ? 0.0 : static_cast<double>(seen_through) / static_cast<double>(looked_at);
 }
 
-// Both counts scatter as those of rare events do.
 bool IsWorse(const Contradiction& after, const Contradiction& before) {
-  const auto variance_of_share = [](const Contradiction& c) {
-    return c.share() / static_cast<double>(std::max<std::size_t>(1, c.looked_at));
-  };
-  const double sigma = std::sqrt(variance_of_share(after) + variance_of_share(before));
-  return after.share() > before.share() + kMaxSigmas * sigma;
+  return after.share() - before.share() > kMaxSigmas * SigmaOfDifference(after, before);
+}
+
+bool IsMostlyResolved(const Contradiction& after, const Contradiction& before) {
+  return after.share() < 0.5 * before.share() &&
+         before.share() - after.share() > kMinSigmas * SigmaOfDifference(after, before);
 }
 
 Contradiction ContradictionAt(std::span<const ScanNode> nodes,

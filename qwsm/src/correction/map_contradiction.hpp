@@ -22,6 +22,9 @@ struct Contradiction {
 /// Whether there is more of it than chance explains.
 bool IsWorse(const Contradiction& after, const Contradiction& before);
 
+/// Whether most of it is gone: more than half, and more than chance explains.
+bool IsMostlyResolved(const Contradiction& after, const Contradiction& before);
+
 /// Counts the contradiction of scans at these poses. Complexity: linear in the pairs of scans that
 /// are near each other; of all scans, every fourth is asked.
 /// @param T_map_node by node

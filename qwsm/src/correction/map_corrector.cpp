@@ -3,12 +3,12 @@
 #include "qwsm/correction/map_corrector.hpp"
 
 #include <algorithm>
+#include <utility>
 
-#include "anchored_path.hpp"
 #include "loop_finder.hpp"
 #include "map_contradiction.hpp"
 #include "pose_estimate.hpp"
-#include "scan_chain.hpp"
+#include "scan_chains.hpp"
 
 namespace qwsm {
 namespace {
@@ -17,8 +17,10 @@ namespace {
 constexpr int kRounds = 2;
 // A loop that keeps less of its weight is contradicted by the rest of the graph.
 constexpr double kMinWeight = 0.25;
+// While the robot drives, a graph is solved once it has so many times the loops it had before.
+constexpr double kMoreLoops = 1.25;
 
-std::vector<Pose2> AnsweredPosesOf(std::span<const ScanNode> nodes) {
+std::vector<Pose2> PosesOf(std::span<const ScanNode> nodes) {
   std::vector<Pose2> poses;
   poses.reserve(nodes.size());
   for (const ScanNode& node : nodes) poses.push_back(node.map_robot.T_a_b);
@@ -26,26 +28,40 @@ std::vector<Pose2> AnsweredPosesOf(std::span<const ScanNode> nodes) {
 }
 
 std::vector<PoseEdge> WithAccepted(std::span<const PoseEdge> backbone,
-                                   std::span<const Loop> loops) {
+                                   std::span<const FoundLoop> loops) {
   std::vector<PoseEdge> edges(backbone.begin(), backbone.end());
-  for (const Loop& loop : loops) {
-    if (loop.verdict == LoopVerdict::kAccepted) edges.push_back(loop.edge);
+  for (const FoundLoop& found : loops) {
+    if (found.loop.verdict == LoopVerdict::kAccepted) edges.push_back(found.loop.edge);
   }
   return edges;
 }
 
-bool AnyAccepted(std::span<const Loop> loops) {
-  return std::ranges::count(loops, LoopVerdict::kAccepted, &Loop::verdict) > 0;
+std::size_t CountAccepted(std::span<const FoundLoop> loops) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      loops, [](const FoundLoop& f) { return f.loop.verdict == LoopVerdict::kAccepted; }));
 }
 
 // Loops that the rest of the graph disagrees with. @param weights of the accepted ones.
-void ContradictLoops(std::span<const double> weights, std::vector<Loop>& loops) {
+void ContradictLoops(std::span<const double> weights, std::vector<FoundLoop>& loops) {
   auto weight = weights.begin();
-  for (Loop& loop : loops) {
-    if (loop.verdict != LoopVerdict::kAccepted) continue;
-    if (*weight++ < kMinWeight) loop.verdict = LoopVerdict::kContradicted;
+  for (FoundLoop& found : loops) {
+    if (found.loop.verdict != LoopVerdict::kAccepted) continue;
+    if (*weight++ < kMinWeight) found.loop.verdict = LoopVerdict::kContradicted;
   }
 }
+
+std::vector<Loop> LoopsOf(std::span<const FoundLoop> found) {
+  std::vector<Loop> loops;
+  loops.reserve(found.size());
+  for (const FoundLoop& one : found) loops.push_back(one.loop);
+  return loops;
+}
+
+// A graph at the poses that agree best with it.
+struct SolvedGraph {
+  PoseGraph graph;
+  std::unique_ptr<SolvedPoses> poses;
+};
 
 }  // namespace
 
@@ -64,40 +80,63 @@ std::string_view Name(LoopVerdict verdict) {
 }
 
 struct MapCorrector::State {
-  explicit State(const MapperOptions& mapper) : options(mapper), chain(mapper) {}
+  explicit State(const MapperOptions& mapper) : options(mapper), chains(mapper) {}
 
-  Correction AsAnswered(std::vector<Loop> loops) const;
-  Correction Refused(std::vector<Loop> loops) const;
-  bool IsContradictedBy(const std::vector<Pose2>& T_map_node) const;
+  void Look();
+  std::optional<SolvedGraph> Solve(std::vector<FoundLoop>& found) const;
+  bool HasManyMoreLoops() const;
+  Correction Unchanged(std::vector<FoundLoop> found) const;
+  Correction Refused(std::vector<FoundLoop> found) const;
+  Contradiction ContradictionAt(const std::vector<Pose2>& T_map_node) const {
+    return qwsm::ContradictionAt(nodes, T_map_node, options.free_space);
+  }
 
   MapperOptions options;
-  ScanChain chain;
+  ScanChains chains;
   std::vector<ScanNode> nodes;
-  UncertainPose2 odometry;  // Since the last node.
-  AnchoredPath path;
+  std::vector<FoundLoop> loops;   // Found while the robots drive.
+  NodeId looked_for = 0;          // Nodes before were looked for in submaps.
+  std::size_t settled_loops = 0;  // As many as the map has been judged by.
 };
 
-Correction MapCorrector::State::AsAnswered(std::vector<Loop> loops) const {
+// Looks for the nodes that are new.
+void MapCorrector::State::Look() {
+  const LoopFinder finder(options, nodes, chains);
+  loops = finder.Find(looked_for, AnsweredPoses(nodes), loops);
+  looked_for = static_cast<NodeId>(nodes.size());
+}
+
+// Most of what is new changes nothing: so the work for a drive is as much as for its end.
+bool MapCorrector::State::HasManyMoreLoops() const {
+  const auto accepted = static_cast<double>(CountAccepted(loops));
+  return accepted >= kMoreLoops * static_cast<double>(settled_loops) + 1.0;
+}
+
+std::optional<SolvedGraph> MapCorrector::State::Solve(std::vector<FoundLoop>& found) const {
+  PoseGraph graph{.T_map_node = PosesOf(nodes), .edges = WithAccepted(chains.edges(), found)};
+  const GraphSolution solution = SparseGraphSolver().Solve(graph);
+  if (!solution.is_converged) return std::nullopt;
+  ContradictLoops(std::span(solution.weights).subspan(chains.edges().size()), found);
+  graph.T_map_node = solution.T_map_node;
+  auto poses = std::make_unique<SolvedPoses>(graph, solution);
+  return SolvedGraph{.graph = std::move(graph), .poses = std::move(poses)};
+}
+
+Correction MapCorrector::State::Unchanged(std::vector<FoundLoop> found) const {
   Correction correction{.map_node = {},
-                        .map_robot = path.AsAnswered(),
-                        .graph = {.T_map_node = AnsweredPosesOf(nodes),
-                                  .edges = {chain.edges().begin(), chain.edges().end()}},
-                        .loops = std::move(loops)};
+                        .map_robot = {},
+                        .graph = {.T_map_node = PosesOf(nodes),
+                                  .edges = {chains.edges().begin(), chains.edges().end()}},
+                        .loops = LoopsOf(found)};
   for (const ScanNode& node : nodes) correction.map_node.push_back(node.map_robot);
   return correction;
 }
 
-Correction MapCorrector::State::Refused(std::vector<Loop> loops) const {
-  for (Loop& loop : loops) {
-    if (loop.verdict == LoopVerdict::kAccepted) loop.verdict = LoopVerdict::kRefused;
+Correction MapCorrector::State::Refused(std::vector<FoundLoop> found) const {
+  for (FoundLoop& one : found) {
+    if (one.loop.verdict == LoopVerdict::kAccepted) one.loop.verdict = LoopVerdict::kRefused;
   }
-  return AsAnswered(std::move(loops));
-}
-
-// The map is the judge: poses that are right explain at least what the answers explain.
-bool MapCorrector::State::IsContradictedBy(const std::vector<Pose2>& T_map_node) const {
-  return IsWorse(ContradictionAt(nodes, T_map_node, options.free_space),
-                 ContradictionAt(nodes, AnsweredPosesOf(nodes), options.free_space));
+  return Unchanged(std::move(found));
 }
 
 MapCorrector::MapCorrector(const MapperOptions& options)
@@ -106,52 +145,61 @@ MapCorrector::~MapCorrector() = default;
 MapCorrector::MapCorrector(MapCorrector&&) noexcept = default;
 MapCorrector& MapCorrector::operator=(MapCorrector&&) noexcept = default;
 
-void MapCorrector::Take(const MappingStep& step) {
+void MapCorrector::Add(ScanNode node) {
+  state_->chains.Add(node);
+  state_->nodes.push_back(std::move(node));
+}
+
+std::optional<std::vector<UncertainPose2>> MapCorrector::Propose() {
   State& state = *state_;
-  state.path.Take(step);
-  state.odometry = state.odometry * step.odometry_motion;
-  if (!step.relevant) return;
-  state.nodes.push_back({.scan = step.relevant_scan,
-                         .map_robot = step.map_robot,
-                         .odometry = state.odometry,
-                         .closed_loop = step.closed_loop});
-  state.chain.Add(state.nodes.back());
-  state.odometry = {};
+  state.Look();
+  if (!state.HasManyMoreLoops()) return std::nullopt;
+  const std::optional<SolvedGraph> solved = state.Solve(state.loops);
+  if (!solved) return std::nullopt;
+  if (IsMostlyResolved(state.ContradictionAt(solved->graph.T_map_node),
+                       state.ContradictionAt(PosesOf(state.nodes)))) {
+    return solved->poses->map_node();
+  }
+  state.settled_loops = CountAccepted(state.loops);
+  return std::nullopt;
+}
+
+void MapCorrector::Adopt(std::span<const UncertainPose2> map_node) {
+  for (NodeId node = 0; node < map_node.size(); ++node) {
+    state_->nodes[node].map_robot = map_node[node];
+  }
+  state_->settled_loops = CountAccepted(state_->loops);
+}
+
+ScanMap MapCorrector::MapAt(std::span<const UncertainPose2> map_node) const {
+  ScanMap map(state_->options.map);
+  for (NodeId node = 0; node < map_node.size(); ++node) {
+    const LaserScan& scan = state_->nodes[node].scan;
+    map.Insert(scan, ToPoints(scan), map_node[node]);
+  }
+  return map;
 }
 
 Correction MapCorrector::Correct() const {
   const State& state = *state_;
-  Correction correction;
-  correction.graph.T_map_node = AnsweredPosesOf(state.nodes);
-  const LoopFinder finder(state.options, state.nodes, state.chain);
-  const SparseGraphSolver solver;
-  std::unique_ptr<PoseEstimate> estimate = std::make_unique<AnsweredPoses>(state.nodes);
+  const LoopFinder finder(state.options, state.nodes, state.chains);
+  std::vector<FoundLoop> found = finder.Find(0, AnsweredPoses(state.nodes), state.loops);
+  std::optional<SolvedGraph> solved;
   for (int round = 0; round < kRounds; ++round) {
-    correction.loops = finder.Find(*estimate, correction.loops);
-    if (!AnyAccepted(correction.loops)) return state.AsAnswered(std::move(correction.loops));
-    correction.graph.edges = WithAccepted(state.chain.edges(), correction.loops);
-    const GraphSolution solution = solver.Solve(correction.graph);
-    if (!solution.is_converged) return state.Refused(std::move(correction.loops));
-    correction.graph.T_map_node = solution.T_map_node;
-    ContradictLoops(std::span(solution.weights).subspan(state.chain.edges().size()),
-                    correction.loops);
-    auto solved = std::make_unique<SolvedPoses>(correction.graph, solution);
-    correction.map_node = solved->map_node();
-    estimate = std::move(solved);
+    if (round > 0) found = finder.Find(0, *solved->poses, found);
+    if (CountAccepted(found) == 0) return state.Unchanged(std::move(found));
+    solved = state.Solve(found);
+    if (!solved) return state.Refused(std::move(found));
   }
-  if (state.IsContradictedBy(correction.graph.T_map_node)) {
-    return state.Refused(std::move(correction.loops));
+  // The map is the judge: poses that are right explain at least what the answers explain.
+  if (IsWorse(state.ContradictionAt(solved->graph.T_map_node),
+              state.ContradictionAt(PosesOf(state.nodes)))) {
+    return state.Refused(std::move(found));
   }
-  correction.map_robot = state.path.At(correction.map_node);
-  return correction;
-}
-
-ScanMap Reinserted(const ScanMap& map, const std::vector<UncertainPose2>& map_node) {
-  ScanMap corrected(map.options());
-  for (const RelevantScan& scan : map.scans()) {
-    corrected.Insert(scan.scan, ToPoints(scan.scan), map_node[scan.id]);
-  }
-  return corrected;
+  return {.map_node = solved->poses->map_node(),
+          .map_robot = {},
+          .graph = std::move(solved->graph),
+          .loops = LoopsOf(found)};
 }
 
 }  // namespace qwsm

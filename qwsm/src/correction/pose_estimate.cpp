@@ -13,12 +13,25 @@ UncertainPose2 Since(const UncertainPose2& map_earlier, const UncertainPose2& ma
   return UncertainPose2{.T_a_b = map_earlier.T_a_b.Inverse()} * since;
 }
 
+namespace {
+
+// A pose as seen from another one, where the errors of both have nothing in common.
+UncertainPose2 Beside(const UncertainPose2& map_other, const UncertainPose2& map_robot) {
+  UncertainPose2 apart = map_robot;
+  apart.covariance += FrameCovariance::Of(map_other).At(apart.T_a_b.translation_m());
+  return UncertainPose2{.T_a_b = map_other.T_a_b.Inverse()} * apart;
+}
+
+}  // namespace
+
 std::vector<UncertainPose2> AnsweredPoses::SeenFrom(NodeId from,
                                                     std::span<const NodeId> nodes) const {
   std::vector<UncertainPose2> seen;
   seen.reserve(nodes.size());
   for (const NodeId node : nodes) {
-    seen.push_back(Since(nodes_[from].map_robot, nodes_[node].map_robot));
+    const bool is_of_one_robot = nodes_[from].robot == nodes_[node].robot;
+    seen.push_back(
+        (is_of_one_robot ? Since : Beside)(nodes_[from].map_robot, nodes_[node].map_robot));
   }
   return seen;
 }

@@ -115,6 +115,10 @@ void FreeSpace::Add(const LaserScan& scan, const Pose2& T_map_robot) {
   if (images_.size() > static_cast<std::size_t>(options_.scans)) images_.pop_front();
 }
 
+void FreeSpace::Move(const Pose2& T_new_old) {
+  for (FreeRangeImage& image : images_) image.Move(T_new_old);
+}
+
 std::vector<ScanPoint> FreeSpace::WithoutMoving(std::span<const ScanPoint> points,
                                                 const Pose2& T_map_robot) const {
   std::vector<std::uint8_t> seen_through(points.size());

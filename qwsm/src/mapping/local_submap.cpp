@@ -37,6 +37,10 @@ void LocalSubmap::Clear() {
   points_ = 0;
 }
 
+void LocalSubmap::Move(const Pose2& T_new_old) {
+  for (Scan& scan : scans_) scan.T_map_robot = T_new_old * scan.T_map_robot;
+}
+
 std::vector<ScanPoint> LocalSubmap::PointsAround(const Pose2& T_map_robot) const {
   struct Seen {
     std::uint64_t cell;

@@ -16,6 +16,11 @@ Mapper::Mapper(const MapperOptions& options, ScanMap map, const UncertainPose2& 
   tracker_.PlaceAt(map_robot);
 }
 
+void Mapper::GoOnIn(ScanMap corrected, const UncertainPose2& map_robot) {
+  map_ = std::move(corrected);
+  tracker_.FollowCorrection(map_robot);
+}
+
 MappingStep Mapper::Process(const Observation& observation) {
   const std::vector<ScanPoint> points = ToPoints(observation.scan);
   const MappingStep step = tracker_.Track(map_, observation, points);

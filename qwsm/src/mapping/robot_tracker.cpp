@@ -92,6 +92,16 @@ void RobotTracker::PlaceAt(const UncertainPose2& map_robot,
   stands_at_initial_pose_ = !T_odom_robot;
 }
 
+void RobotTracker::FollowCorrection(const UncertainPose2& map_robot) {
+  const Pose2 T_new_old = map_robot.T_a_b * map_last_.T_a_b.Inverse();
+  const UncertainPose2 new_old{.T_a_b = T_new_old};
+  map_last_ = map_robot;
+  local_last_ = new_old * local_last_;
+  if (T_map_remembered_) T_map_remembered_ = T_new_old * *T_map_remembered_;
+  submap_.Move(T_new_old);
+  seen_free_.Move(T_new_old);
+}
+
 MappingStep RobotTracker::Track(const ScanMap& map,
                                 const Observation& observation,
                                 std::span<const ScanPoint> points) {

@@ -17,6 +17,10 @@ constexpr std::string_view kLoopHeader =
     "cov_xx_m2,cov_xy_m2,cov_xtheta_m_rad,cov_yy_m2,cov_ytheta_m_rad,cov_thetatheta_rad2,"
     "overlap,reduced_chi2,verdict\n";
 
+constexpr std::string_view kEpochHeader =
+    "epoch,from_stamp_s,scan_stamp_s,x_m,y_m,theta_rad,"
+    "cov_xx_m2,cov_xy_m2,cov_xtheta_m_rad,cov_yy_m2,cov_ytheta_m_rad,cov_thetatheta_rad2\n";
+
 std::string LineOf(const Loop& loop, const ScanMap& map) {
   io::CsvRow row;
   row.Add(map.scans()[loop.edge.from].scan.stamp);
@@ -28,28 +32,49 @@ std::string LineOf(const Loop& loop, const ScanMap& map) {
   return row.Finish();
 }
 
+void WriteEpochs(const ResultsFolder& folder, const CorrectedRun& run) {
+  io::AtomicFile table(folder / "epochs.csv");
+  table.stream() << kEpochHeader;
+  for (std::size_t i = 0; i < run.epochs.size(); ++i) {
+    const MapEpoch& epoch = run.epochs[i];
+    for (std::size_t node = 0; node < epoch.map_node.size(); ++node) {
+      io::CsvRow row;
+      row.Add(static_cast<double>(i + 1));
+      row.Add(epoch.stamp);
+      row.Add(run.map.scans()[node].scan.stamp);
+      row.Add(epoch.map_node[node]);
+      table.stream() << row.Finish();
+    }
+  }
+  table.Commit();
+}
+
 }  // namespace
 
-LoopCounts CountLoops(const std::vector<Loop>& loops) {
+LoopCounts CountLoops(const CorrectedRun& run) {
+  const std::vector<Loop>& loops = run.correction.loops;
   const auto accepted = std::ranges::count(loops, LoopVerdict::kAccepted, &Loop::verdict);
-  return {.accepted = static_cast<std::size_t>(accepted), .found = loops.size()};
+  return {.accepted = static_cast<std::size_t>(accepted),
+          .found = loops.size(),
+          .epochs = run.epochs.size()};
 }
 
-void CorrectionSink::Take(const TimedStep& timed) { corrector_.Take(timed.step); }
-
-CorrectedRun CorrectionSink::Correct(const ScanMap& map) const {
-  Correction correction = corrector_.Correct();
-  ScanMap corrected = Reinserted(map, correction.map_node);
-  return {.correction = std::move(correction), .map = std::move(corrected)};
+CorrectedRun CorrectAtTheEnd(SelfCorrectingMapper& mapper) {
+  Correction correction = mapper.Correct();
+  ScanMap corrected = mapper.MapAt(correction.map_node);
+  return {.correction = std::move(correction),
+          .map = std::move(corrected),
+          .epochs = {mapper.epochs().begin(), mapper.epochs().end()}};
 }
 
-void WriteLoops(const ResultsFolder& folder, const Correction& correction, const ScanMap& map) {
+void WriteLoops(const ResultsFolder& folder, const CorrectedRun& run) {
   io::AtomicFile table(folder / "loops.csv");
   table.stream() << kLoopHeader;
-  for (const Loop& loop : correction.loops) table.stream() << LineOf(loop, map);
+  for (const Loop& loop : run.correction.loops) table.stream() << LineOf(loop, run.map);
   table.Commit();
-  io::WriteG2oFile(folder / "graph.g2o", correction.graph);
-  io::WriteToroFile(folder / "graph.toro", correction.graph);
+  io::WriteG2oFile(folder / "graph.g2o", run.correction.graph);
+  io::WriteToroFile(folder / "graph.toro", run.correction.graph);
+  if (!run.epochs.empty()) WriteEpochs(folder, run);
 }
 
 std::vector<io::LoopLine> LoopLines(const Correction& correction) {

@@ -71,11 +71,11 @@ void ResultsWriter::Finish(const Mapper& mapper,
   const Trajectory trajectory = TrajectoryOf(overlay.path);
   io::WriteTumFile(folder_ / "trajectory.tum", trajectory);
   io::WriteKittiFile(folder_ / kKittiFile, trajectory);
-  WriteLoops(folder_, correction, corrected.map);
+  WriteLoops(folder_, corrected);
   WriteFigures({.map = corrected.map,
                 .matcher = mapper.options().matcher,
                 .path = overlay.path,
-                .loops = CountLoops(correction.loops)},
+                .loops = CountLoops(corrected)},
                truth);
   if (has_pictures_) drawing.before = RenderOrWarn(mapper.map(), rendering);
   Draw(std::move(drawing), rendering);

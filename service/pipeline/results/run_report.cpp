@@ -17,6 +17,13 @@ double ScansPerSecond(const RunStatistics& run) {
   return time_s > 0.0 ? static_cast<double>(run.scans()) / time_s : 0.0;
 }
 
+std::string Corrected(const LoopCounts& loops) {
+  if (loops.accepted == 0) return "stay as they were answered";
+  if (loops.epochs == 0) return "are corrected";
+  return fmt::format("are corrected, {} while the robot drove",
+                     loops.epochs == 1 ? "once" : fmt::format("{} times", loops.epochs));
+}
+
 void AddTo(Json& json, const TruthReport& truth) {
   json["ate_rmse_m"] = truth.ate_rmse_m;
   json["ate_from_start_rmse_m"] = truth.ate_from_start_rmse_m;
@@ -66,6 +73,7 @@ Json MetricsJson(const RunStatistics& run,
   if (loops) {
     json["loops"]["found"] = loops->found;
     json["loops"]["accepted"] = loops->accepted;
+    json["corrections_while_driving"] = loops->epochs;
   }
   if (truth) AddTo(json, *truth);
   return json;
@@ -107,7 +115,7 @@ std::string SummaryText(const RunStatistics& run,
     text += fmt::format("loops          {} accepted of {} found; path and map {}\n",
                         WithThousands(loops->accepted),
                         WithThousands(loops->found),
-                        loops->accepted > 0 ? "are corrected" : "stay as they were answered");
+                        Corrected(*loops));
   }
   if (truth) {
     text += fmt::format(

@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view kHeader =
     "stamp_s,x_m,y_m,theta_rad,"
     "cov_xx_m2,cov_xy_m2,cov_xtheta_m_rad,cov_yy_m2,cov_ytheta_m_rad,cov_thetatheta_rad2,"
-    "status,reason,relevant,pairs,overlap,residual_mm,trace,iterations,ms,cpu_ms\n";
+    "status,reason,relevant,pairs,overlap,residual_mm,trace,iterations,ms,cpu_ms,epoch\n";
 constexpr std::string_view kCorrectedHeader =
     "corrected_x_m,corrected_y_m,corrected_theta_rad,"
     "corrected_cov_xx_m2,corrected_cov_xy_m2,corrected_cov_xtheta_m_rad,corrected_cov_yy_m2,"
@@ -45,6 +45,7 @@ void ScanTableSink::Take(const TimedStep& timed) {
   row.Add(static_cast<double>(step.match.iterations));
   row.Add(std::chrono::duration<double, std::milli>(timed.duration).count());
   row.Add(std::chrono::duration<double, std::milli>(timed.worked).count());
+  row.Add(static_cast<double>(step.epoch));
   file_.stream() << row.Finish();
   file_.ThrowIfFailed();
 }

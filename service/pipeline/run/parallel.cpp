@@ -6,7 +6,10 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <future>
+#include <memory>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace qwsm::pipeline {
@@ -32,6 +35,11 @@ void RunInParallel(std::span<const std::function<void()>> tasks) {
   for (const std::exception_ptr& failure : failures) {
     if (failure) std::rethrow_exception(failure);
   }
+}
+
+std::function<void()> BeginOnAnotherThread(std::function<void()> work) {
+  auto done = std::make_shared<std::future<void>>(std::async(std::launch::async, std::move(work)));
+  return [done] { done->get(); };
 }
 
 }  // namespace qwsm::pipeline

@@ -11,4 +11,8 @@ namespace qwsm::pipeline {
 /// some fail the others are done all the same, and what the first of them threw is thrown.
 void RunInParallel(std::span<const std::function<void()>> tasks);
 
+/// Begins to do some work on a thread of its own. @returns what waits for its end, and throws what
+/// the work threw.
+std::function<void()> BeginOnAnotherThread(std::function<void()> work);
+
 }  // namespace qwsm::pipeline

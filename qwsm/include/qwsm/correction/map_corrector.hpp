@@ -3,22 +3,24 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "qwsm/correction/loop.hpp"
 #include "qwsm/correction/scan_node.hpp"
 #include "qwsm/mapping/mapper_options.hpp"
-#include "qwsm/mapping/mapping_step.hpp"
 #include "qwsm/mapping/scan_map.hpp"
 
 namespace qwsm {
 
 /// A map and a path that are consistent as a whole.
 struct Correction {
-  std::vector<UncertainPose2> map_node;   ///< Poses of the relevant scans, by ScanId.
-  std::vector<UncertainPose2> map_robot;  ///< Poses of all scans, in the order they were taken.
-  PoseGraph graph;                        ///< The graph with the loops that are accepted.
-  std::vector<Loop> loops;                ///< All loops that were found.
+  std::vector<UncertainPose2> map_node;  ///< Poses of the relevant scans, by ScanId.
+  /// Poses of all scans of a robot, in the order they were taken; empty where only nodes are known.
+  std::vector<UncertainPose2> map_robot;
+  PoseGraph graph;          ///< The graph with the loops that are accepted.
+  std::vector<Loop> loops;  ///< All loops that were found.
 };
 
 /// Corrects a map that was made incrementally, once places are seen again: relevant scans become
@@ -31,11 +33,20 @@ class MapCorrector {
   MapCorrector(MapCorrector&&) noexcept;
   MapCorrector& operator=(MapCorrector&&) noexcept;
 
-  /// Takes the answer to a scan; to be called for all scans in their order.
-  void Take(const MappingStep& step);
+  /// Takes a relevant scan; to be called for all of them in their order. Its pose is one in the map
+  /// as it is after all corrections that were adopted.
+  void Add(ScanNode node);
+
+  /// The poses of the nodes as the loops found so far would have them, if the map contradicts
+  /// itself and most of that is gone there: while the robots drive.
+  std::optional<std::vector<UncertainPose2>> Propose();
+  /// From now on the map is drawn there. @param map_node of the nodes so far, or the first of them.
+  void Adopt(std::span<const UncertainPose2> map_node);
+  /// The nodes' scans inserted at these poses, in the order they were taken.
+  ScanMap MapAt(std::span<const UncertainPose2> map_node) const;
 
   /// Finds the loops among what was taken so far, and the poses that agree best with them. Where
-  /// the map would contradict the scans more than before, poses stay as they were answered.
+  /// the map would contradict the scans more than before, poses stay as they are.
   Correction Correct() const;
 
  private:
@@ -43,9 +54,5 @@ class MapCorrector {
 
   std::unique_ptr<State> state_;
 };
-
-/// The scans of a map, inserted anew at other poses in the order they were recorded.
-/// @param map_node by ScanId. @pre as many as the map has scans.
-ScanMap Reinserted(const ScanMap& map, const std::vector<UncertainPose2>& map_node);
 
 }  // namespace qwsm

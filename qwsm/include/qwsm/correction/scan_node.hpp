@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <optional>
+
 #include "qwsm/geometry/pose2.hpp"
 #include "qwsm/sensor/laser_scan.hpp"
 
@@ -10,9 +13,11 @@ namespace qwsm {
 /// A relevant scan as a node of the pose graph.
 struct ScanNode {
   LaserScan scan;            ///< The scan without the beams that ended on what moves.
-  UncertainPose2 map_robot;  ///< Pose as it was answered.
-  UncertainPose2 odometry;   ///< Motion since the node before, as odometry tells it.
-  bool closed_loop = false;  ///< Whether the answer does not continue the one before.
+  UncertainPose2 map_robot;  ///< Pose in the map as it is: as answered, or as corrected since.
+  UncertainPose2 odometry;   ///< Motion since the robot's node before, as odometry tells it.
+  /// The same motion as it was answered; none where the answer does not continue the one before.
+  std::optional<Pose2> T_last_node;
+  std::size_t robot = 0;  ///< Which robot took it, where several make one map.
 };
 
 }  // namespace qwsm

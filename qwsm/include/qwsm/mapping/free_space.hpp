@@ -59,6 +59,9 @@ class FreeRangeImage {
                        const Pose2& T_map_robot,
                        std::span<std::uint8_t> seen_through) const;
 
+  /// Follows a map that was moved here. @param T_new_old the old map's frame in the new one.
+  void Move(const Pose2& T_new_old) { T_laser_map_ = T_laser_map_ * T_new_old.Inverse(); }
+
  private:
   static constexpr std::size_t kDirections = 1024;  // Of nearly equal width.
 
@@ -75,6 +78,8 @@ class FreeSpace {
 
   void Add(const LaserScan& scan, const Pose2& T_map_robot);
   void Clear() { images_.clear(); }
+  /// Follows a map that was moved here. @param T_new_old the old map's frame in the new one.
+  void Move(const Pose2& T_new_old);
 
   /// The points that may have stood where they are all the time.
   std::vector<ScanPoint> WithoutMoving(std::span<const ScanPoint> points,

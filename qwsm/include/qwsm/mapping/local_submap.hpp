@@ -40,6 +40,8 @@ class LocalSubmap {
 
   void Add(const Pose2& T_map_robot, std::span<const ScanPoint> points);
   void Clear();
+  /// Follows a map that was moved here. @param T_new_old the old map's frame in the new one.
+  void Move(const Pose2& T_new_old);
 
   /// Their points as the robot sees them now, at most one per cell.
   std::vector<ScanPoint> PointsAround(const Pose2& T_map_robot) const;

@@ -12,7 +12,7 @@ namespace qwsm {
 
 /// Incremental mapping (Visser et al. 2009, sections 3 and 4) by one robot: each scan is matched
 /// with the union of all relevant scans before it, and relevant ones extend the map. What was found
-/// is never corrected afterwards. Deterministic; reads no clock.
+/// is never corrected by it afterwards. Deterministic; reads no clock.
 class Mapper {
  public:
   explicit Mapper(const MapperOptions& options = {});
@@ -20,6 +20,10 @@ class Mapper {
   Mapper(const MapperOptions& options, ScanMap map, const UncertainPose2& map_robot);
 
   MappingStep Process(const Observation& observation);
+
+  /// Goes on in a map of the same scans that was corrected.
+  /// @param map_robot pose at the last scan in the corrected map.
+  void GoOnIn(ScanMap corrected, const UncertainPose2& map_robot);
 
   const ScanMap& map() const { return map_; }
   /// The pose at the last scan.

@@ -33,6 +33,7 @@ struct MappingStep {
   std::string_view reason{};  ///< Why that status, in words.
   MatchResult match{};        ///< The match that gave the pose, or the bad one that did not.
   bool closed_loop = false;   ///< The pose does not continue the one before.
+  int epoch = 0;              ///< How often the map was corrected before this scan.
   bool relevant = false;      ///< Whether the map is to be extended with this scan.
   /// The scan without the beams that ended on what moves; empty unless it is relevant.
   LaserScan relevant_scan{};

@@ -33,6 +33,10 @@ class RobotTracker {
   /// the robot was.
   void SuspectOdometryReset() { is_odometry_suspect_ = true; }
 
+  /// Follows a map that was corrected: the robot keeps its place among the surfaces around it.
+  /// @param map_robot pose at the last scan in the corrected map.
+  void FollowCorrection(const UncertainPose2& map_robot);
+
   /// Finds where the robot is. If the step is relevant, the map ought to be extended with the scan.
   /// @param points the scan's points, as ToPoints() gives them.
   MappingStep Track(const ScanMap& map,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scan_chain.hpp"
+#include "scan_chains.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -36,10 +36,10 @@ UncertainPose2 AtLeast(const UncertainPose2& pose, double sigma_m, double sigma_
 
 // The edge to a pose that was found in the frame of another: its covariance is along that frame's
 // axes, the edge's along those of `from`.
-PoseEdge EdgeTo(NodeId to, const Pose2& T_chain_from, const UncertainPose2& chain_to) {
+PoseEdge EdgeTo(NodeId from, NodeId to, const Pose2& T_chain_from, const UncertainPose2& chain_to) {
   const UncertainPose2 from_chain{.T_a_b = T_chain_from.Inverse()};
   const UncertainPose2 from_to = from_chain * chain_to;
-  return {.from = to - 1,
+  return {.from = from,
           .to = to,
           .T_from_to = from_to.T_a_b,
           .information = from_to.covariance.inverse()};
@@ -53,33 +53,47 @@ ScanMapOptions SubmapOptions(ScanMapOptions options) {
 
 }  // namespace
 
-ScanChain::ScanChain(const MapperOptions& options)
+ScanChains::ScanChains(const MapperOptions& options)
     : map_options_(SubmapOptions(options.map)),
       locator_(options.locator),
       matcher_(options.locator.matcher) {}
 
-void ScanChain::Add(const ScanNode& node) {
+void ScanChains::Add(const ScanNode& node) {
   const auto id = static_cast<NodeId>(T_chain_node_.size());
   const std::vector<ScanPoint> points = ToPoints(node.scan);
-  if (id == 0) {
-    T_chain_node_.push_back(node.map_robot.T_a_b);
+  Chain& chain = chains_[node.robot];
+  position_.push_back(chain.nodes.size());
+  robot_.push_back(node.robot);
+  if (chain.nodes.empty()) {
+    Begin(node, chain);
   } else {
-    const UncertainPose2 found = Attach(node, points);
-    edges_.push_back(EdgeTo(id, T_chain_node_.back(), found));
+    const NodeId last = chain.nodes.back();
+    const UncertainPose2 found = Attach(node, points, chain);
+    chain.edges.push_back(EdgeTo(last, id, T_chain_node_[last], found));
     T_chain_node_.push_back(found.T_a_b);
   }
-  T_map_last_ = node.map_robot.T_a_b;
-  InsertIntoSubmaps(id, points);
+  if (id > 0) edges_.push_back(chain.edges.back());
+  chain.nodes.push_back(id);
+  InsertIntoSubmaps(id, points, chain);
+}
+
+// What is known of where a further robot came in: its pose in the map.
+void ScanChains::Begin(const ScanNode& node, Chain& chain) {
+  const auto id = static_cast<NodeId>(T_chain_node_.size());
+  T_chain_node_.push_back(node.map_robot.T_a_b);
+  if (id == 0) map_first_ = node.map_robot;
+  const UncertainPose2 entered = AtLeast(node.map_robot, kLeastSigma_m, kLeastSigma_rad);
+  chain.edges.push_back(EdgeTo(0, id, map_first_.T_a_b, entered));
 }
 
 // The last submap but one ends with the node before and began at least eight scans ago.
-UncertainPose2 ScanChain::Attach(const ScanNode& node, std::span<const ScanPoint> points) const {
-  const SurfaceMap& reference = last_surfaces_.front();
-  const UncertainPose2 chain_last{.T_a_b = T_chain_node_.back()};
+UncertainPose2 ScanChains::Attach(const ScanNode& node,
+                                  std::span<const ScanPoint> points,
+                                  const Chain& chain) const {
+  const SurfaceMap& reference = chain.last_surfaces.front();
+  const UncertainPose2 chain_last{.T_a_b = T_chain_node_[chain.nodes.back()]};
   UncertainPose2 predicted = AtLeast(chain_last * node.odometry, kLeastSigma_m, kLeastSigma_rad);
-  if (!node.closed_loop) {
-    predicted.T_a_b = chain_last.T_a_b * (T_map_last_.Inverse() * node.map_robot.T_a_b);
-  }
+  if (node.T_last_node) predicted.T_a_b = chain_last.T_a_b * *node.T_last_node;
   MatchPrior prior{.predicted = predicted,
                    .start = predicted.T_a_b,
                    .start_error = {.translation_m = locator_.search_error_m}};
@@ -98,37 +112,39 @@ UncertainPose2 ScanChain::Attach(const ScanNode& node, std::span<const ScanPoint
   return {.T_a_b = match.T_ref_cur, .covariance = information.inverse()};
 }
 
-void ScanChain::InsertIntoSubmaps(NodeId id, std::span<const ScanPoint> points) {
-  if (id % kSubmapStep == 0) {
-    submaps_.push_back({.first = id, .end = id});
-    last_surfaces_.emplace_back(map_options_.surfaces);
-    if (last_surfaces_.size() > 2) last_surfaces_.pop_front();
+void ScanChains::InsertIntoSubmaps(NodeId id, std::span<const ScanPoint> points, Chain& chain) {
+  if (position_[id] % kSubmapStep == 0) {
+    const std::size_t ordinal = chain.submaps.size();
+    chain.submaps.push_back(submaps_.size());
+    submaps_.push_back({.robot = robot_[id], .ordinal = ordinal, .nodes = {}});
+    chain.last_surfaces.emplace_back(map_options_.surfaces);
+    if (chain.last_surfaces.size() > 2) chain.last_surfaces.pop_front();
   }
-  for (SurfaceMap& surfaces : last_surfaces_) Insert(id, points, surfaces);
-  for (RigidSubmap& submap : std::span(submaps_).last(last_surfaces_.size())) submap.end = id + 1;
+  for (SurfaceMap& surfaces : chain.last_surfaces) Insert(id, points, surfaces);
+  for (const std::size_t submap : std::span(chain.submaps).last(chain.last_surfaces.size())) {
+    submaps_[submap].nodes.push_back(id);
+  }
 }
 
-void ScanChain::Insert(NodeId id, std::span<const ScanPoint> points, SurfaceMap& surfaces) const {
+void ScanChains::Insert(NodeId id, std::span<const ScanPoint> points, SurfaceMap& surfaces) const {
   const UncertainPose2 chain_node{.T_a_b = T_chain_node_[id]};
   for (const MapPoint& point : PointsToStore(surfaces, points, chain_node, map_options_)) {
     surfaces.Insert(point, id);
   }
 }
 
-SurfaceMap ScanChain::SurfacesOf(const RigidSubmap& submap, std::span<const ScanNode> nodes) const {
+SurfaceMap ScanChains::SurfacesOf(const RigidSubmap& submap,
+                                  std::span<const ScanNode> nodes) const {
   SurfaceMap surfaces(map_options_.surfaces);
-  for (NodeId id = submap.first; id < submap.end; ++id) {
-    Insert(id, ToPoints(nodes[id].scan), surfaces);
-  }
+  for (const NodeId id : submap.nodes) Insert(id, ToPoints(nodes[id].scan), surfaces);
   return surfaces;
 }
 
-UncertainPose2 ScanChain::Relative(NodeId from, NodeId to) const {
+UncertainPose2 ScanChains::Relative(NodeId from, NodeId to) const {
   UncertainPose2 relative;
-  for (NodeId node = from; node < to; ++node) {
-    const PoseEdge& edge = edges_[node];
-    relative = relative *
-               UncertainPose2{.T_a_b = edge.T_from_to, .covariance = edge.information.inverse()};
+  const Chain& chain = chains_.at(robot_[from]);
+  for (std::size_t next = position_[from] + 1; next <= position_[to]; ++next) {
+    relative = relative * MeasuredBy(chain.edges[next]);
   }
   return relative;
 }

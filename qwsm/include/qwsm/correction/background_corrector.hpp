@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "qwsm/correction/map_corrector.hpp"
+
+namespace qwsm {
+
+/// Begins to do some work, perhaps on another thread, and gives what waits for its end.
+using WorkBeside = std::function<std::function<void()>(std::function<void()> work)>;
+
+/// Does the work at once.
+std::function<void()> WorkAtOnce(std::function<void()> work);
+
+/// A map whose scans were put where they belong.
+struct CorrectedMap {
+  std::vector<UncertainPose2> map_node;  ///< Poses of all nodes so far.
+  ScanMap map;                           ///< Their scans, inserted there.
+};
+
+/// Looks for loops beside the robots' driving: every few relevant scans the last look is ended and
+/// the next one begun. So a look has as much time as these scans take to come, and what it finds
+/// takes effect at a scan that is fixed by the data, not by the time it took. Of several robots no
+/// order of scans is fixed anyway: there nobody waits for a look that takes longer.
+class BackgroundCorrector {
+ public:
+  explicit BackgroundCorrector(const MapperOptions& options = {}, WorkBeside beside = WorkAtOnce);
+  BackgroundCorrector(const BackgroundCorrector&) = delete;
+  BackgroundCorrector& operator=(const BackgroundCorrector&) = delete;
+  ~BackgroundCorrector();
+
+  /// Takes the next relevant scan. Its pose is one in the map as it is.
+  void Add(ScanNode node);
+
+  /// Whether so many scans are new that it is time to look again.
+  bool IsLookDue() const;
+  /// Ends the last look and begins the next one.
+  /// @return the map to go on in, if the last look found that it is drawn wrong.
+  std::optional<CorrectedMap> LookAgain();
+
+  /// Corrects all that was added once more, in the end: loops are looked for from where others have
+  /// moved the scans, too.
+  Correction Correct();
+  /// The scans that were added, inserted at these poses in the order they came.
+  ScanMap MapAt(std::span<const UncertainPose2> map_node);
+
+ private:
+  // What a look comes to.
+  struct Proposal {
+    std::vector<UncertainPose2> map_node;
+    ScanMap map;
+  };
+
+  void Finish();
+  void Look();
+  std::optional<CorrectedMap> TakeUp(Proposal proposal);
+  std::size_t LookedAtBeside(const ScanNode& node) const;
+
+  WorkBeside beside_;
+  MapCorrector corrector_;            // Belongs to the look while there is one.
+  std::vector<ScanNode> under_look_;  // Likewise.
+  std::optional<Proposal> proposal_;  // Likewise.
+  std::atomic<bool> is_looking_ = false;
+  std::function<void()> wait_;            // For the look, where there is one.
+  std::vector<ScanNode> news_;            // Nodes that no look has seen.
+  std::vector<UncertainPose2> map_node_;  // In the map as it is, of those looked at.
+  std::vector<std::size_t> robot_;        // Likewise: whose they are.
+  std::set<std::size_t> robots_;
+};
+
+}  // namespace qwsm

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "qwsm/correction/background_corrector.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "pose_estimate.hpp"
+
+namespace qwsm {
+namespace {
+
+// Loops are looked for once so many relevant scans of a robot are new.
+constexpr std::size_t kNodesOfALook = 8;
+
+}  // namespace
+
+std::function<void()> WorkAtOnce(std::function<void()> work) {
+  work();
+  return [] {};
+}
+
+BackgroundCorrector::BackgroundCorrector(const MapperOptions& options, WorkBeside beside)
+    : beside_(std::move(beside)), corrector_(options) {}
+
+BackgroundCorrector::~BackgroundCorrector() { Finish(); }
+
+void BackgroundCorrector::Add(ScanNode node) {
+  robots_.insert(node.robot);
+  news_.push_back(std::move(node));
+}
+
+bool BackgroundCorrector::IsLookDue() const {
+  if (news_.size() < kNodesOfALook * robots_.size()) return false;
+  return robots_.size() == 1 || !is_looking_;
+}
+
+std::optional<CorrectedMap> BackgroundCorrector::LookAgain() {
+  Finish();
+  auto proposal = std::exchange(proposal_, std::nullopt);
+  // A robot that has recognised a place since is no longer beside the scans that were looked at:
+  // the next look knows more.
+  const bool is_outdated =
+      std::ranges::any_of(news_, [](const ScanNode& node) { return !node.T_last_node; });
+  std::optional<CorrectedMap> corrected;
+  if (proposal && !is_outdated) corrected = TakeUp(std::move(*proposal));
+  Look();
+  return corrected;
+}
+
+void BackgroundCorrector::Finish() {
+  if (wait_) std::exchange(wait_, nullptr)();
+}
+
+void BackgroundCorrector::Look() {
+  for (const ScanNode& node : news_) {
+    map_node_.push_back(node.map_robot);
+    robot_.push_back(node.robot);
+  }
+  under_look_ = std::exchange(news_, {});
+  is_looking_ = true;
+  wait_ = beside_([this] {
+    for (ScanNode& node : under_look_) corrector_.Add(std::move(node));
+    if (auto map_node = corrector_.Propose()) {
+      ScanMap map = corrector_.MapAt(*map_node);
+      proposal_ = {.map_node = std::move(*map_node), .map = std::move(map)};
+    }
+    is_looking_ = false;
+  });
+}
+
+// What came since the look keeps its place beside what was looked at.
+std::optional<CorrectedMap> BackgroundCorrector::TakeUp(Proposal proposal) {
+  corrector_.Adopt(proposal.map_node);
+  CorrectedMap corrected{.map_node = std::move(proposal.map_node), .map = std::move(proposal.map)};
+  for (ScanNode& node : news_) {
+    const std::size_t beside = LookedAtBeside(node);
+    node.map_robot = corrected.map_node[beside] * Since(map_node_[beside], node.map_robot);
+    corrected.map.Insert(node.scan, ToPoints(node.scan), node.map_robot);
+  }
+  map_node_ = corrected.map_node;
+  for (const ScanNode& node : news_) corrected.map_node.push_back(node.map_robot);
+  return corrected;
+}
+
+// The last scan of the same robot that was looked at; of a robot that is new, the nearest one.
+std::size_t BackgroundCorrector::LookedAtBeside(const ScanNode& node) const {
+  const auto last = std::ranges::find(robot_.rbegin(), robot_.rend(), node.robot);
+  if (last != robot_.rend()) return static_cast<std::size_t>(robot_.rend() - last) - 1;
+  const auto distance_m = [&](const UncertainPose2& other) {
+    return (other.T_a_b.translation_m() - node.map_robot.T_a_b.translation_m()).norm();
+  };
+  return static_cast<std::size_t>(std::ranges::min_element(map_node_, {}, distance_m) -
+                                  map_node_.begin());
+}
+
+Correction BackgroundCorrector::Correct() {
+  Finish();
+  proposal_.reset();
+  for (ScanNode& node : std::exchange(news_, {})) corrector_.Add(std::move(node));
+  return corrector_.Correct();
+}
+
+ScanMap BackgroundCorrector::MapAt(std::span<const UncertainPose2> map_node) {
+  Finish();
+  return corrector_.MapAt(map_node);
+}
+
+}  // namespace qwsm

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "qwsm/correction/scan_node.hpp"
+#include "qwsm/graph/pose_graph.hpp"
+#include "qwsm/mapping/mapper_options.hpp"
+#include "qwsm/matching/surface_map.hpp"
+#include "qwsm/matching/weighted_scan_matcher.hpp"
+
+namespace qwsm {
+
+/// A few scans in a row as one rigid body, in the frame of their chain.
+struct RigidSubmap {
+  std::size_t robot = 0;      ///< Whose scans they are.
+  std::size_t ordinal = 0;    ///< Among the submaps of that robot.
+  std::vector<NodeId> nodes;  ///< In a row.
+
+  /// The scan in the middle, which stands for all.
+  NodeId reference() const { return nodes[nodes.size() / 2]; }
+};
+
+/// The relevant scans of each robot in a row, each matched with those just before it, in a frame of
+/// their own that no closed loop bends: the backbone of the pose graph.
+class ScanChains {
+ public:
+  explicit ScanChains(const MapperOptions& options);
+
+  /// Adds the next node to the chain of its robot.
+  void Add(const ScanNode& node);
+
+  /// Poses of the nodes, each in the frame of its chain.
+  std::span<const Pose2> T_chain_node() const { return T_chain_node_; }
+  /// Edges from each node to the next of its robot, and from the first node to that of each robot.
+  std::span<const PoseEdge> edges() const { return edges_; }
+  /// Submaps of the chains, which overlap by half.
+  std::span<const RigidSubmap> submaps() const { return submaps_; }
+  /// Whose chain a node belongs to.
+  std::size_t RobotOf(NodeId node) const { return robot_[node]; }
+  /// How many nodes of its robot a node is behind an earlier one; none if they are two robots'.
+  std::optional<std::size_t> NodesBetween(NodeId from, NodeId to) const {
+    if (robot_[from] != robot_[to]) return std::nullopt;
+    return position_[to] - position_[from];
+  }
+
+  /// The surfaces that the scans of a submap show, in the frame of the chain. They are not kept:
+  /// of a long drive they would be several times the map.
+  /// @param nodes all that were added
+  SurfaceMap SurfacesOf(const RigidSubmap& submap, std::span<const ScanNode> nodes) const;
+
+  /// The pose of a node as seen from an earlier one of the same robot, as uncertain as the edges
+  /// between them tell.
+  /// Complexity: linear in the nodes between.
+  UncertainPose2 Relative(NodeId from, NodeId to) const;
+
+ private:
+  struct Chain {
+    std::vector<NodeId> nodes;
+    std::vector<PoseEdge> edges;           // To each node from the one before.
+    std::vector<std::size_t> submaps;      // Indices of its own.
+    std::deque<SurfaceMap> last_surfaces;  // Of the last two submaps, which still grow.
+  };
+
+  void Begin(const ScanNode& node, Chain& chain);
+  UncertainPose2 Attach(const ScanNode& node,
+                        std::span<const ScanPoint> points,
+                        const Chain& chain) const;
+  void InsertIntoSubmaps(NodeId id, std::span<const ScanPoint> points, Chain& chain);
+  void Insert(NodeId id, std::span<const ScanPoint> points, SurfaceMap& surfaces) const;
+
+  ScanMapOptions map_options_;
+  ScanLocatorOptions locator_;
+  WeightedScanMatcher matcher_;
+  UncertainPose2 map_first_;           // Pose of the first node of all.
+  std::vector<Pose2> T_chain_node_;    // By node.
+  std::vector<std::size_t> position_;  // By node.
+  std::vector<std::size_t> robot_;     // By node.
+  std::vector<PoseEdge> edges_;
+  std::vector<RigidSubmap> submaps_;     // In the order they were begun.
+  std::map<std::size_t, Chain> chains_;  // By robot.
+};
+
+}  // namespace qwsm
