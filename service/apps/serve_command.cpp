@@ -33,7 +33,10 @@ class TeamServer {
         map_outbox_(participant_, graph_),
         results_(folder ? std::make_unique<pipeline::TeamResults>(*folder, options.rendering)
                         : nullptr),
-        service_({.team = options.team, .mapper = options.mapper, .rendering = options.rendering},
+        service_({.team = options.team,
+                  .mapper = options.mapper,
+                  .corrects = options.graph.enabled,
+                  .rendering = options.rendering},
                  Sinks(),
                  arguments.journal),
         inbox_(participant_, arguments.robots, service_, {&outbox_}, refusals_),

@@ -49,7 +49,7 @@ TEST(TeamMap, IsTheMapThatOneRobotAloneWouldHaveMade) {
   for (const TeamScan& scan : ScansOfTeam()) {
     team.Insert(scan, ToPoints(scan.scan));
     alone.Insert(scan.scan, ToPoints(scan.scan), scan.map_robot);
-    ASSERT_EQ(io::EncodeMap(*team.Read()), io::EncodeMap(alone));
+    ASSERT_EQ(io::EncodeMap(team.Read()->map), io::EncodeMap(alone));
   }
 }
 
@@ -57,7 +57,7 @@ TEST(TeamMap, TakesEveryScanOnceAndDrawsTheSameInAnyOrder) {
   std::vector<TeamScan> scans = ScansOfTeam();
   TeamMap ordered;
   InsertAll(ordered, scans);
-  const OccupancyGridResult expected = RenderOccupancyGrid(ordered.Read()->scans());
+  const OccupancyGridResult expected = RenderOccupancyGrid(ordered.Read()->map.scans());
   for (unsigned seed = 0; seed < 5; ++seed) {
     SCOPED_TRACE(seed);
     std::vector<TeamScan> repeated = scans;
@@ -66,8 +66,8 @@ TEST(TeamMap, TakesEveryScanOnceAndDrawsTheSameInAnyOrder) {
     TeamMap map;
     InsertAll(map, repeated);
     const TeamMap::State::View view = map.Read();
-    EXPECT_EQ(view->scans().size(), scans.size());
-    const OccupancyGridResult grid = RenderOccupancyGrid(view->scans());
+    EXPECT_EQ(view->map.scans().size(), scans.size());
+    const OccupancyGridResult grid = RenderOccupancyGrid(view->map.scans());
     EXPECT_EQ(grid.grid.origin_map_m, expected.grid.origin_map_m);
     EXPECT_EQ(grid.grid.cells, expected.grid.cells);
   }
@@ -92,7 +92,7 @@ TEST(TeamMap, StoresTheSamePointsInAnyOrderWhereEveryPointIsStored) {
   std::ranges::shuffle(scans, std::mt19937(7));
   TeamMap shuffled(options);
   InsertAll(shuffled, scans);
-  EXPECT_EQ(PointsOf(*shuffled.Read()), PointsOf(*ordered.Read()));
+  EXPECT_EQ(PointsOf(shuffled.Read()->map), PointsOf(ordered.Read()->map));
 }
 
 TEST(TeamMap, RemembersWhereEachRobotWasLast) {
@@ -110,8 +110,8 @@ TEST(TeamMap, ViewsStayAsTheyAreWhileTheMapGrows) {
   map.Insert(scans[0], ToPoints(scans[0].scan));
   const TeamMap::State::View before = map.Read();
   map.Insert(scans[1], ToPoints(scans[1].scan));  // Does not wait for the view.
-  EXPECT_EQ(before->scans().size(), 1U);
-  EXPECT_EQ(map.Read()->scans().size(), 2U);
+  EXPECT_EQ(before->map.scans().size(), 1U);
+  EXPECT_EQ(map.Read()->map.scans().size(), 2U);
 }
 
 TEST(TeamMap, IsMatchedAgainstInParallelWhileItIsExtended) {
@@ -129,7 +129,7 @@ TEST(TeamMap, IsMatchedAgainstInParallelWhileItIsExtended) {
         tracker.PlaceAt({.T_a_b = test::PoseInRoom(at)});
         const Observation observation = test::ObservationInRoom(at);
         const MappingStep step =
-            tracker.Track(*map.Read(), observation, ToPoints(observation.scan));
+            tracker.Track(map.Read()->map, observation, ToPoints(observation.scan));
         const Pose2 error = test::PoseInRoom(at).Inverse() * step.map_robot.T_a_b;
         if (error.translation_m().norm() > 0.2) ++bad_matches;
         at = (at + 7) % 120;
@@ -141,7 +141,7 @@ TEST(TeamMap, IsMatchedAgainstInParallelWhileItIsExtended) {
     writers.emplace_back([&, writer] {
       for (std::size_t i = writer; i < scans.size(); i += 2) {
         map.Insert(scans[i], ToPoints(scans[i].scan));
-        const std::size_t before = map.Read()->scans().size();
+        const std::size_t before = map.Read()->map.scans().size();
         EXPECT_GE(before, i / 2);  // At least what this writer wrote.
       }
     });
@@ -149,7 +149,7 @@ TEST(TeamMap, IsMatchedAgainstInParallelWhileItIsExtended) {
   writers.clear();
   done = true;
   readers.clear();
-  EXPECT_EQ(map.Read()->scans().size(), scans.size());
+  EXPECT_EQ(map.Read()->map.scans().size(), scans.size());
   EXPECT_EQ(bad_matches, 0);
 }
 

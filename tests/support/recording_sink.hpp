@@ -35,6 +35,10 @@ class RecordingSink : public team::TeamSink {
     const std::lock_guard lock(mutex_);
     maps_[std::string(map.robot)] = map.grid;
   }
+  void TakeEpoch(const team::TeamEpoch& epoch) override {
+    const std::lock_guard lock(mutex_);
+    epochs_.push_back(epoch);
+  }
   void TakeStatus(const team::TeamStatus& status) override {
     const std::lock_guard lock(mutex_);
     statuses_.push_back(status);
@@ -64,6 +68,10 @@ class RecordingSink : public team::TeamSink {
     const std::lock_guard lock(mutex_);
     return relevant_;
   }
+  std::vector<team::TeamEpoch> epochs() const {
+    const std::lock_guard lock(mutex_);
+    return epochs_;
+  }
   std::size_t new_points() const {
     const std::lock_guard lock(mutex_);
     return new_points_;
@@ -87,6 +95,7 @@ class RecordingSink : public team::TeamSink {
   std::map<std::string, std::vector<MappingStep>> steps_;
   std::map<std::string, std::vector<MappingStep>> reports_;
   std::vector<team::TeamScan> relevant_;
+  std::vector<team::TeamEpoch> epochs_;
   std::size_t new_points_ = 0;
   std::map<std::string, OccupancyGrid> maps_;
   std::vector<team::TeamStatus> statuses_;

@@ -21,8 +21,7 @@ inline void MapOverNetworkAndFromFile(const PrivateNetwork& network,
   const Outcome served = service.End();
   EXPECT_EQ(served.exit_code, 0) << served.errors;
 
-  const Outcome mapped =
-      RunProgram({"map", "--set", "graph.enabled=false", log, "--output", folder / "mapped"});
+  const Outcome mapped = RunProgram({"map", log, "--output", folder / "mapped"});
   ASSERT_EQ(mapped.exit_code, 0) << mapped.errors;
 }
 

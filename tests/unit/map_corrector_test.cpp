@@ -6,66 +6,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 #include "qwsm/correction/node_maker.hpp"
-#include "qwsm/mapping/mapper.hpp"
-#include "tests/support/scenes.hpp"
-#include "tests/support/simulated_drive.hpp"
+#include "tests/support/bent_drive.hpp"
 
 namespace qwsm::test {
 namespace {
-
-/// The answers of a mapper on a drive, and where the robot was, in the frame of the map.
-struct Answers {
-  std::vector<MappingStep> steps;
-  std::vector<Pose2> T_map_true;
-};
-
-Answers Drive(const Scene& scene) {
-  const SimulatedDrive drive = DriveThrough(scene, {.laser = {.beams = 181, .range_max_m = 15.0}});
-  Answers answers;
-  Mapper mapper;
-  for (std::size_t i = 0; i < drive.observations.size(); ++i) {
-    answers.steps.push_back(mapper.Process(drive.observations[i]));
-    answers.T_map_true.push_back(drive.T_world_robot.front().Inverse() * drive.T_world_robot[i]);
-  }
-  return answers;
-}
-
-/// As if the map had drifted: each pose turns a little more than it should, and says so.
-void Bend(std::vector<MappingStep>& steps, double turn_rad) {
-  Pose2 T_bent;
-  UncertainPose2 last;
-  double sigma_rad = 0.0;
-  for (MappingStep& step : steps) {
-    const Pose2 moved = last.T_a_b.Inverse() * step.map_robot.T_a_b;
-    last = step.map_robot;
-    T_bent = T_bent * moved * Pose2{.theta_rad = turn_rad};
-    sigma_rad += turn_rad;
-    step.map_robot = UncertainPose2::WithSigmas(T_bent, 10.0 * sigma_rad, sigma_rad);
-  }
-}
-
-double WorstError_m(const std::vector<UncertainPose2>& path, const std::vector<Pose2>& truth) {
-  double worst_m = 0.0;
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    worst_m = std::max(worst_m, (path[i].T_a_b.translation_m() - truth[i].translation_m()).norm());
-  }
-  return worst_m;
-}
-
-/// Of the steps that are relevant.
-Answers Relevant(const Answers& all) {
-  Answers relevant;
-  for (std::size_t i = 0; i < all.steps.size(); ++i) {
-    if (!all.steps[i].relevant) continue;
-    relevant.steps.push_back(all.steps[i]);
-    relevant.T_map_true.push_back(all.T_map_true[i]);
-  }
-  return relevant;
-}
 
 MapCorrector Fed(const std::vector<MappingStep>& steps) {
   MapCorrector corrector;
@@ -77,12 +24,6 @@ MapCorrector Fed(const std::vector<MappingStep>& steps) {
 }
 
 Correction Corrected(const std::vector<MappingStep>& steps) { return Fed(steps).Correct(); }
-
-std::vector<UncertainPose2> PathOf(const std::vector<MappingStep>& steps) {
-  std::vector<UncertainPose2> path;
-  for (const MappingStep& step : steps) path.push_back(step.map_robot);
-  return path;
-}
 
 TEST(MapCorrector, MendsThePathOnceTheRobotIsBack) {
   Answers answers = Drive(OfficeLoop());

@@ -65,7 +65,7 @@ TEST(TeamService, AnswersARobotBitForBitAsTheMapperDoes) {
     EXPECT_EQ(answer.map_robot.covariance, step.map_robot.covariance);
     EXPECT_EQ(answer.relevant, step.relevant);
   }
-  EXPECT_EQ(io::EncodeMap(*service.MapOf("robot1")->Read()), io::EncodeMap(mapper.map()));
+  EXPECT_EQ(io::EncodeMap(service.MapOf("robot1")->Read()->map), io::EncodeMap(mapper.map()));
   EXPECT_EQ(sink.relevant().size(), mapper.map().scans().size());
   EXPECT_GT(sink.new_points(), 0U);
 }
@@ -302,8 +302,8 @@ TEST(TeamService, KeepsAMapForEachRobotWhereAsked) {
   Give(service, "robot1", 0, 20);
   Give(service, "robot2", 0, 20);
   service.WaitUntilIdle();
-  EXPECT_EQ(io::EncodeMap(*service.MapOf("robot1")->Read()),
-            io::EncodeMap(*service.MapOf("robot2")->Read()));
+  EXPECT_EQ(io::EncodeMap(service.MapOf("robot1")->Read()->map),
+            io::EncodeMap(service.MapOf("robot2")->Read()->map));
 }
 
 TEST(TeamService, TakesInWhatOtherServicesShareOnceAndInOneOrder) {
@@ -322,8 +322,8 @@ TEST(TeamService, TakesInWhatOtherServicesShareOnceAndInOneOrder) {
   test::RecordingSink of_second;
   TeamService second(LosslessOptions(), of_second);
   second.TakeIn(shared);
-  EXPECT_EQ(io::EncodeMap(*second.MapOf("robot1")->Read()),
-            io::EncodeMap(*first.MapOf("robot1")->Read()));
+  EXPECT_EQ(io::EncodeMap(second.MapOf("robot1")->Read()->map),
+            io::EncodeMap(first.MapOf("robot1")->Read()->map));
   const MapStatus status = second.Status().map;
   EXPECT_EQ(status.taken_in, shared.size() - 2);
   EXPECT_EQ(status.duplicates, 1U);

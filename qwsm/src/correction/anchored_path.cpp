@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "pose_estimate.hpp"
+#include "qwsm/geometry/frame_covariance.hpp"
 
 namespace qwsm {
 namespace {

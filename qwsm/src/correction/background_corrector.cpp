@@ -3,9 +3,10 @@
 #include "qwsm/correction/background_corrector.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
-#include "pose_estimate.hpp"
+#include "qwsm/geometry/frame_covariance.hpp"
 
 namespace qwsm {
 namespace {
@@ -81,6 +82,21 @@ std::optional<CorrectedMap> BackgroundCorrector::TakeUp(Proposal proposal) {
   map_node_ = corrected.map_node;
   for (const ScanNode& node : news_) corrected.map_node.push_back(node.map_robot);
   return corrected;
+}
+
+CorrectedMap BackgroundCorrector::Adopt(std::vector<UncertainPose2> map_node) {
+  Finish();
+  proposal_.reset();
+  const std::size_t looked_at = map_node_.size();
+  map_node_.assign(map_node.begin(), map_node.begin() + static_cast<std::ptrdiff_t>(looked_at));
+  corrector_.Adopt(map_node_);
+  ScanMap map = corrector_.MapAt(map_node_);
+  for (std::size_t i = 0; i < news_.size(); ++i) {
+    ScanNode& node = news_[i];
+    node.map_robot = map_node[looked_at + i];
+    map.Insert(node.scan, ToPoints(node.scan), node.map_robot);
+  }
+  return {.map_node = std::move(map_node), .map = std::move(map)};
 }
 
 // The last scan of the same robot that was looked at; of a robot that is new, the nearest one.

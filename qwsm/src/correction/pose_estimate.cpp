@@ -6,13 +6,6 @@
 
 namespace qwsm {
 
-UncertainPose2 Since(const UncertainPose2& map_earlier, const UncertainPose2& map_robot) {
-  const FrameCovariance known = FrameCovariance::Of(map_earlier);
-  UncertainPose2 since = map_robot;
-  since.covariance = PositivePart(since.covariance - known.At(since.T_a_b.translation_m()));
-  return UncertainPose2{.T_a_b = map_earlier.T_a_b.Inverse()} * since;
-}
-
 namespace {
 
 // A pose as seen from another one, where the errors of both have nothing in common.

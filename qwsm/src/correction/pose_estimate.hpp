@@ -10,9 +10,6 @@
 
 namespace qwsm {
 
-/// A pose of the map as seen from an earlier one, as uncertain as it is more than that one.
-UncertainPose2 Since(const UncertainPose2& map_earlier, const UncertainPose2& map_robot);
-
 /// What is thought of the poses of all nodes.
 class PoseEstimate {
  public:

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "anchored_path.hpp"
-#include "pose_estimate.hpp"
+#include "qwsm/geometry/frame_covariance.hpp"
 
 namespace qwsm {
 

@@ -37,4 +37,11 @@ double FrameCovariance::PositionVariance(const Eigen::Vector2d& p_m) const {
   return 0.5 * At(p_m).topLeftCorner<2, 2>().trace();
 }
 
+UncertainPose2 Since(const UncertainPose2& map_earlier, const UncertainPose2& map_robot) {
+  const FrameCovariance known = FrameCovariance::Of(map_earlier);
+  UncertainPose2 since = map_robot;
+  since.covariance = PositivePart(since.covariance - known.At(since.T_a_b.translation_m()));
+  return UncertainPose2{.T_a_b = map_earlier.T_a_b.Inverse()} * since;
+}
+
 }  // namespace qwsm

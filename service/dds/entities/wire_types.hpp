@@ -33,6 +33,9 @@ using KeyValue = diagnostic_msgs_msg_dds__KeyValue_;
 using MatchReport = qwsm_msgs_msg_dds__MatchReport_;
 using RegistrationReport = qwsm_msgs_msg_dds__RegistrationReport_;
 using RelevantScan = qwsm_msgs_msg_dds__RelevantScan_;
+using MapEpoch = qwsm_msgs_msg_dds__MapEpoch_;
+using MovedScan = qwsm_msgs_msg_dds__MovedScan_;
+using MovedRobot = qwsm_msgs_msg_dds__MovedRobot_;
 using Mark = qwsm_msgs_msg_dds__Mark_;
 using Pose2D = qwsm_msgs_msg_dds__Pose2D_;
 using ParticipantEntitiesInfo = rmw_dds_common_msg_dds__ParticipantEntitiesInfo_;
@@ -68,6 +71,9 @@ inline const dds_topic_descriptor_t* const kDescriptor<DiagnosticArray> =
 template <>
 inline const dds_topic_descriptor_t* const kDescriptor<MatchReport> =
     &qwsm_msgs_msg_dds__MatchReport__desc;
+template <>
+inline const dds_topic_descriptor_t* const kDescriptor<MapEpoch> =
+    &qwsm_msgs_msg_dds__MapEpoch__desc;
 template <>
 inline const dds_topic_descriptor_t* const kDescriptor<Mark> = &qwsm_msgs_msg_dds__Mark__desc;
 template <>

@@ -23,6 +23,7 @@ const std::array kTopicTypes{
     TypeOf<wire::OccupancyGrid>("nav_msgs/msg/OccupancyGrid"),
     TypeOf<wire::Path>("nav_msgs/msg/Path"),
     TypeOf<wire::DiagnosticArray>("diagnostic_msgs/msg/DiagnosticArray"),
+    TypeOf<wire::MapEpoch>("qwsm_msgs/msg/MapEpoch"),
     TypeOf<wire::Mark>("qwsm_msgs/msg/Mark"),
     TypeOf<wire::MatchReport>("qwsm_msgs/msg/MatchReport"),
     TypeOf<wire::RegistrationReport>("qwsm_msgs/msg/RegistrationReport"),

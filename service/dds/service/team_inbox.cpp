@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "service/dds/wire/epoch_conversion.hpp"
 #include "service/dds/wire/scan_conversion.hpp"
 
 namespace qwsm::dds {
@@ -16,15 +17,26 @@ TeamInbox::TeamInbox(const Participant& participant,
     : service_(service),
       refusals_(refusals),
       shared_scans_(participant, kSharedScansTopic, Profile::kSharedScansOfOthers),
+      epochs_(participant, RobotNames("").Topic(kMapEpochTopic), Profile::kSharedScansOfOthers),
       robots_(participant, robots, service.robots(), std::move(topics), refusals) {
   robots_.wait_set().Add(shared_scans_.handle());
+  robots_.wait_set().Add(epochs_.handle());
 }
 
 // What other services share comes first: a robot is looked for in all of the map.
 void TeamInbox::Deliver(std::chrono::nanoseconds timeout) {
   robots_.Wait(timeout);
   DeliverSharedScans();
+  DeliverEpochs();
   robots_.Deliver();
+}
+
+void TeamInbox::DeliverEpochs() {
+  epochs_.TakeAll([&](const wire::MapEpoch& sample) {
+    const std::string_view objection = ObjectionTo(sample);
+    if (!objection.empty()) return refusals_.Add(std::string(kMapEpochTopic), objection);
+    service_.TakeIn(FromWire(sample));
+  });
 }
 
 // All that have come are handed over together: the service puts them in order.

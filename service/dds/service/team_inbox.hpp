@@ -26,10 +26,12 @@ class TeamInbox {
 
  private:
   void DeliverSharedScans();
+  void DeliverEpochs();
 
   team::TeamService& service_;
   Refusals& refusals_;
   Reader<wire::RelevantScan> shared_scans_;
+  Reader<wire::MapEpoch> epochs_;
   std::size_t lost_services_ = 0;
   ServiceInbox<team::RobotSession> robots_;
 };

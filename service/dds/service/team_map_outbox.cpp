@@ -3,6 +3,7 @@
 #include "service/dds/service/team_map_outbox.hpp"
 
 #include "service/dds/wire/cloud_conversion.hpp"
+#include "service/dds/wire/epoch_conversion.hpp"
 #include "service/dds/wire/map_conversion.hpp"
 #include "service/dds/wire/robot_names.hpp"
 #include "service/dds/wire/scan_conversion.hpp"
@@ -14,8 +15,10 @@ TeamMapOutbox::TeamMapOutbox(const Participant& participant, const RosGraph& gra
       map_frame_(kMapFrame),
       new_points_(participant, kNewPointsTopic, Profile::kAnswer),
       shared_scans_(participant, kSharedScansTopic, Profile::kSharedScans),
-      maps_(graph) {
+      maps_(graph),
+      epochs_(graph) {
   MapOf("");
+  EpochOf("");
 }
 
 void TeamMapOutbox::TakeRelevantScan(const team::TeamScan& scan) {
@@ -30,9 +33,18 @@ void TeamMapOutbox::TakeMap(const team::MapPicture& map) {
   MapOf(map.robot)->Write(MapSample(map.grid, map.stamp, map_frame_).sample());
 }
 
+void TeamMapOutbox::TakeEpoch(const team::TeamEpoch& epoch) {
+  EpochOf(epoch.robot)->Write(EpochSample(epoch, map_frame_).sample());
+}
+
 /// The team's map for no robot, else the robot's own.
 std::shared_ptr<const TeamMapOutbox::MapWriter> TeamMapOutbox::MapOf(std::string_view robot) {
   return maps_.Add(robot, participant_, RobotNames(robot).Topic(kMapTopic), Profile::kLatched);
+}
+
+std::shared_ptr<const TeamMapOutbox::EpochWriter> TeamMapOutbox::EpochOf(std::string_view robot) {
+  return epochs_.Add(
+      robot, participant_, RobotNames(robot).Topic(kMapEpochTopic), Profile::kLatched);
 }
 
 }  // namespace qwsm::dds

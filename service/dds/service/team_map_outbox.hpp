@@ -21,17 +21,21 @@ class TeamMapOutbox final : public team::TeamSink {
   void TakeRelevantScan(const team::TeamScan& scan) override;
   void TakeNewPoints(const team::NewPoints& points) override;
   void TakeMap(const team::MapPicture& map) override;
+  void TakeEpoch(const team::TeamEpoch& epoch) override;
 
  private:
   using MapWriter = Writer<wire::OccupancyGrid>;
+  using EpochWriter = Writer<wire::MapEpoch>;
 
   std::shared_ptr<const MapWriter> MapOf(std::string_view robot);
+  std::shared_ptr<const EpochWriter> EpochOf(std::string_view robot);
 
   const Participant& participant_;
   const std::string map_frame_;
   Writer<wire::PointCloud2> new_points_;
   Writer<wire::RelevantScan> shared_scans_;
   TopicsByRobot<MapWriter> maps_;
+  TopicsByRobot<EpochWriter> epochs_;
 };
 
 }  // namespace qwsm::dds

@@ -46,6 +46,8 @@ inline constexpr std::string_view kPathTopic = "path";
 inline constexpr std::string_view kCloudMapTopic = "cloud_map";
 /// The map of the team where it has no namespace.
 inline constexpr std::string_view kMapTopic = "map";
+/// Corrections of that map.
+inline constexpr std::string_view kMapEpochTopic = "map_epoch";
 
 /// Topics the whole team shares.
 inline constexpr const char* kTransformsTopic = "/tf";

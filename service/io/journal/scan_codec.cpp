@@ -5,26 +5,11 @@
 #include <cstdint>
 #include <utility>
 
-#include "qwsm/geometry/position.hpp"
 #include "qwsm/sensor/scan_limits.hpp"
+#include "service/io/journal/pose_codec.hpp"
 
 namespace qwsm::io {
 namespace {
-
-void AddPose(BinaryWriter& writer, const Pose2& pose) {
-  writer.Add(pose.x_m);
-  writer.Add(pose.y_m);
-  writer.Add(pose.theta_rad);
-}
-
-Pose2 ReadPose(BinaryReader& reader) {
-  Pose2 pose;
-  pose.x_m = reader.Double();
-  pose.y_m = reader.Double();
-  pose.theta_rad = reader.Double();
-  if (!IsPosition(pose)) throw BinaryError("a pose is not finite, or absurdly far away");
-  return pose;
-}
 
 LaserGeometry ReadGeometry(BinaryReader& reader) {
   LaserGeometry geometry;
@@ -41,9 +26,7 @@ LaserGeometry ReadGeometry(BinaryReader& reader) {
 void AddScan(BinaryWriter& writer, const RelevantScan& relevant) {
   const LaserGeometry& geometry = relevant.scan.geometry;
   writer.Add(static_cast<std::int64_t>(relevant.scan.stamp.count()));
-  AddPose(writer, relevant.map_robot.T_a_b);
-  // All nine, as rounding leaves them not quite symmetric.
-  for (const double entry : relevant.map_robot.covariance.reshaped()) writer.Add(entry);
+  AddPose(writer, relevant.map_robot);
   writer.Add(geometry.first_bearing_rad);
   writer.Add(geometry.bearing_step_rad);
   writer.Add(geometry.range_min_m);
@@ -56,16 +39,13 @@ void AddScan(BinaryWriter& writer, const RelevantScan& relevant) {
 RelevantScan ReadScan(BinaryReader& reader) {
   RelevantScan relevant;
   relevant.scan.stamp = Timestamp(reader.Signed64());
-  relevant.map_robot.T_a_b = ReadPose(reader);
-  for (double& entry : relevant.map_robot.covariance.reshaped()) entry = reader.Double();
+  relevant.map_robot = ReadUncertainPose(reader);
   relevant.scan.geometry = ReadGeometry(reader);
   const std::size_t beams = reader.Count(sizeof(float));
   relevant.scan.ranges_m.resize(beams);
   for (float& range_m : relevant.scan.ranges_m) range_m = reader.Float();
-  for (const std::string_view objection :
-       {ObjectionTo(relevant.scan), ObjectionTo(relevant.map_robot)}) {
-    if (!objection.empty()) throw BinaryError(std::string(objection));
-  }
+  const std::string_view objection = ObjectionTo(relevant.scan);
+  if (!objection.empty()) throw BinaryError(std::string(objection));
   return relevant;
 }
 

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "service/io/journal/epoch_codec.hpp"
 #include "service/io/journal/scan_codec.hpp"
 
 namespace qwsm::io {
@@ -25,12 +26,30 @@ JournalReader::JournalReader(const std::filesystem::path& file)
   report_.format = "journal";
   report_.line_name = "entries";
   report_.compression = "none";
+  ReadCorrections(file);
+}
+
+void JournalReader::ReadCorrections(const std::filesystem::path& file) {
+  JournalFile journal = Open(file);
+  while (const std::optional<JournalEntry> entry = journal.Next()) {
+    if (!IsEpoch(entry->contents)) continue;
+    try {
+      for (const JournaledPose& pose : DecodeEpoch(entry->contents)) {
+        corrected_[{pose.service, pose.robot, pose.sequence}] = pose.map_robot;
+      }
+    } catch (const BinaryError&) {
+      CountDamaged(1, "an entry holds no correction that can be read");
+    }
+  }
 }
 
 std::optional<LogRecord> JournalReader::Next() {
   while (std::optional<JournalEntry> entry = NextEntry()) {
+    if (IsEpoch(entry->contents)) continue;
     try {
       RelevantScan relevant = DecodeScan(entry->contents).relevant;
+      const auto corrected = corrected_.find({entry->service, entry->robot, entry->sequence});
+      if (corrected != corrected_.end()) relevant.map_robot = corrected->second;
       ++report_.scans;
       return ScanReading{.scan = std::move(relevant.scan),
                          .T_odom_robot = relevant.map_robot.T_a_b,

@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <string>
+#include <tuple>
 
 #include "qwsm/logs/log_reader.hpp"
 #include "service/io/journal/journal_file.hpp"
@@ -12,8 +16,8 @@ namespace qwsm::io {
 
 /// Reads the journal of a service as a log of its relevant scans.
 ///
-/// Their poses in the map stand for odometry: those of all robots of a team are in one frame, so
-/// that the scans of several robots can be read as one drive.
+/// Their poses in the map, as it was corrected last, stand for odometry: those of all robots of a
+/// team are in one frame, so that the scans of several robots can be read as one drive.
 class JournalReader final : public LogReader {
  public:
   /// Opens a journal. @throws LogError where it is no journal of planar scans.
@@ -28,7 +32,12 @@ class JournalReader final : public LogReader {
   std::optional<JournalEntry> NextEntry();
   void CountDamaged(std::size_t damaged, const char* what);
 
+  using Key = std::tuple<std::string, std::string, std::uint64_t>;  // Service, robot, sequence.
+
+  void ReadCorrections(const std::filesystem::path& file);
+
   JournalFile journal_;
+  std::map<Key, UncertainPose2> corrected_;  // Poses that are not as they were answered.
   LogReport report_;
   std::size_t entries_;
 };

@@ -100,7 +100,7 @@ void TeamResults::Finish(team::TeamService& service) {
   const auto draw = [&](const std::string& robot, const fs::path& folder) {
     const std::shared_ptr<const team::TeamMap> map = service.MapOf(robot);
     const auto [known, is_new] = drawn.try_emplace(map.get());
-    if (is_new && !map->Read()->empty()) known->second = Draw(service, robot);
+    if (is_new && !map->Read()->map.empty()) known->second = Draw(service, robot);
     const OccupancyGrid* const grid = known->second ? &*known->second : nullptr;
     if (is_new && grid) {
       tasks.push_back([grid, folder] { io::WriteRosMap(folder / "map.yaml", *grid); });
@@ -112,7 +112,7 @@ void TeamResults::Finish(team::TeamService& service) {
   for (const auto& [robot, results] : robots_) {
     const OccupancyGrid* const grid = draw(robot, results->folder());
     tasks.push_back([&service, &robot, &results, grid] {
-      results->Finish(*service.MapOf(robot)->Read(), grid);
+      results->Finish(service.MapOf(robot)->Read()->map, grid);
     });
   }
   RunInParallel(tasks);
@@ -121,7 +121,7 @@ void TeamResults::Finish(team::TeamService& service) {
 std::optional<OccupancyGrid> TeamResults::Draw(team::TeamService& service,
                                                const std::string& robot) const {
   std::optional<OccupancyGrid> grid = service.DrawMapOf(robot);
-  return grid ? std::move(grid) : RenderOrWarn(*service.MapOf(robot)->Read(), rendering_);
+  return grid ? std::move(grid) : RenderOrWarn(service.MapOf(robot)->Read()->map, rendering_);
 }
 
 }  // namespace qwsm::pipeline

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -14,11 +15,10 @@
 namespace qwsm::team {
 
 /// Draws a map that grows, at the cost of what is new in it, and without holding up those who
-/// extend it.
+/// extend it. A map that was corrected is drawn anew.
 class MapPainter {
  public:
-  explicit MapPainter(const OccupancyGridOptions& options)
-      : cell_m_(options.cell_m), painter_(options) {}
+  explicit MapPainter(const OccupancyGridOptions& options) : options_(options), painter_(options) {}
 
   /// Draws what is new in the map; gives up when asked to stop.
   void Paint(const TeamMap& map, const std::stop_token& stop);
@@ -33,11 +33,13 @@ class MapPainter {
   const std::string& trouble() const { return trouble_; }
 
  private:
+  void BeginAnewIfCorrected(const TeamMap& map);
   std::vector<RelevantScan> NewScansOf(const TeamMap& map) const;
 
-  double cell_m_;
+  OccupancyGridOptions options_;
   OccupancyPainter painter_;
   std::size_t painted_ = 0;  // Scans drawn so far.
+  std::uint32_t epoch_ = 0;  // Of the map that is drawn.
   bool has_news_ = false;
   Timestamp newest_{};
   std::string trouble_;

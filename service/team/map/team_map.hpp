@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -13,6 +14,8 @@
 #include <string_view>
 #include <unordered_set>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "qwsm/mapping/scan_map.hpp"
 #include "service/team/map/robot_positions.hpp"
@@ -34,17 +37,31 @@ namespace qwsm::team {
 ///   another one. With InsertionRule::kEveryPoint the points are the same in any order.
 class TeamMap {
  public:
-  using State = TwinState<ScanMap, MapAddition>;
+  /// What robots are matched against.
+  struct Contents {
+    ScanMap map;
+    std::uint32_t epoch = 0;  ///< How often the map was corrected.
+  };
+  /// A scan that is added, or the map with all its scans where they belong.
+  using Change = std::variant<MapAddition, std::shared_ptr<const ScanMap>>;
+  using State = TwinState<Contents, Change>;
 
   explicit TeamMap(const ScanMapOptions& options = {});
 
   /// The map as it is now; see TwinState::View.
   State::View Read() const { return state_.Read(); }
 
-  /// Adds a scan. @return what was added; null if the map knows the scan already.
+  /// A scan that was added.
+  struct Insertion {
+    ScanId id = 0;
+    std::shared_ptr<const MapAddition> addition;
+  };
+  /// Adds a scan. @return nothing if the map knows the scan already.
   /// @param points the scan's points, as ToPoints() gives them. @pre ObjectionTo(scan).empty()
-  std::shared_ptr<const MapAddition> Insert(const TeamScan& scan,
-                                            std::span<const ScanPoint> points);
+  std::optional<Insertion> Insert(const TeamScan& scan, std::span<const ScanPoint> points);
+
+  /// Puts all its scans elsewhere. @param corrected the same scans in the same order.
+  void Correct(ScanMap corrected);
 
   /// Where the robots that are matched against this map are at the moment.
   RobotPositions& robots() { return robots_; }
@@ -56,6 +73,8 @@ class TeamMap {
   /// The last relevant scan of the robot: where it was and what its odometry said. Its ranges are
   /// left out.
   std::optional<TeamScan> LastOf(std::string_view robot) const;
+  /// The key of a scan. @pre it was added.
+  ScanKey KeyOf(ScanId id) const;
   /// The largest sequence number that the service gave a scan of the robot; 0 if it gave none.
   std::uint64_t LastSequence(std::string_view service, std::string_view robot) const;
 
@@ -67,6 +86,7 @@ class TeamMap {
   std::atomic<bool> has_begun_ = false;
   mutable std::mutex register_;
   std::unordered_set<ScanKey, ScanKeyHash> known_;
+  std::vector<ScanKey> keys_;  // By ScanId.
   std::map<std::string, TeamScan, std::less<>> last_by_robot_;
   std::map<std::pair<std::string, std::string>, std::uint64_t> last_sequence_;
 };

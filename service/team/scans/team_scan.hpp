@@ -11,12 +11,20 @@
 
 namespace qwsm::team {
 
+/// How a robot came from its last relevant scan to the next.
+struct ScanMotion {
+  UncertainPose2 odometry;  ///< As odometry tells it, as uncertain as it has proved to be.
+  /// As it was answered; none where the answer does not continue the one before.
+  std::optional<Pose2> T_last_this;
+};
+
 /// A relevant scan of any robot of the team: from these alone the map can be rebuilt.
 struct TeamScan {
   ScanKey key;
   LaserScan scan;
   UncertainPose2 map_robot;
-  std::optional<Pose2> T_odom_robot;  ///< Odometry for the robot to go on from after a restart.
+  std::optional<Pose2> T_odom_robot;   ///< Odometry for the robot to go on from after a restart.
+  std::optional<ScanMotion> motion{};  ///< Known where the scan was matched, for a while.
 };
 
 /// Says why a scan must not be taken into the map; empty if it may.

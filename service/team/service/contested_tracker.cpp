@@ -38,6 +38,12 @@ void ContestedTracker::SuspectOdometryReset() {
   if (trial_) trial_->SuspectOdometryReset();
 }
 
+void ContestedTracker::FollowCorrection(const UncertainPose2& map_robot) {
+  const Pose2 T_new_old = map_robot.T_a_b * tracker_.map_robot().T_a_b.Inverse();
+  tracker_.FollowCorrection(map_robot);
+  if (trial_) trial_->FollowCorrection(T_new_old);
+}
+
 std::optional<Pose2> ContestedTracker::Mount(LaserScan& scan,
                                              const std::optional<Pose2>& claimed,
                                              bool is_tracked) {

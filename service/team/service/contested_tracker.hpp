@@ -41,6 +41,8 @@ class ContestedTracker {
   void PlaceAsTold(const UncertainPose2& map_robot);
   /// Expects that odometry may have begun anew; see RobotTracker.
   void SuspectOdometryReset();
+  /// Follows a correction of the map; see RobotTracker.
+  void FollowCorrection(const UncertainPose2& map_robot);
 
   /// Settles where the laser of a scan sits. @param claimed where somebody says that it does, other
   /// than the scan. @param is_tracked else the claim is taken. @return the claim if it is open.

@@ -2,23 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/team/service/periodic_task.hpp"
 
-#include <sys/resource.h>
-
 #include <condition_variable>
 #include <mutex>
 #include <utility>
 
+#include "service/team/map/yielding.hpp"
+
 namespace qwsm::team {
-namespace {
-
-// Linux gives every thread a priority of its own; that of id 0 is the caller's.
-void YieldToOthers() {
-  constexpr int kNice = 10;
-  setpriority(PRIO_PROCESS, 0, kNice);
-}
-
-}  // namespace
-
 PeriodicTask::PeriodicTask(std::chrono::duration<double> period, bool is_background, Task task)
     : thread_([period, is_background, task = std::move(task)](const std::stop_token& stop) {
         if (is_background) YieldToOthers();

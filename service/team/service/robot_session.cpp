@@ -6,6 +6,7 @@
 #include <chrono>
 #include <utility>
 
+#include "qwsm/geometry/frame_covariance.hpp"
 #include "qwsm/geometry/position.hpp"
 #include "qwsm/mapping/relocalization.hpp"
 
@@ -67,14 +68,16 @@ void RobotSession::Answer(Work& work,
   work.scan.stamp = observation.scan.stamp;
   ContestedTracker::Tracked tracked;
   {
-    const TeamMap::State::View map = context_.map.Read();
+    const TeamMap::State::View contents = context_.map.Read();
+    FollowCorrections(*contents);
+    const ScanMap& map = contents->map;
     is_placed_ = is_placed_ && !work.was_elsewhere;
-    is_placed_ = Place(*map, work, points);
+    is_placed_ = Place(map, work, points);
     if (!is_placed_) return intake_.NoteUnplaced();
     // Odometry that moves faster than any robot has begun anew; after an interruption it may have.
     const bool may_be_new = work.odometry_goes_on && work.is_interrupted;
     if (work.odometry_jumped || may_be_new) tracker_.SuspectOdometryReset();
-    tracked = tracker_.Track(*map, observation, points, claimed_mounting);
+    tracked = tracker_.Track(map, observation, points, claimed_mounting);
   }
   const auto answered = steady_clock::now();
   const MappingStep& step = tracked.step;
@@ -89,11 +92,29 @@ void RobotSession::Answer(Work& work,
                            .scans = counts.scans,
                            .dropped = counts.dropped};
   context_.sinks.Tell(&TeamSink::TakeAnswer, answer);
+  Extend(tracked);
+  context_.report(answer);
+}
+
+// The robot keeps its place beside its last relevant scan.
+void RobotSession::FollowCorrections(const TeamMap::Contents& contents) {
+  if (std::exchange(epoch_, contents.epoch) == contents.epoch || !last_relevant_) return;
+  const UncertainPose2& map_last = contents.map.scans()[*last_relevant_].map_robot;
+  tracker_.FollowCorrection(map_last * Since(*nodes_.map_last(), tracker_.map_robot()));
+  nodes_.Follow(map_last);
+}
+
+void RobotSession::Extend(ContestedTracker::Tracked& tracked) {
+  std::optional<ScanNode> node = nodes_.Take(tracked.step);
   for (TeamScan& scan : tracked.relevant) {
     scan.key = {.service = context_.service, .robot = name(), .sequence = ++sequence_};
-    context_.extend(scan, ToPoints(scan.scan));
+    // Of scans that had to wait for the end of a trial odometry alone is known.
+    if (node && tracked.relevant.size() == 1) {
+      scan.motion = {.odometry = node->odometry, .T_last_this = node->T_last_node};
+    }
+    last_relevant_ = context_.extend(scan, ToPoints(scan.scan));
+    nodes_.Follow(scan.map_robot);
   }
-  context_.report(answer);
 }
 
 void RobotSession::TellNews(ContestedTracker::News news) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "qwsm/correction/node_maker.hpp"
 #include "service/team/map/team_map.hpp"
 #include "service/team/service/contested_tracker.hpp"
 #include "service/team/session/session_intake.hpp"
@@ -27,8 +28,8 @@ struct SessionContext {
   std::optional<UncertainPose2> start;  ///< Where the robot starts if nothing better is known.
   /// Readings so near to a teammate are left out, in metres; see TeamOptions.
   double teammate_radius_m = 0.0;
-  /// Puts a relevant scan into the map, the journal and the network.
-  std::function<void(const TeamScan&, std::span<const ScanPoint>)> extend;
+  /// Puts a relevant scan into the map, the journal and the network. @return its id in the map.
+  std::function<std::optional<ScanId>(const TeamScan&, std::span<const ScanPoint>)> extend;
   /// Tells of an answer once what it says is safe.
   std::function<void(const RobotAnswer&)> report;
 };
@@ -64,6 +65,8 @@ class RobotSession final : public Lane {
   void Answer(Work& work,
               std::span<const ScanPoint> points,
               const std::optional<Pose2>& claimed_mounting);
+  void FollowCorrections(const TeamMap::Contents& contents);
+  void Extend(ContestedTracker::Tracked& tracked);
   bool Place(const ScanMap& map, const Work& work, std::span<const ScanPoint> points);
   bool RelocalizeIn(const ScanMap& map, Timestamp stamp, std::span<const ScanPoint> points);
   void HideTeammates(Work& work);
@@ -81,6 +84,9 @@ class RobotSession final : public Lane {
 
   // The worker alone uses these.
   ContestedTracker tracker_;
+  NodeMaker nodes_;
+  std::optional<ScanId> last_relevant_;
+  std::uint32_t epoch_ = 0;  // Of the map that the tracker's poses are in.
   bool is_placed_ = false;
   std::optional<Pose2> T_odom_last_;
   std::optional<Timestamp> last_relocalization_;

@@ -3,10 +3,13 @@
 #include "service/team/service/team_service.hpp"
 
 #include <algorithm>
+#include <map>
 #include <tuple>
 #include <utility>
 
+#include "qwsm/geometry/frame_covariance.hpp"
 #include "service/io/journal/scan_codec.hpp"
+#include "service/team/journal/journaled_map.hpp"
 
 namespace qwsm::team {
 namespace {
@@ -19,26 +22,41 @@ constexpr std::chrono::duration<double> kPaintPeriod{0.2};
 // A map that does not change is told again for readers that do not ask for what was before them.
 constexpr std::chrono::seconds kMapRepetition{10};
 
+// As whose the map is known that all share.
+const std::string kTeam;
+
 TeamServiceOptions WithQuadtree(TeamServiceOptions options) {
   options.mapper.matcher = MatcherKind::kQWsm;
   return options;
 }
 
-io::JournalEntry ToJournal(const TeamScan& scan) {
-  return {.service = scan.key.service,
-          .robot = scan.key.robot,
-          .sequence = scan.key.sequence,
-          .stamp = scan.scan.stamp,
-          .contents = io::EncodeScan({.relevant = {.scan = scan.scan, .map_robot = scan.map_robot},
-                                      .T_odom_robot = scan.T_odom_robot})};
-}
+// Poses of all scans of a map, some of which were told.
+struct Followed {
+  std::vector<UncertainPose2> map_node;
+  bool moves_others = false;  // Whether scans of which nothing was told are moved with them.
+};
 
-TeamScan ScanFromJournal(const io::JournalEntry& entry) {
-  io::JournaledScan scan = io::DecodeScan(entry.contents);
-  return {.key = {.service = entry.service, .robot = entry.robot, .sequence = entry.sequence},
-          .scan = std::move(scan.relevant.scan),
-          .map_robot = scan.relevant.map_robot,
-          .T_odom_robot = scan.T_odom_robot};
+// Who is not told of keeps its place beside the last scan of its robot that is.
+Followed Follow(const TeamMap& map,
+                const std::unordered_map<ScanKey, UncertainPose2, ScanKeyHash>& told) {
+  Followed followed;
+  std::map<std::string, ScanId> last_told;
+  const TeamMap::State::View contents = map.Read();
+  for (const RelevantScan& scan : contents->map.scans()) {
+    const ScanKey key = map.KeyOf(scan.id);
+    UncertainPose2& pose = followed.map_node.emplace_back(scan.map_robot);
+    if (const auto of_it = told.find(key); of_it != told.end()) {
+      pose = of_it->second;
+      last_told[key.robot] = scan.id;
+    } else if (const auto last = last_told.find(key.robot); last != last_told.end()) {
+      const UncertainPose2& before = contents->map.scans()[last->second].map_robot;
+      const UncertainPose2& after = followed.map_node[last->second];
+      if (before.T_a_b == after.T_a_b) continue;
+      pose = after * Since(before, scan.map_robot);
+      followed.moves_others = true;
+    }
+  }
+  return followed;
 }
 
 UncertainPose2 PlanarStart(const RobotStartOptions& robot) {
@@ -59,13 +77,18 @@ TeamService::TeamService(const TeamServiceOptions& options,
           {.file = journal, .kind = io::kScanJournal},
           [this](const TeamEvent& event) { sinks_.Tell(&TeamSink::TakeEvent, event); },
           [this](std::string robot) { return MakeSession(std::move(robot)); }) {
-  host_.Restore([this](const io::JournalEntry& entry) { Restore(ScanFromJournal(entry)); });
+  JournaledMap map;
+  host_.Restore([&](const io::JournalEntry& entry) { map.Take(entry); });
+  epoch_.number = map.last_epoch();
+  for (TeamScan& scan : map.TakeScans()) Restore(std::move(scan));
 }
 
 TeamService::~TeamService() { Stop(); }
 
 void TeamService::Restore(TeamScan scan) {
-  if (!maps_.Of(scan.key.robot)->Insert(scan, ToPoints(scan.scan))) return;
+  const std::shared_ptr<TeamMap> map = maps_.Of(scan.key.robot);
+  if (!map->Insert(scan, ToPoints(scan.scan))) return;
+  if (options_.corrects) CorrectorOf(*map).Take(scan);
   offered_.push_back(std::move(scan));
 }
 
@@ -88,7 +111,12 @@ void TeamService::TakeInOne(TeamScan scan) {
     ++refused_;
     return;
   }
-  const bool is_new = Insert(scan, ToPoints(scan.scan), [](const MapAddition&) {});
+  {
+    const std::lock_guard lock(extension_);
+    const auto told = named_by_others_.find(scan.key);
+    if (told != named_by_others_.end()) scan.map_robot = told->second;
+  }
+  const bool is_new = Insert(scan, ToPoints(scan.scan), [](const MapAddition&) {}).has_value();
   if (is_new) {
     maps_.Of(scan.key.robot)
         ->robots()
@@ -98,6 +126,19 @@ void TeamService::TakeInOne(TeamScan scan) {
   if (!is_new) return;
   const std::lock_guard lock(extension_);
   of_others_.push_back(std::move(scan));
+}
+
+void TeamService::TakeIn(const TeamEpoch& epoch) {
+  const std::lock_guard lock(extension_);
+  const bool is_wanted = options_.corrects && options_.team.map == MapSharing::kTeam;
+  if (!is_wanted || epoch.rank <= epoch_) return;
+  named_by_others_.clear();
+  for (const MovedScan& scan : epoch.scans) named_by_others_[scan.key] = scan.map_robot;
+  TeamMap& map = *maps_.Of(kTeam);
+  Followed followed = Follow(map, named_by_others_);
+  // Whoever knows of scans that the other one did not tells where these are now.
+  epoch_ = followed.moves_others ? Next(epoch.rank) : epoch.rank;
+  TakeEffect(kTeam, map, CorrectorOf(map).Adopt(std::move(followed.map_node)));
 }
 
 void TeamService::OfferTakenIn() {
@@ -110,28 +151,77 @@ void TeamService::OfferTakenIn() {
 }
 
 // Nobody hears of a relevant scan before it is safe: who has heard of it may rely on it.
-void TeamService::Extend(const TeamScan& scan, std::span<const ScanPoint> points) {
-  Insert(scan, points, [this, shared = std::make_shared<TeamScan>(scan)](const MapAddition& added) {
-    sinks_.Tell(&TeamSink::TakeRelevantScan, *shared);
-    TellNewPoints(*shared, added);
-  });
+std::optional<ScanId> TeamService::Extend(const TeamScan& scan, std::span<const ScanPoint> points) {
+  return Insert(
+      scan, points, [this, shared = std::make_shared<TeamScan>(scan)](const MapAddition& added) {
+        sinks_.Tell(&TeamSink::TakeRelevantScan, *shared);
+        TellNewPoints(*shared, added);
+      });
 }
 
-bool TeamService::Insert(const TeamScan& scan,
-                         std::span<const ScanPoint> points,
-                         const std::function<void(const MapAddition&)>& settled) {
-  std::shared_ptr<const MapAddition> addition;
-  {
-    const std::lock_guard lock(extension_);
-    addition = maps_.Of(scan.key.robot)->Insert(scan, points);
-    if (!addition) return false;
-    if (host_.journal()) {
-      host_.journal().Append(ToJournal(scan), [settled, addition] { settled(*addition); });
-      return true;
+std::optional<ScanId> TeamService::Insert(const TeamScan& scan,
+                                          std::span<const ScanPoint> points,
+                                          const std::function<void(const MapAddition&)>& settled) {
+  const std::lock_guard lock(extension_);
+  const std::shared_ptr<TeamMap> map = maps_.Of(scan.key.robot);
+  const std::optional<TeamMap::Insertion> insertion = map->Insert(scan, points);
+  if (!insertion) return std::nullopt;
+  Keep(ToJournal(scan), [settled, addition = insertion->addition] { settled(*addition); });
+  if (options_.corrects) {
+    CorrectorOf(*map).Take(scan);
+    CorrectIfDue(scan.key.robot, *map);
+  }
+  return insertion->id;
+}
+
+void TeamService::Keep(io::JournalEntry entry, std::function<void()> settled) {
+  if (!host_.journal()) return settled();
+  host_.journal().Append(std::move(entry), std::move(settled));
+}
+
+void TeamService::CorrectIfDue(const std::string& robot, TeamMap& map) {
+  std::optional<CorrectedMap> corrected = CorrectorOf(map).LookIfDue();
+  if (!corrected) return;
+  epoch_ = Next(epoch_);
+  TakeEffect(robot, map, std::move(*corrected));
+}
+
+EpochRank TeamService::Next(const EpochRank& last) const {
+  return {.number = last.number + 1, .service = identity()};
+}
+
+void TeamService::TakeEffect(const std::string& robot, TeamMap& map, CorrectedMap corrected) {
+  const auto epoch = std::make_shared<const TeamEpoch>(EpochOf(robot, map, corrected));
+  map.Correct(std::move(corrected.map));
+  std::map<ScanKey, const UncertainPose2*> poses;
+  for (const MovedScan& scan : epoch->scans) poses[scan.key] = &scan.map_robot;
+  for (TeamScan& scan : of_others_) {
+    if (const auto moved = poses.find(scan.key); moved != poses.end()) {
+      scan.map_robot = *moved->second;
     }
   }
-  settled(*addition);
-  return true;
+  Keep(ToJournal(*epoch), [this, epoch] { sinks_.Tell(&TeamSink::TakeEpoch, *epoch); });
+}
+
+TeamEpoch TeamService::EpochOf(const std::string& robot,
+                               const TeamMap& map,
+                               const CorrectedMap& corrected) {
+  TeamEpoch epoch{.rank = epoch_,
+                  .robot = options_.team.map == MapSharing::kTeam ? std::string() : robot,
+                  .stamp = {},
+                  .scans = {}};
+  const TeamMap::State::View before = map.Read();
+  for (const RelevantScan& scan : before->map.scans()) {
+    epoch.stamp = std::max(epoch.stamp, scan.scan.stamp);
+    epoch.scans.push_back({.key = map.KeyOf(scan.id),
+                           .T_map_robot_before = scan.map_robot.T_a_b,
+                           .map_robot = corrected.map_node[scan.id]});
+  }
+  return epoch;
+}
+
+TeamCorrector& TeamService::CorrectorOf(const TeamMap& map) {
+  return correctors_.try_emplace(&map, options_.mapper).first->second;
 }
 
 void TeamService::TellNewPoints(const TeamScan& scan, const MapAddition& addition) {
@@ -146,9 +236,9 @@ MapStatus TeamService::StatusOfMaps() const {
   MapStatus status{
       .taken_in = taken_in_.load(), .duplicates = duplicates_.load(), .refused = refused_.load()};
   for (const TeamMaps::NamedMap& named : maps_.All()) {
-    const TeamMap::State::View map = named.map->Read();
-    status.scans += map->scans().size();
-    status.points += map->surfaces().quadtree().size();
+    const TeamMap::State::View contents = named.map->Read();
+    status.scans += contents->map.scans().size();
+    status.points += contents->map.surfaces().quadtree().size();
   }
   return status;
 }
@@ -196,7 +286,7 @@ MapPainter& TeamService::PainterOf(const TeamMap& map) {
 
 std::shared_ptr<RobotSession> TeamService::MakeSession(std::string robot) {
   const auto extend = [this](const TeamScan& scan, std::span<const ScanPoint> points) {
-    Extend(scan, points);
+    return Extend(scan, points);
   };
   const auto report = [this](const RobotAnswer& answer) {
     host_.journal().TellWhenSafe([this, answer] { sinks_.Tell(&TeamSink::TakeReport, answer); });

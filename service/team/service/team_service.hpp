@@ -14,12 +14,14 @@
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "qwsm/mapping/mapper_options.hpp"
 #include "qwsm/mapping/occupancy_grid.hpp"
 #include "service/team/map/map_painter.hpp"
+#include "service/team/map/team_corrector.hpp"
 #include "service/team/map/team_maps.hpp"
 #include "service/team/service/robot_session.hpp"
 #include "service/team/service/session_host.hpp"
@@ -31,6 +33,7 @@ namespace qwsm::team {
 struct TeamServiceOptions {
   TeamOptions team;
   MapperOptions mapper;  ///< The matcher is q-wsm, whatever the options say.
+  bool corrects = true;  ///< Whether maps are corrected while robots drive.
   OccupancyGridOptions rendering;
 };
 
@@ -69,6 +72,9 @@ class TeamService {
   /// inserted by stamp, so that services that start late get the same map from the same scans.
   /// What is known already, or came from this service, is passed over.
   void TakeIn(std::vector<TeamScan> scans);
+  /// Takes in a correction of the team's map that another service found. It counts if it is newer
+  /// than what this service knows: of a greater number, or of the same and a greater service.
+  void TakeIn(const TeamEpoch& epoch);
   /// Offers what this service took in of another one that is gone, for those that come later. So
   /// what one service has is never lost to the team.
   void OfferTakenIn();
@@ -83,12 +89,18 @@ class TeamService {
 
  private:
   std::shared_ptr<RobotSession> MakeSession(std::string robot);
-  void Extend(const TeamScan& scan, std::span<const ScanPoint> points);
+  std::optional<ScanId> Extend(const TeamScan& scan, std::span<const ScanPoint> points);
   void TakeInOne(TeamScan scan);
   void Restore(TeamScan scan);
-  bool Insert(const TeamScan& scan,
-              std::span<const ScanPoint> points,
-              const std::function<void(const MapAddition&)>& settled);
+  std::optional<ScanId> Insert(const TeamScan& scan,
+                               std::span<const ScanPoint> points,
+                               const std::function<void(const MapAddition&)>& settled);
+  void Keep(io::JournalEntry entry, std::function<void()> settled);
+  TeamCorrector& CorrectorOf(const TeamMap& map);
+  void CorrectIfDue(const std::string& robot, TeamMap& map);
+  EpochRank Next(const EpochRank& last) const;
+  void TakeEffect(const std::string& robot, TeamMap& map, CorrectedMap corrected);
+  TeamEpoch EpochOf(const std::string& robot, const TeamMap& map, const CorrectedMap& corrected);
   void TellNewPoints(const TeamScan& scan, const MapAddition& addition);
   void PaintMaps(const std::stop_token& stop);
   void TellMap(const std::string& robot, MapPainter& painter);
@@ -98,7 +110,11 @@ class TeamService {
   const TeamServiceOptions options_;
   const SinkList<TeamSink> sinks_;
   TeamMaps maps_;
-  std::mutex extension_;             // Keeps the journal in the order of the map.
+  std::mutex extension_;  // Keeps the journal in the order of the map; guards what follows.
+  std::map<const TeamMap*, TeamCorrector> correctors_;
+  EpochRank epoch_;  // Of the last correction of any map.
+  // Poses of scans that the last correction by another service names.
+  std::unordered_map<ScanKey, UncertainPose2, ScanKeyHash> named_by_others_;
   std::vector<TeamScan> offered_;    // Scans from the journal, until the start.
   std::vector<TeamScan> of_others_;  // Scans taken in from other services, which offer them.
   std::atomic<std::uint64_t> taken_in_ = 0;

@@ -38,6 +38,14 @@ void TrackingTrial::BeginAnew() {
   held_.clear();
 }
 
+void TrackingTrial::FollowCorrection(const Pose2& T_new_old) {
+  const UncertainPose2 new_old{.T_a_b = T_new_old};
+  rival_.FollowCorrection(new_old * rival_.map_robot());
+  for (std::vector<TeamScan>* scans : {&held_, &held_by_rival_}) {
+    for (TeamScan& scan : *scans) scan.map_robot = new_old * scan.map_robot;
+  }
+}
+
 TrackingTrial::Verdict TrackingTrial::Hear(const ScanMap& map,
                                            const Account& of_rival,
                                            const Observation& observation,

@@ -34,6 +34,9 @@ class TrackingTrial {
 
   /// Expects that odometry may have begun anew; see RobotTracker.
   void SuspectOdometryReset() { rival_.SuspectOdometryReset(); }
+  /// Follows a map that was moved around the robot. @param T_new_old the old map's frame in the
+  /// new.
+  void FollowCorrection(const Pose2& T_new_old);
   /// Says that the tracker beside the rival begins anew. What spoke for the rival still does.
   void BeginAnew();
 

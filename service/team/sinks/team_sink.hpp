@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "qwsm/mapping/occupancy_grid.hpp"
+#include "service/team/scans/team_epoch.hpp"
 #include "service/team/scans/team_scan.hpp"
 #include "service/team/sinks/service_sink.hpp"
 
@@ -36,6 +37,8 @@ class TeamSink : public ServiceSink<Planar> {
   /// Takes what a relevant scan added to the map, as safe in the journal as that scan.
   virtual void TakeNewPoints(const NewPoints&) {}
   virtual void TakeMap(const MapPicture&) {}
+  /// Takes a correction of a map, safely in the journal as a relevant scan is.
+  virtual void TakeEpoch(const TeamEpoch&) {}
 };
 
 }  // namespace qwsm::team

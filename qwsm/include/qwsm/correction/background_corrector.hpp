@@ -46,6 +46,10 @@ class BackgroundCorrector {
   /// @return the map to go on in, if the last look found that it is drawn wrong.
   std::optional<CorrectedMap> LookAgain();
 
+  /// Takes over the poses that somebody else found. What a look under way finds is given up.
+  /// @param map_node of all nodes so far. @return the map to go on in.
+  CorrectedMap Adopt(std::vector<UncertainPose2> map_node);
+
   /// Corrects all that was added once more, in the end: loops are looked for from where others have
   /// moved the scans, too.
   Correction Correct();

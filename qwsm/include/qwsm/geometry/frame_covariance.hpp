@@ -26,4 +26,7 @@ struct FrameCovariance {
   double PositionVariance(const Eigen::Vector2d& p_m) const;
 };
 
+/// A pose of the map as seen from an earlier one, as uncertain as it is more than that one.
+UncertainPose2 Since(const UncertainPose2& map_earlier, const UncertainPose2& map_robot);
+
 }  // namespace qwsm

@@ -16,7 +16,7 @@ enum class StepStatus {
   kMatched,       ///< The match is the pose.
   kExtended,      ///< The match is the pose, and much of the scan is new to the map.
   kDeadReckoned,  ///< The match was bad: the pose is the prediction.
-  kLost,          ///< Where in the map the robot is is not known: the pose is in a frame of its own.
+  kLost,  ///< Where in the map the robot is is not known: the pose is in a frame of its own.
 };
 
 std::string_view Name(StepStatus status);

@@ -82,6 +82,13 @@ constexpr std::array kDefinitions{
     Entry{"qwsm_msgs/MapTile",
           "std_msgs/Header header\nuint32 generation\nfloat32 resolution\nfloat64 x\nfloat64 y\n"
           "uint32 width\nuint32 height\nuint8[] runs\n"},
+    Entry{"qwsm_msgs/MovedScan",
+          "string origin\nstring robot\nuint64 sequence_number\nqwsm_msgs/Pose2D before\n"
+          "qwsm_msgs/Pose2D pose\nfloat64[9] covariance\n"},
+    Entry{"qwsm_msgs/MovedRobot", "string robot\nqwsm_msgs/Pose2D correction\n"},
+    Entry{"qwsm_msgs/MapEpoch",
+          "std_msgs/Header header\nstring origin\nstring map_of\nuint64 number\n"
+          "qwsm_msgs/MovedRobot[] robots\nqwsm_msgs/MovedScan[] scans\n"},
     Entry{"qwsm_msgs/Mark",
           "std_msgs/Header header\nstring id\nstring kind\nstring text\nstring author\n"
           "float64 x\nfloat64 y\nbool removed\n"},

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/dds/wire/epoch_conversion.hpp"
+
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <span>
+
+#include "qwsm/geometry/position.hpp"
+#include "service/dds/wire/planar.hpp"
+#include "service/dds/wire/robot_names.hpp"
+
+namespace qwsm::dds {
+namespace {
+
+bool IsTooLong(const char* name) { return strnlen(name, kMaxNameLength + 1) > kMaxNameLength; }
+
+std::span<const wire::MovedScan> ScansOf(const wire::MapEpoch& sample) {
+  return {sample.scans._buffer, sample.scans._length};
+}
+
+// As the last scan of each robot is moved.
+std::vector<wire::MovedRobot> RobotsOf(const team::TeamEpoch& epoch) {
+  std::map<std::string_view, const team::MovedScan*> last;
+  for (const team::MovedScan& scan : epoch.scans) last[scan.key.robot] = &scan;
+  std::vector<wire::MovedRobot> robots;
+  for (const auto& [name, scan] : last) {
+    wire::MovedRobot& robot = robots.emplace_back();
+    robot.robot = Borrow(scan->key.robot);
+    robot.correction = ToWire2D(scan->map_robot.T_a_b * scan->T_map_robot_before.Inverse());
+  }
+  return robots;
+}
+
+}  // namespace
+
+EpochSample::EpochSample(const team::TeamEpoch& epoch, const std::string& map_frame)
+    : robots_(RobotsOf(epoch)) {
+  for (const team::MovedScan& moved : epoch.scans) {
+    wire::MovedScan& scan = scans_.emplace_back();
+    scan.origin = Borrow(moved.key.service);
+    scan.robot = Borrow(moved.key.robot);
+    scan.sequence_number = moved.key.sequence;
+    scan.before = ToWire2D(moved.T_map_robot_before);
+    scan.pose = ToWire2D(moved.map_robot.T_a_b);
+    CopyCovariance(moved.map_robot.covariance, scan.covariance);
+  }
+  sample_.header = HeaderOf(epoch.stamp, map_frame);
+  sample_.origin = Borrow(epoch.rank.service);
+  sample_.map_of = Borrow(epoch.robot);
+  sample_.number = epoch.rank.number;
+  const auto robots = static_cast<std::uint32_t>(robots_.size());
+  const auto scans = static_cast<std::uint32_t>(scans_.size());
+  sample_.robots = {
+      ._maximum = robots, ._length = robots, ._buffer = robots_.data(), ._release = false};
+  sample_.scans = {
+      ._maximum = scans, ._length = scans, ._buffer = scans_.data(), ._release = false};
+}
+
+std::string_view ObjectionTo(const wire::MapEpoch& sample) {
+  if (const std::string_view objection = ObjectionTo(sample.header); !objection.empty()) {
+    return objection;
+  }
+  if (*sample.origin == '\0' || IsTooLong(sample.origin)) return "it names no service";
+  for (const wire::MovedScan& scan : ScansOf(sample)) {
+    if (IsTooLong(scan.origin) || IsTooLong(scan.robot)) {
+      return "a name in it is too long";
+    }
+    const UncertainPose2 pose{.T_a_b = FromWire(scan.pose),
+                              .covariance = CovarianceOf(scan.covariance)};
+    if (!IsPosition(FromWire(scan.before))) return "a pose in it is no position";
+    if (const std::string_view objection = ObjectionTo(pose); !objection.empty()) return objection;
+  }
+  return {};
+}
+
+team::TeamEpoch FromWire(const wire::MapEpoch& sample) {
+  team::TeamEpoch epoch{.rank = {.number = sample.number, .service = sample.origin},
+                        .robot = sample.map_of,
+                        .stamp = *FromWire(sample.header.stamp),
+                        .scans = {}};
+  for (const wire::MovedScan& scan : ScansOf(sample)) {
+    epoch.scans.push_back(
+        {.key = {.service = scan.origin, .robot = scan.robot, .sequence = scan.sequence_number},
+         .T_map_robot_before = FromWire(scan.before),
+         .map_robot = {.T_a_b = FromWire(scan.pose), .covariance = CovarianceOf(scan.covariance)}});
+  }
+  return epoch;
+}
+
+}  // namespace qwsm::dds

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/team/journal/journaled_map.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "service/io/journal/epoch_codec.hpp"
+#include "service/io/journal/scan_codec.hpp"
+
+namespace qwsm::team {
+namespace {
+
+TeamScan ScanFromJournal(const io::JournalEntry& entry) {
+  io::JournaledScan scan = io::DecodeScan(entry.contents);
+  return {.key = {.service = entry.service, .robot = entry.robot, .sequence = entry.sequence},
+          .scan = std::move(scan.relevant.scan),
+          .map_robot = scan.relevant.map_robot,
+          .T_odom_robot = scan.T_odom_robot};
+}
+
+}  // namespace
+
+io::JournalEntry ToJournal(const TeamScan& scan) {
+  return {.service = scan.key.service,
+          .robot = scan.key.robot,
+          .sequence = scan.key.sequence,
+          .stamp = scan.scan.stamp,
+          .contents = io::EncodeScan({.relevant = {.scan = scan.scan, .map_robot = scan.map_robot},
+                                      .T_odom_robot = scan.T_odom_robot})};
+}
+
+io::JournalEntry ToJournal(const TeamEpoch& epoch) {
+  std::vector<io::JournaledPose> poses;
+  poses.reserve(epoch.scans.size());
+  for (const MovedScan& scan : epoch.scans) {
+    poses.push_back({.service = scan.key.service,
+                     .robot = scan.key.robot,
+                     .sequence = scan.key.sequence,
+                     .map_robot = scan.map_robot});
+  }
+  return {.service = epoch.rank.service,
+          .robot = epoch.robot,
+          .sequence = epoch.rank.number,
+          .stamp = epoch.stamp,
+          .contents = io::EncodeEpoch(poses)};
+}
+
+void JournaledMap::Take(const io::JournalEntry& entry) {
+  if (!io::IsEpoch(entry.contents)) {
+    TeamScan scan = ScanFromJournal(entry);
+    if (index_.try_emplace(scan.key, scans_.size()).second) scans_.push_back(std::move(scan));
+    return;
+  }
+  for (io::JournaledPose& pose : io::DecodeEpoch(entry.contents)) {
+    const auto known = index_.find({.service = std::move(pose.service),
+                                    .robot = std::move(pose.robot),
+                                    .sequence = pose.sequence});
+    if (known != index_.end()) scans_[known->second].map_robot = pose.map_robot;
+  }
+  last_epoch_ = std::max(last_epoch_, entry.sequence);
+}
+
+}  // namespace qwsm::team

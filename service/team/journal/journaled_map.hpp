@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "service/io/journal/journal_entry.hpp"
+#include "service/team/scans/team_epoch.hpp"
+#include "service/team/scans/team_scan.hpp"
+
+namespace qwsm::team {
+
+io::JournalEntry ToJournal(const TeamScan& scan);
+io::JournalEntry ToJournal(const TeamEpoch& epoch);
+
+/// The relevant scans of a journal, where the last correction of the map has put them.
+class JournaledMap {
+ public:
+  /// Takes the next entry. @throws io::BinaryError where it holds nothing that can be read.
+  void Take(const io::JournalEntry& entry);
+
+  /// The scans that were taken, in their order, each once. To be called once.
+  std::vector<TeamScan> TakeScans() { return std::move(scans_); }
+  /// Number of the last correction; 0 if there was none.
+  std::uint64_t last_epoch() const { return last_epoch_; }
+
+ private:
+  std::vector<TeamScan> scans_;
+  std::unordered_map<ScanKey, std::size_t, ScanKeyHash> index_;
+  std::uint64_t last_epoch_ = 0;
+};
+
+}  // namespace qwsm::team

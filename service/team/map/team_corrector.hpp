@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "qwsm/correction/background_corrector.hpp"
+#include "qwsm/mapping/mapper_options.hpp"
+#include "service/team/scans/team_scan.hpp"
+
+namespace qwsm::team {
+
+/// Corrects a map that many robots make: each robot's scans are a chain of their own, and loops are
+/// looked for among the scans of all of them.
+class TeamCorrector {
+ public:
+  explicit TeamCorrector(const MapperOptions& options);
+
+  /// Takes a scan that was added to the map, without looking for loops.
+  void Take(const TeamScan& scan);
+  /// Looks for loops if it is time to. @return the map to go on in, if it was drawn wrong: all
+  /// scans that were taken, in their order.
+  std::optional<CorrectedMap> LookIfDue();
+  /// Takes over the poses that another service found. @param map_node of all scans that were taken.
+  /// @return the map to go on in.
+  CorrectedMap Adopt(std::vector<UncertainPose2> map_node);
+
+ private:
+  // The last scan of a robot.
+  struct Last {
+    std::size_t robot = 0;  // As a number.
+    std::size_t node = 0;
+    UncertainPose2 map_robot;
+    std::optional<Pose2> T_odom_robot;
+  };
+
+  void Follow(const CorrectedMap& corrected);
+  ScanMotion MotionSince(const Last& last, const TeamScan& scan) const;
+
+  MotionNoise noise_;
+  BackgroundCorrector corrector_;
+  std::map<std::string, Last> last_;  // By robot.
+  std::size_t nodes_ = 0;
+};
+
+}  // namespace qwsm::team

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <sys/resource.h>
+
+namespace qwsm::team {
+
+/// Lets the calling thread give way to all that answer scans. Linux gives every thread a priority
+/// of its own; that of id 0 is the caller's.
+inline void YieldToOthers() {
+  constexpr int kNice = 10;
+  setpriority(PRIO_PROCESS, 0, kNice);
+}
+
+}  // namespace qwsm::team
