@@ -97,7 +97,7 @@ Origin OpenOrigin(const MapArguments& arguments, const options::LogOptions& log)
 
 constexpr const char* kAnswers = "answers.mcap";
 
-/// Whether path and map are corrected in the end; else mapping is incremental, as in Visser et al.
+/// Whether path and map are corrected; else mapping is incremental, as in Visser et al.
 /// (2009).
 bool Corrects(const options::ProgramOptions& options) {
   return options.graph.enabled && options.mapper.matcher == MatcherKind::kQWsm;
@@ -192,7 +192,7 @@ Command AddMapCommand(CLI::App& program) {
       "  qwsm map intel.log --matcher wsm                 the incremental baseline\n"
       "  qwsm map intel.log --save-map intel.qwsm         to localize in later\n"
       "  qwsm map later.log --continue intel.qwsm --save-map both.qwsm\n"
-      "  qwsm map intel.log --set graph.enabled=false     nothing is corrected in the end\n"
+      "  qwsm map intel.log --set graph.enabled=false     nothing is corrected\n"
       "  qwsm map robot.log --set mapper.motion.rotation_per_rotation=0.5\n"
       "  qwsm map drive.bag                               ROS 1; rosbag2: a folder, .mcap, .db3\n"
       "  qwsm map team --robot robot1 --scan robot1/scan  of a bag with more in it\n"

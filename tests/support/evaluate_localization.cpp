@@ -23,11 +23,10 @@
 #include <variant>
 #include <vector>
 
-#include "qwsm/correction/map_corrector.hpp"
+#include "qwsm/correction/self_correcting_mapper.hpp"
 #include "qwsm/logs/log_reader.hpp"
 #include "qwsm/mapping/grid_survey.hpp"
 #include "qwsm/mapping/localizer.hpp"
-#include "qwsm/mapping/mapper.hpp"
 #include "qwsm/mapping/occupancy_grid.hpp"
 
 namespace {
@@ -53,8 +52,7 @@ struct Recording {
 
 Recording Read(const std::string& path) {
   Recording recording;
-  Mapper mapper;
-  MapCorrector corrector;
+  SelfCorrectingMapper mapper;
   std::vector<std::pair<std::size_t, LaserScan>> relevant;
   const auto log = io::OpenLog(path);
   while (const auto record = log->Next()) {
@@ -63,12 +61,11 @@ Recording Read(const std::string& path) {
     recording.observations.push_back(
         {.scan = reading->scan, .T_odom_robot = reading->T_odom_robot});
     const MappingStep step = mapper.Process(recording.observations.back());
-    corrector.Take(step);
     if (step.relevant) {
       relevant.emplace_back(recording.observations.size() - 1, step.relevant_scan);
     }
   }
-  const Correction correction = corrector.Correct();
+  const Correction correction = mapper.Correct();
   for (const UncertainPose2& map_robot : correction.map_robot) {
     recording.T_map_robot.push_back(map_robot.T_a_b);
   }
