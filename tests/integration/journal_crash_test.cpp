@@ -139,14 +139,14 @@ TEST(JournalCrash, MapIsTheSameBitForBitAfterARestart) {
     service.Start();
     Give(service, 0, kScansOfALap);
     service.WaitUntilIdle();
-    before = io::EncodeMap(*service.MapOf("robot1")->Read());
+    before = io::EncodeMap(service.MapOf("robot1")->Read()->map);
     const std::vector<MappingStep> reports = sink.reports("robot1");  // In order, though they wait.
     EXPECT_EQ(reports.size(), static_cast<std::size_t>(kScansOfALap));
     EXPECT_TRUE(std::ranges::is_sorted(reports, {}, &MappingStep::stamp));
   }
   test::RecordingSink sink;
   TeamService service(LosslessOptions(), sink, file);
-  EXPECT_EQ(io::EncodeMap(*service.MapOf("robot1")->Read()), before);
+  EXPECT_EQ(io::EncodeMap(service.MapOf("robot1")->Read()->map), before);
   service.Start();  // What it has is offered to the other services again.
   EXPECT_EQ(sink.relevant().size(), service.Status().map.scans);
 }
