@@ -13,11 +13,10 @@
 namespace qwsm::team {
 namespace {
 
-// On a thread that gives way to those who answer scans.
-std::function<void()> BeginInBackground(std::function<void()> work) {
-  auto done =
-      std::make_shared<std::future<void>>(std::async(std::launch::async, [work = std::move(work)] {
-        YieldToOthers();
+std::function<void()> BeginOnAnotherThread(std::function<void()> work, bool yields) {
+  auto done = std::make_shared<std::future<void>>(
+      std::async(std::launch::async, [work = std::move(work), yields] {
+        if (yields) YieldToOthers();
         work();
       }));
   return [done] { done->get(); };
@@ -26,7 +25,10 @@ std::function<void()> BeginInBackground(std::function<void()> work) {
 }  // namespace
 
 TeamCorrector::TeamCorrector(const MapperOptions& options)
-    : noise_(options.motion), corrector_(options, BeginInBackground) {}
+    : noise_(options.motion), corrector_(options, [this](std::function<void()> look) {
+        // Of one robot a look that is late is waited for, and must not wait for anybody itself.
+        return BeginOnAnotherThread(std::move(look), last_.size() > 1);
+      }) {}
 
 void TeamCorrector::Take(const TeamScan& scan) {
   ScanNode node{.scan = scan.scan,
