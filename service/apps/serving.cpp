@@ -77,7 +77,13 @@ void Summarize(const team::TeamStatus& status) {
         milliseconds(robot.latency.median),
         milliseconds(robot.latency.p99));
   }
-  Print("map            {} points of {} relevant scans\n", status.map.points, status.map.scans);
+  const std::size_t corrections = status.map.corrections;
+  Print("map            {} points of {} relevant scans{}\n",
+        status.map.points,
+        status.map.scans,
+        corrections == 0   ? std::string()
+        : corrections == 1 ? std::string(", corrected once")
+                           : fmt::format(", corrected {} times", corrections));
 }
 
 }  // namespace qwsm::apps

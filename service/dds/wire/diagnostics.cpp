@@ -59,6 +59,7 @@ Health HealthOf(const team::TeamStatus& status) {
   Add(health, "robots", status.robots.size());
   Add(health, "map_scans", status.map.scans);
   Add(health, "map_points", status.map.points);
+  Add(health, "map_corrections", status.map.corrections);
   Add(health, "taken_in", status.map.taken_in);
   Add(health, "taken_in_duplicates", status.map.duplicates);
   Add(health, "taken_in_refused", status.map.refused);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/team/service/team_service.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -193,6 +195,7 @@ EpochRank TeamService::Next(const EpochRank& last) const {
 void TeamService::TakeEffect(const std::string& robot, TeamMap& map, CorrectedMap corrected) {
   const auto epoch = std::make_shared<const TeamEpoch>(EpochOf(robot, map, corrected));
   map.Correct(std::move(corrected.map));
+  TellAsEvent(*epoch);
   std::map<ScanKey, const UncertainPose2*> poses;
   for (const MovedScan& scan : epoch->scans) poses[scan.key] = &scan.map_robot;
   for (TeamScan& scan : of_others_) {
@@ -220,6 +223,20 @@ TeamEpoch TeamService::EpochOf(const std::string& robot,
   return epoch;
 }
 
+void TeamService::TellAsEvent(const TeamEpoch& epoch) const {
+  double farthest_m = 0.0;
+  for (const MovedScan& scan : epoch.scans) {
+    const Eigen::Vector2d moved_m =
+        scan.map_robot.T_a_b.translation_m() - scan.T_map_robot_before.translation_m();
+    farthest_m = std::max(farthest_m, moved_m.norm());
+  }
+  const std::string text =
+      fmt::format("the map was corrected{}: its scans move by up to {:.2f} m",
+                  epoch.rank.service == identity() ? "" : " by " + epoch.rank.service,
+                  farthest_m);
+  sinks_.Tell(&TeamSink::TakeEvent, {.robot = std::nullopt, .is_warning = false, .text = text});
+}
+
 TeamCorrector& TeamService::CorrectorOf(const TeamMap& map) {
   return correctors_.try_emplace(&map, options_.mapper).first->second;
 }
@@ -239,6 +256,7 @@ MapStatus TeamService::StatusOfMaps() const {
     const TeamMap::State::View contents = named.map->Read();
     status.scans += contents->map.scans().size();
     status.points += contents->map.surfaces().quadtree().size();
+    status.corrections += contents->epoch;
   }
   return status;
 }

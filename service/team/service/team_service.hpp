@@ -96,6 +96,7 @@ class TeamService {
                                std::span<const ScanPoint> points,
                                const std::function<void(const MapAddition&)>& settled);
   void Keep(io::JournalEntry entry, std::function<void()> settled);
+  void TellAsEvent(const TeamEpoch& epoch) const;
   TeamCorrector& CorrectorOf(const TeamMap& map);
   void CorrectIfDue(const std::string& robot, TeamMap& map);
   EpochRank Next(const EpochRank& last) const;

@@ -72,6 +72,7 @@ struct RobotStatus {
 struct MapStatus {
   std::size_t scans = 0;
   std::size_t points = 0;
+  std::size_t corrections = 0;   ///< How often it was corrected since the start.
   std::uint64_t taken_in = 0;    ///< Scans of other services that were new to the map.
   std::uint64_t duplicates = 0;  ///< Scans of other services that were known already.
   std::uint64_t refused = 0;     ///< Scans of other services that were malformed.
