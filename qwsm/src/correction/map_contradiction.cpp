@@ -12,7 +12,9 @@ namespace {
 constexpr std::size_t kStep = 4;  // Of so many scans one is asked.
 constexpr double kNear_m = 15.0;  // Scans so near to each other look at the same surfaces.
 constexpr double kPointSpacing_m = 0.3;
-constexpr double kMaxSigmas = 3.0;
+// Of counts that have nothing to do with each other: the same scans are asked before and after, and
+// chance makes less of a difference.
+constexpr double kMaxSigmas = 1.0;
 // It is asked again and again while a robot drives: chance has many tries.
 constexpr double kMinSigmas = 5.0;
 
