@@ -39,10 +39,11 @@ std::vector<PlacedScan> Placed(std::span<const ScanNode> nodes,
   return placed;
 }
 
-// Both counts scatter as those of rare events do.
+// Both counts scatter as those of rare events do; one of none might have been one.
 double SigmaOfDifference(const Contradiction& a, const Contradiction& b) {
   const auto variance_of_share = [](const Contradiction& c) {
-    return c.share() / static_cast<double>(std::max<std::size_t>(1, c.looked_at));
+    const double looked_at = std::max(1.0, static_cast<double>(c.looked_at));
+    return (static_cast<double>(c.seen_through) + 1.0) / (looked_at * looked_at);
   };
   return std::sqrt(variance_of_share(a) + variance_of_share(b));
 }
