@@ -12,9 +12,9 @@
 #include "service/apps/network.hpp"
 #include "service/apps/output.hpp"
 #include "service/dds/robot/robot_feed.hpp"
-#include "service/io/bags/writing/log_bag_writer.hpp"
 #include "service/io/files/atomic_file.hpp"
 #include "service/io/logs/carmen_writer.hpp"
+#include "service/pipeline/network/bag_recorder.hpp"
 #include "service/pipeline/network/scan_recorder.hpp"
 #include "service/pipeline/run/interruption.hpp"
 #include "service/pipeline/text/messages.hpp"
@@ -25,58 +25,70 @@ namespace {
 using namespace std::chrono_literals;
 
 struct RecordArguments {
-  std::filesystem::path log;
+  std::filesystem::path recording;
   std::string robot;
   std::optional<std::size_t> count;
   NetworkArguments network;
 };
 
-/// Where the records go: a bag, or for these endings a CARMEN log.
-class Recording {
- public:
-  explicit Recording(const std::filesystem::path& path) {
-    const std::filesystem::path ending = path.extension();
-    if (ending == ".log" || ending == ".clf") {
-      text_ = std::make_unique<io::AtomicFile>(path);
-      carmen_ = std::make_unique<io::CarmenWriter>(text_->stream());
-    } else {
-      bag_ =
-          std::make_unique<io::BagFile>(path, io::BagFormatOf(path).value_or(io::BagFormat::kMcap));
-      messages_ = std::make_unique<io::LogBagWriter>(*bag_);
-    }
-  }
+/// Whether a name asks for a CARMEN log; others are those of bags.
+bool IsLog(const std::filesystem::path& path) {
+  const std::filesystem::path ending = path.extension();
+  return ending == ".log" || ending == ".clf";
+}
 
-  void Write(const io::LogRecord& record) {
-    bag_ ? messages_->Write(record) : carmen_->Write(record);
-  }
-  void ThrowIfFailed() const { bag_ ? bag_->ThrowIfFailed() : text_->ThrowIfFailed(); }
-  void Commit() { bag_ ? bag_->Commit() : text_->Commit(); }
+bool IsEnough(const RecordArguments& arguments, std::size_t scans) {
+  return arguments.count && scans >= *arguments.count;
+}
 
- private:
-  std::unique_ptr<io::AtomicFile> text_;
-  std::unique_ptr<io::CarmenWriter> carmen_;
-  std::unique_ptr<io::BagFile> bag_;
-  std::unique_ptr<io::LogBagWriter> messages_;
-};
-
-ExitCode RunRecord(const RecordArguments& arguments) {
-  const NetworkSession session(arguments.network);
-  Recording file(arguments.log);
-  pipeline::ScanRecorder recorder([&file](const io::LogRecord& record) { file.Write(record); });
-  dds::Refusals refusals([](const std::string& text) { messages::Warn(text); });
-  const dds::Participant participant(session.options().network);
-  dds::RobotFeed feed(participant, dds::RobotNames(arguments.robot), refusals);
+/// Everything that is said, as it is said.
+std::string RecordBag(const RecordArguments& arguments, const dds::Participant& participant) {
+  io::BagFile bag(arguments.recording,
+                  io::BagFormatOf(arguments.recording).value_or(io::BagFormat::kMcap));
+  pipeline::BagRecorder recorder(participant,
+                                 arguments.robot,
+                                 bag,
+                                 {.info = [](const std::string& text) { messages::Info(text); },
+                                  .warn = [](const std::string& text) { messages::Warn(text); }});
   const pipeline::Interruption interruption;
-  messages::Info("recording {}", dds::RobotNames(arguments.robot).Topic(dds::kScanTopic));
-  while (!interruption.requested() && !(arguments.count && recorder.scans() >= *arguments.count)) {
+  messages::Info("recording");
+  while (!interruption.requested() && !IsEnough(arguments, recorder.scans())) {
+    recorder.Record(100ms);
+  }
+  bag.Commit();
+  return fmt::format("{} messages of {} topics, {} of them scans",
+                     recorder.messages(),
+                     recorder.topics(),
+                     recorder.scans());
+}
+
+/// The scans of one robot, each with its odometry.
+std::string RecordLog(const RecordArguments& arguments, const dds::Participant& participant) {
+  io::AtomicFile file(arguments.recording);
+  io::CarmenWriter log(file.stream());
+  pipeline::ScanRecorder recorder([&log](const io::LogRecord& record) { log.Write(record); });
+  dds::Refusals refusals([](const std::string& text) { messages::Warn(text); });
+  const dds::RobotNames names(arguments.robot);
+  dds::RobotFeed feed(participant, names, refusals);
+  const pipeline::Interruption interruption;
+  messages::Info("recording {}", names.Topic(dds::kScanTopic));
+  while (!interruption.requested() && !IsEnough(arguments, recorder.scans())) {
     feed.Deliver(100ms, recorder);
     recorder.WriteReady();
     file.ThrowIfFailed();
   }
   recorder.Finish();
   file.Commit();
+  return fmt::format("{} scans", recorder.scans());
+}
+
+ExitCode RunRecord(const RecordArguments& arguments) {
+  const NetworkSession session(arguments.network);
+  const dds::Participant participant(session.options().network);
+  const std::string recorded = IsLog(arguments.recording) ? RecordLog(arguments, participant)
+                                                          : RecordBag(arguments, participant);
   if (!arguments.network.verbosity.quiet) {
-    Print("recorded       {} scans in {}\n", recorder.scans(), arguments.log.string());
+    Print("recorded       {} in {}\n", recorded, arguments.recording.string());
   }
   return ExitCode::kDone;
 }
@@ -84,21 +96,23 @@ ExitCode RunRecord(const RecordArguments& arguments) {
 }  // namespace
 
 Command AddRecordCommand(CLI::App& program) {
-  CLI::App* parser = AddParser(program, "record", "what a robot on the network says, as a log");
+  CLI::App* parser = AddParser(program, "record", "what is said on the network, as a bag or a log");
   auto arguments = std::make_shared<RecordArguments>();
   parser->footer(
-      "  qwsm record drive                         /scan and /odom, until Ctrl-C: a rosbag2 "
-      "folder\n"
-      "  qwsm record drive.mcap                    the same as one file; or .db3\n"
-      "  qwsm record drive.log                     as CARMEN has it\n"
-      "  qwsm record drive.log --robot robot1      /robot1/scan and /robot1/odom");
+      "  qwsm record drive                     all topics, until Ctrl-C: a folder of rosbag2\n"
+      "  qwsm record drive.mcap                the same as one file; or .db3\n"
+      "  qwsm record drive --robot robot1      /robot1/..., /tf and /tf_static\n"
+      "  qwsm record drive.log                 scans of /scan with their odometry, for CARMEN");
   parser
-      ->add_option("LOG",
-                   arguments->log,
+      ->add_option("RECORDING",
+                   arguments->recording,
                    "where to: a folder, .mcap or .db3, for ROS 2; .log or .clf, CARMEN's format")
       ->required()
       ->type_name("");
-  parser->add_option("--robot", arguments->robot, "namespace of the robot; else none")
+  parser
+      ->add_option("--robot",
+                   arguments->robot,
+                   "only what this robot says; of a log, else that without a namespace")
       ->type_name("NAME");
   parser->add_option("--count", arguments->count, "stop after so many scans")->type_name("N");
   AddNetworkArguments(*parser, arguments->network, {});

@@ -16,6 +16,9 @@ struct Terms {
 // History of shared scans: three days of a robot that makes one relevant scan each second.
 constexpr int kAllSharedScans = 262'144;
 
+// More than any writer says while the disk is busy for a moment.
+constexpr int kManySamples = 4096;
+
 constexpr Terms TermsOf(Profile profile) {
   switch (profile) {
     case Profile::kSensorIn:
@@ -34,8 +37,13 @@ constexpr Terms TermsOf(Profile profile) {
       return {.reliable = true, .latched = false, .depth = 100};
     case Profile::kStaticTransforms:
       return {.reliable = true, .latched = true, .depth = 100};
+    case Profile::kRecorded:
+      return {.reliable = false, .latched = false, .depth = kManySamples};
+    case Profile::kRecordedWhole:
+      return {.reliable = true, .latched = false, .depth = kManySamples};
     case Profile::kMarks:
       return {.reliable = true, .latched = true, .depth = 1024};
+    case Profile::kRecordedLatched:
     case Profile::kSharedScans:
     case Profile::kSharedScansIn:
     case Profile::kSharedScansOfOthers:

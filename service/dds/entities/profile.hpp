@@ -21,6 +21,9 @@ enum class Profile {
   kTransforms,     ///< Writes /tf.
   kStaticTransforms,  ///< Reads /tf_static: what everybody has said, also before the reader came.
   kStaticTransformsOut,
+  kRecorded,         ///< Reads whatever is published, to be kept: nothing is to be overwritten.
+  kRecordedWhole,    ///< The same of writers that repeat what is lost.
+  kRecordedLatched,  ///< The same with what was published before.
   kMarks,  ///< Reads and writes marks on the map: all there ever were, for who comes later.
   /// Writes relevant scans: all there ever were, for services that come later.
   kSharedScans,

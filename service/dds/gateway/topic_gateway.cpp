@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
-#include <string_view>
 
 #include "service/dds/wire/robot_names.hpp"
 
@@ -17,13 +16,6 @@ namespace {
 // What is not ours could be without bound: who publishes more topics is no team but an attack.
 constexpr std::size_t kMostTopics = 2048;
 constexpr int kNicenessOfGateway = 5;
-
-/// The ROS name of a DDS topic; nothing for topics that are none of ROS.
-std::optional<std::string> RosTopicOf(std::string_view dds_topic) {
-  constexpr std::string_view kRosPrefix = "rt/";
-  if (!dds_topic.starts_with(kRosPrefix)) return std::nullopt;
-  return std::string(dds_topic.substr(kRosPrefix.size() - 1));
-}
 
 }  // namespace
 

@@ -15,20 +15,12 @@
 #include "service/dds/entities/wait_set.hpp"
 #include "service/dds/gateway/mark.hpp"
 #include "service/dds/gateway/pose_teller.hpp"
+#include "service/dds/gateway/published_topic.hpp"
 #include "service/dds/gateway/raw_reader.hpp"
 #include "service/dds/gateway/topic_type.hpp"
 #include "service/dds/service/ros_graph.hpp"
 
 namespace qwsm::dds {
-
-/// A topic that somebody in the domain publishes.
-struct PublishedTopic {
-  std::string name;         ///< As ROS has it, such as `/robot1/scan`.
-  std::string type;         ///< As ROS has it, such as `sensor_msgs/msg/LaserScan`.
-  bool is_latched = false;  ///< Late readers get what was published before.
-
-  bool operator==(const PublishedTopic&) const = default;
-};
 
 /// Samples of one topic, in order.
 struct TopicSamples {
