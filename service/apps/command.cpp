@@ -44,29 +44,27 @@ void AddVerbosity(CLI::App& parser, Verbosity& verbosity, const std::string& jso
       ->group("Messages");
 }
 
-namespace {
-
-void AddSetting(CLI::App& parser,
-                config::OptionSources& sources,
-                const std::string& flag,
-                const std::string& key,
-                const std::string& help) {
+void AddBagSetting(CLI::App& parser,
+                   config::OptionSources& sources,
+                   const std::string& flag,
+                   const std::string& key,
+                   const std::string& help) {
   const auto set = [&sources, key](const std::string& value) {
     sources.settings.push_back(key + "=" + value);
   };
   parser.add_option_function<std::string>(flag, set, help)->type_name("NAME")->group("Bags");
 }
 
-}  // namespace
-
 void AddTopics(CLI::App& parser, config::OptionSources& sources) {
-  AddSetting(
+  AddBagSetting(
       parser, sources, "--scan", "log.scan", "topics of scans, with commas; else one laser's");
-  AddSetting(parser, sources, "--odom", "log.odometry", "topic of odometry, or /tf; else chosen");
+  AddBagSetting(
+      parser, sources, "--odom", "log.odometry", "topic of odometry, or /tf; else chosen");
 }
 
 void AddRobot(CLI::App& parser, config::OptionSources& sources) {
-  AddSetting(parser, sources, "--robot", "log.robot", "of several robots, that of this namespace");
+  AddBagSetting(
+      parser, sources, "--robot", "log.robot", "of several robots, that of this namespace");
 }
 
 void AddNoPictures(CLI::App& parser, bool& no_pictures) {

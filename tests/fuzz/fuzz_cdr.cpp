@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "service/io/bags/messages/message_reader.hpp"
+#include "service/io/bags/messages/point_cloud_message.hpp"
 #include "service/io/bags/messages/ros_messages.hpp"
 #include "tests/fuzz/expect.hpp"
 
@@ -41,5 +42,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       IsMessage([&] { Expect(std::isfinite(DecodeOdometry(bytes, encoding).T_frame_child.x_m)); });
   Expect(has_header || !(is_scan || is_odometry));
   IsMessage([&] { DecodeTransforms(bytes, encoding); });
+  IsMessage([&] { DecodePointCloud(bytes, encoding); });
   return 0;
 }

@@ -4,10 +4,13 @@
 // What robots say on the network is recorded, by a process on loopback.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "service/dds/entities/writer.hpp"
 #include "service/io/bags/containers/bag_files.hpp"
@@ -90,6 +93,29 @@ TEST_F(DdsRecord, LeavesOutOtherRobots) {
                                        "/tf",
                                        "/tf_static"};
   EXPECT_EQ(topics, expected);
+}
+
+TEST_F(DdsRecord, OfCloudsIsRegisteredAsTheScansThatWereReplayed) {
+  const std::string walk = Path("walk");
+  const auto slam6d = [](std::vector<std::string> arguments) {
+    return Program(std::move(arguments), Redirection{.output = {}, .program = "slam6d"}).Wait();
+  };
+  ASSERT_EQ(slam6d({"sim", "corridor", "--scans", "4", "--output", walk}).exit_code, 0);
+  Daemon recorder(network_.Join({"record", Path("walk.mcap"), "--verbose"}));
+  ASSERT_TRUE(recorder.WaitUntilItSays("recording"));
+  ASSERT_EQ(slam6d(network_.Join({"replay", walk, "--period", "0.1"})).exit_code, 0);
+  EXPECT_EQ(recorder.End(SIGINT).exit_code, 0);
+
+  const auto poses_of = [&](const std::string& scans) {
+    const std::string results = scans + ".results";
+    const Outcome registered =
+        slam6d({"register", scans, "--output", results, "--no-pictures", "--quiet"});
+    EXPECT_EQ(registered.exit_code, 0) << registered.errors;
+    return ReadFile(std::filesystem::path(results) / "trajectory.kitti");
+  };
+  const std::string expected = poses_of(walk);
+  ASSERT_EQ(std::ranges::count(expected, '\n'), 4);
+  EXPECT_TRUE(poses_of(Path("walk.mcap")) == expected);
 }
 
 TEST_F(DdsRecord, TellsWhatItCannotRecord) {

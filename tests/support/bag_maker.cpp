@@ -5,7 +5,9 @@
 #include <bzlib.h>
 #include <lz4frame.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -55,6 +57,9 @@ class Fields {
   void Add(Number value) {
     ros_ == Ros::k1 ? ros1_.Add(value) : cdr_.Add(value);
   }
+  void AddBytes(std::string_view bytes) {
+    ros_ == Ros::k1 ? ros1_.AddBytes(bytes) : cdr_.AddBytes(bytes);
+  }
   void AddHeader(Timestamp stamp, const std::string& frame) {
     const auto seconds = std::chrono::floor<std::chrono::seconds>(stamp);
     if (ros_ == Ros::k1) Add(std::uint32_t{7});  // Sequence number.
@@ -77,6 +82,27 @@ class Fields {
 
 std::string TypeIn(Ros ros, const std::string& package, const std::string& name) {
   return package + (ros == Ros::k1 ? "/" : "/msg/") + name;
+}
+
+std::string NumberBytes(double value, const CloudForm& form) {
+  std::string bytes(form.is_double ? sizeof(double) : sizeof(float), '\0');
+  const auto single = static_cast<float>(value);
+  std::memcpy(
+      bytes.data(), form.is_double ? static_cast<const void*>(&value) : &single, bytes.size());
+  if (form.is_big_endian) std::ranges::reverse(bytes);
+  return bytes;
+}
+
+/// The data of a cloud, row after row.
+std::string CloudData(std::span<const std::array<double, 3>> points_m, const CloudForm& form) {
+  std::string data;
+  const std::size_t columns = points_m.size() / form.rows;
+  for (std::size_t i = 0; i < points_m.size(); ++i) {
+    for (const double value_m : points_m[i]) data += NumberBytes(value_m, form);
+    data += NumberBytes(0.5, form);  // Intensity.
+    if (form.rows > 1 && (i + 1) % columns == 0) data += "row";
+  }
+  return data;
 }
 
 using HeaderFields = std::vector<std::pair<std::string_view, std::string>>;
@@ -184,6 +210,36 @@ MadeMessage TransformMessageOf(Ros ros,
   fields.Add(std::string_view(child));
   fields.AddTransform(transform);
   return {topic, TypeIn(ros, "tf2_msgs", "TFMessage"), fields.bytes()};
+}
+
+MadeMessage CloudMessage(Ros ros,
+                         const std::string& topic,
+                         Timestamp stamp,
+                         const std::string& frame,
+                         std::span<const std::array<double, 3>> points_m,
+                         const CloudForm& form) {
+  const std::uint32_t number_bytes = form.is_double ? sizeof(double) : sizeof(float);
+  const std::string data = CloudData(points_m, form);
+  Fields fields(ros);
+  fields.AddHeader(stamp, frame);
+  fields.Add(form.rows);
+  fields.Add(static_cast<std::uint32_t>(points_m.size() / form.rows));
+  fields.Add(std::uint32_t{4});
+  std::uint32_t offset = 0;
+  for (const std::string_view name : {"x"sv, "y"sv, "z"sv, "intensity"sv}) {
+    fields.Add(name);
+    fields.Add(offset);
+    fields.Add(static_cast<std::uint8_t>(form.is_double ? 8 : 7));
+    fields.Add(std::uint32_t{1});
+    offset += number_bytes;
+  }
+  fields.Add(static_cast<std::uint8_t>(form.is_big_endian ? 1 : 0));
+  fields.Add(offset);
+  fields.Add(static_cast<std::uint32_t>(data.size()) / form.rows);
+  fields.Add(static_cast<std::uint32_t>(data.size()));
+  fields.AddBytes(data);
+  fields.Add(std::uint8_t{0});
+  return {topic, TypeIn(ros, "sensor_msgs", "PointCloud2"), fields.bytes()};
 }
 
 std::string Ros1BagOf(std::span<const MadeMessage> messages,

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -41,6 +43,21 @@ MadeMessage TransformMessageOf(Ros ros,
                                const std::string& frame,
                                const std::string& child,
                                const io::Transform3& transform);
+
+/// How a cloud is laid out: as drivers do it, an intensity stands behind each point.
+struct CloudForm {
+  bool is_double = false;      ///< Coordinates of 64 bits instead of 32.
+  bool is_big_endian = false;  ///< Of the data; the message around it stays as it is.
+  std::uint32_t rows = 1;      ///< With some bytes between them where there are several.
+};
+
+/// A sensor_msgs/PointCloud2. @pre the points fill the rows.
+MadeMessage CloudMessage(Ros ros,
+                         const std::string& topic,
+                         Timestamp stamp,
+                         const std::string& frame,
+                         std::span<const std::array<double, 3>> points_m,
+                         const CloudForm& form = {});
 
 /// A bag of ROS 1, chunks packed with "none", "bz2" or "lz4"; "unchunked" puts messages outside of
 /// chunks. Of the index at its end there are the connections.

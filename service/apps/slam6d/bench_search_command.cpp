@@ -11,6 +11,7 @@
 #include "service/apps/number_arguments.hpp"
 #include "service/apps/output.hpp"
 #include "service/apps/slam6d/commands.hpp"
+#include "service/apps/slam6d/scan_arguments.hpp"
 #include "service/pipeline/results/results_folder.hpp"
 #include "service/pipeline/slam6d/scan_series.hpp"
 #include "service/pipeline/slam6d/search_benchmark.hpp"
@@ -30,7 +31,7 @@ constexpr std::array<int, 8> kBucketSizes{1, 2, 4, 8, 16, 25, 35, 50};
 constexpr std::size_t kShownSize = 4;
 
 pipeline::SearchTask ReadTask(const BenchArguments& arguments) {
-  pipeline::ScanSeries series(pipeline::FindScans(arguments.scans), {}, {});
+  pipeline::ScanSeries series(FindScans(arguments.scans, {}), {}, {});
   if (series.size() < 2) throw qwsm::apps::UsageError("two scans are needed");
   const pipeline::LoadedScan ref = *series.Next();
   const pipeline::LoadedScan cur = *series.Next();

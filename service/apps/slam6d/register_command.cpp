@@ -13,6 +13,7 @@
 #include "service/apps/messages.hpp"
 #include "service/apps/output.hpp"
 #include "service/apps/slam6d/commands.hpp"
+#include "service/apps/slam6d/scan_arguments.hpp"
 #include "service/apps/version.hpp"
 #include "service/io/files/atomic_file.hpp"
 #include "service/options/slam6d/program_options.hpp"
@@ -47,11 +48,14 @@ std::vector<fs::path> InputsOf(const RegisterArguments& arguments) {
   return inputs;
 }
 
-ExitCode TellPlan(const std::vector<fs::path>& files, const RegisterArguments& arguments) {
+ExitCode TellPlan(const std::vector<pipeline::ScanPlace>& places,
+                  const RegisterArguments& arguments) {
   if (arguments.output) {
     ResultsFolder::Check(*arguments.output, arguments.force, InputsOf(arguments));
   }
-  for (const fs::path& file : files) qwsm::apps::Print("would register {}\n", file.string());
+  for (const pipeline::ScanPlace& place : places) {
+    qwsm::apps::Print("would register {}\n", place.file.string());
+  }
   qwsm::apps::Print("into {}\n", arguments.output.value_or("results/<time>").string());
   return ExitCode::kDone;
 }
@@ -130,14 +134,15 @@ ExitCode RunRegister(const RegisterArguments& arguments) {
   qwsm::apps::StartMessages(arguments.verbosity);
   auto options = qwsm::config::LoadOptions<options::ProgramOptions>(arguments.sources);
   if (arguments.threads) options.slam.icp.threads = *arguments.threads;
-  const std::vector<fs::path> files = pipeline::FindScans(arguments.scans);
+  const std::vector<pipeline::ScanPlace> places = FindScans(arguments.scans, options.bag);
   const io::NumberedPoses starts =
       arguments.poses ? io::ReadPoses(*arguments.poses) : io::NumberedPoses{};
-  if (arguments.dry_run) return TellPlan(files, arguments);
+  if (arguments.dry_run) return TellPlan(places, arguments);
 
   const ResultsFolder folder = OpenResults(arguments, options);
+  TellOfBags(places);
   const qwsm::pipeline::Interruption interruption;  // From here on there is something to keep.
-  pipeline::ScanSeries series(files, starts, options);
+  pipeline::ScanSeries series(places, starts, options);
   const pipeline::Registration registration =
       Register(series, options, interruption, arguments.verbosity);
   WarnOfDoubtfulScans(registration);
@@ -161,11 +166,11 @@ Command AddRegisterCommand(CLI::App& program) {
       "  slam6d register dat/                              scans and poses of 3DTK\n"
       "  slam6d register dat/ --output courtyard           results in courtyard/\n"
       "  slam6d register *.pcd --poses odometry.tum        start poses from elsewhere\n"
+      "  slam6d register drive.bag --every 10              PointCloud2 of ROS 1 or 2, and "
+      "odometry\n"
       "  slam6d register dat/ --set slam.max_range_m=30    farther points are misses\n"
       "  slam6d register dat/ --set slam.icp.metric=point-to-point");
-  parser->add_option("SCANS", arguments->scans, "folders of scans, or files, in their order")
-      ->required()
-      ->type_name("");
+  AddScanArguments(*parser, arguments->scans, arguments->sources);
   parser
       ->add_option("-o,--output", arguments->output, "folder for the results; else results/<time>")
       ->type_name("DIR");

@@ -11,6 +11,7 @@
 #include "service/apps/replay_arguments.hpp"
 #include "service/apps/slam6d/commands.hpp"
 #include "service/apps/slam6d/network.hpp"
+#include "service/apps/slam6d/scan_arguments.hpp"
 #include "service/pipeline/slam6d/series_source.hpp"
 #include "service/pipeline/text/messages.hpp"
 
@@ -31,7 +32,9 @@ ExitCode RunReplay(const SeriesReplayArguments& arguments) {
   qwsm::apps::ReplayOptionsOf(arguments.replay, verbosity);  // Wrong ones are told at once.
   const io::NumberedPoses starts =
       arguments.poses ? io::ReadPoses(*arguments.poses) : io::NumberedPoses{};
-  pipeline::ScanSeries series(pipeline::FindScans(arguments.scans), starts, session.options());
+  const std::vector<pipeline::ScanPlace> places = FindScans(arguments.scans, session.options().bag);
+  TellOfBags(places);
+  pipeline::ScanSeries series(places, starts, session.options());
   const std::chrono::duration<double> period(arguments.period_s);
   pipeline::SeriesSource source(series,
                                 std::chrono::round<std::chrono::nanoseconds>(period),
@@ -44,21 +47,24 @@ ExitCode RunReplay(const SeriesReplayArguments& arguments) {
 }  // namespace
 
 Command AddReplayCommand(CLI::App& program) {
-  CLI::App* parser = AddParser(program, "replay", "a folder of 3D scans as a robot on the network");
+  CLI::App* parser =
+      AddParser(program, "replay", "3D scans, or a bag of them, as a robot on the network");
   auto arguments = std::make_shared<SeriesReplayArguments>();
   parser->footer(
       "  slam6d replay dat/                     as /points and /odom, a scan a second\n"
       "  slam6d replay dat/ --robot robot1      as /robot1/points and /robot1/odom\n"
+      "  slam6d replay drive.mcap               the clouds of a bag, at their own times\n"
       "  slam6d replay dat/ --rate max          as fast as the service answers");
-  parser->add_option("SCANS", arguments->scans, "folders of scans, or files, in their order")
-      ->required()
-      ->type_name("");
+  AddScanArguments(*parser, arguments->scans, arguments->network.sources);
   parser
       ->add_option("--poses",
                    arguments->poses,
                    "odometry: TUM by scan number, or a folder of .pose or .frames")
       ->type_name("FILE");
-  parser->add_option("--period", arguments->period_s, "seconds from one scan to the next")
+  parser
+      ->add_option("--period",
+                   arguments->period_s,
+                   "seconds from one scan to the next, where none has a stamp")
       ->check(qwsm::apps::NumberBetween(0.001, 3600.0))
       ->type_name("S")
       ->capture_default_str();

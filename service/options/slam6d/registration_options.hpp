@@ -3,6 +3,7 @@
 #pragma once
 
 #include "service/graph/loop_distribution.hpp"
+#include "service/io/clouds/cloud_bag.hpp"
 #include "service/io/clouds/scan_points.hpp"
 #include "slam6d/mapping/slam.hpp"
 
@@ -11,6 +12,7 @@ namespace slam6d::options {
 /// All options of `slam6d register`.
 struct RegistrationOptions {
   io::PointFileOptions files{};
+  io::CloudBagOptions bag{};
   /// A scan is taken to be in other units if its points are so many times as far off as those of
   /// the others, or as near.
   double max_range_ratio = 20.0;
@@ -22,6 +24,7 @@ struct RegistrationOptions {
 template <class Visitor>
 void Describe(Visitor& visit, RegistrationOptions& o) {
   visit("files", o.files, {.help = "units of files of points"});
+  visit("bag", o.bag, {.help = "what is read of bags"});
   visit("max_range_ratio",
         o.max_range_ratio,
         {.help = "a scan so many times as wide as the others, or as narrow, is left out",

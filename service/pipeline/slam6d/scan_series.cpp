@@ -58,6 +58,15 @@ std::vector<fs::path> FindInFolder(const fs::path& folder) {
   return files;
 }
 
+void AddClouds(const fs::path& path,
+               const std::shared_ptr<io::CloudBag>& bag,
+               std::vector<ScanPlace>& places) {
+  for (std::size_t i = 0; i < bag->size(); ++i) {
+    const std::string name = fmt::format("scan{:03}", places.size());
+    places.push_back({.file = path.string() + ":" + name, .name = name, .bag = bag, .number = i});
+  }
+}
+
 double MedianRangeM(const PointCloud& cloud) {
   if (cloud.empty()) return 0.0;
   std::vector<double> ranges_m;
@@ -76,25 +85,31 @@ double LowerMedian(std::vector<double> values) {
 
 }  // namespace
 
-std::vector<fs::path> FindScans(const std::vector<fs::path>& arguments) {
-  std::vector<fs::path> files;
+std::vector<ScanPlace> FindScans(const std::vector<fs::path>& arguments,
+                                 const io::CloudBagOptions& options,
+                                 const io::CloudBag::Tell& tell) {
+  std::vector<ScanPlace> places;
+  const auto add_file = [&](const fs::path& file) {
+    places.push_back({.file = file, .name = io::ScanName(file), .bag = nullptr});
+  };
   for (const fs::path& argument : arguments) {
-    if (fs::is_directory(argument)) {
-      const std::vector<fs::path> inside = FindInFolder(argument);
-      files.insert(files.end(), inside.begin(), inside.end());
+    if (qwsm::io::IsBag(argument)) {
+      AddClouds(argument, std::make_shared<io::CloudBag>(argument, options, tell), places);
+    } else if (fs::is_directory(argument)) {
+      for (const fs::path& file : FindInFolder(argument)) add_file(file);
     } else {
       static_cast<void>(io::PointFormatOf(argument));
       if (!fs::exists(argument)) throw std::runtime_error(argument.string() + ": no such file");
-      files.push_back(argument);
+      add_file(argument);
     }
   }
-  return files;
+  return places;
 }
 
-ScanSeries::ScanSeries(std::vector<fs::path> files,
+ScanSeries::ScanSeries(std::vector<ScanPlace> places,
                        io::NumberedPoses starts,
                        const options::RegistrationOptions& options)
-    : files_(std::move(files)), starts_(std::move(starts)), options_(options) {}
+    : places_(std::move(places)), starts_(std::move(starts)), options_(options) {}
 
 std::optional<LoadedScan> ScanSeries::Next() {
   ReadAhead();
@@ -102,7 +117,7 @@ std::optional<LoadedScan> ScanSeries::Next() {
   ReadScan read = std::move(ahead_.front());
   ahead_.pop_front();
   CheckRange(read);
-  read.scan.T_odom_scan = StartPose(read.scan);
+  read.scan.T_odom_scan = StartPose(read);
   // As a network carries it: there and here the same scans give the same poses.
   Eigen::Matrix3d& R = read.scan.T_odom_scan.rotation;
   R = RotationFromQuaternion(QuaternionOf(R));
@@ -112,30 +127,44 @@ std::optional<LoadedScan> ScanSeries::Next() {
 }
 
 void ScanSeries::ReadAhead() {
-  while (read_ < files_.size() && ahead_.size() < kReadAhead) {
-    ahead_.push_back(Read(files_[read_++]));
+  while (read_ < places_.size() && ahead_.size() < kReadAhead) {
+    ahead_.push_back(Read(places_[read_++]));
     const double range_m = ahead_.back().range_m;
     if (range_m > 0.0 && ranges_m_.size() < kReadAhead) ranges_m_.push_back(range_m);
   }
 }
 
-ScanSeries::ReadScan ScanSeries::Read(const fs::path& file) const {
-  ReadScan read{.scan = {}, .range_m = 0.0};
-  read.scan.name = io::ScanName(file);
-  read.scan.file = file;
+ScanSeries::ReadScan ScanSeries::Read(const ScanPlace& place) const {
+  ReadScan read;
+  read.scan.name = place.name;
+  read.scan.file = place.file;
   try {
-    io::ScanPoints points = io::ReadScanPoints(file, options_.files);
-    if (points.skipped_lines > 0) {
-      read.scan.problems.push_back(fmt::format(
-          "{} ({} of this kind; the rest is used)", points.first_problem, points.skipped_lines));
+    place.bag ? ReadCloud(place, read) : ReadFile(place, read);
+    if (read.scan.cloud.empty()) {
+      read.scan.problems.push_back(place.file.string() + ": holds no points");
     }
-    if (points.cloud.empty()) read.scan.problems.push_back(file.string() + ": holds no points");
-    read.scan.cloud = std::move(points.cloud);
     read.range_m = MedianRangeM(read.scan.cloud);
   } catch (const std::runtime_error& error) {
     read.scan.problems.emplace_back(error.what());
   }
   return read;
+}
+
+void ScanSeries::ReadCloud(const ScanPlace& place, ReadScan& read) {
+  read.is_of_bag = true;
+  io::CloudBag::Cloud cloud = place.bag->Read(place.number);
+  read.scan.stamp = cloud.stamp;
+  read.scan.cloud = std::move(cloud.points);
+  read.T_odom_scan = cloud.T_odom_sensor;
+}
+
+void ScanSeries::ReadFile(const ScanPlace& place, ReadScan& read) const {
+  io::ScanPoints points = io::ReadScanPoints(place.file, options_.files);
+  if (points.skipped_lines > 0) {
+    read.scan.problems.push_back(fmt::format(
+        "{} ({} of this kind; the rest is used)", points.first_problem, points.skipped_lines));
+  }
+  read.scan.cloud = std::move(points.cloud);
 }
 
 void ScanSeries::CheckRange(ReadScan& read) {
@@ -154,18 +183,23 @@ void ScanSeries::CheckRange(ReadScan& read) {
 }
 
 /// Where no pose is known, the last motion is taken to go on.
-Pose3 ScanSeries::StartPose(LoadedScan& scan) {
+Pose3 ScanSeries::StartPose(ReadScan& read) {
   const std::size_t known = poses_.size();
   Pose3 guess;
   if (known > 0) guess = poses_.back();
   if (known > 1) guess = poses_.back() * (poses_[known - 2].Inverse() * poses_.back());
-  const auto number = static_cast<double>(given_);
-  if (!starts_.empty()) {
-    if (const auto start = starts_.find(number); start != starts_.end()) return start->second;
-    scan.problems.push_back(
-        fmt::format("{}: no pose with the number {} to start from", scan.file.string(), number));
-    return guess;
+  if (starts_.empty()) {
+    return (read.is_of_bag ? read.T_odom_scan : PoseInFile(read.scan)).value_or(guess);
   }
+  const auto number = static_cast<double>(given_);
+  if (const auto start = starts_.find(number); start != starts_.end()) return start->second;
+  read.scan.problems.push_back(
+      fmt::format("{}: no pose with the number {} to start from", read.scan.file.string(), number));
+  return guess;
+}
+
+/// The pose in the file beside that of the points.
+std::optional<Pose3> ScanSeries::PoseInFile(LoadedScan& scan) {
   const fs::path file = scan.file.parent_path() / (scan.name + ".pose");
   try {
     if (fs::exists(file)) return io::ReadUosPose(file);
@@ -179,7 +213,7 @@ Pose3 ScanSeries::StartPose(LoadedScan& scan) {
     scan.problems.push_back(std::string(error.what()) +
                             "; the scan starts where the motion before it leads");
   }
-  return guess;
+  return std::nullopt;
 }
 
 }  // namespace slam6d::pipeline

@@ -2,27 +2,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <deque>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "service/io/clouds/cloud_bag.hpp"
 #include "service/io/clouds/trajectory3_file.hpp"
 #include "service/options/slam6d/registration_options.hpp"
 
 namespace slam6d::pipeline {
 
-/// The files of points that are meant by arguments: files as they are, folders for what is in them,
-/// in the order of their numbers.
+/// Where the points of a scan are: a file, or one of the clouds of a bag.
+struct ScanPlace {
+  std::filesystem::path file;         ///< Of a cloud of a bag "BAG:NAME", for messages.
+  std::string name;                   ///< Name of the file, without folder and endings.
+  std::shared_ptr<io::CloudBag> bag;  ///< Null for a file.
+  std::size_t number = 0;             ///< Of the cloud among those of the bag.
+};
+
+/// The scans that are meant by arguments: files as they are, the clouds of bags in the order of
+/// their stamps, folders for what is in them, in the order of their numbers.
+/// @param tell is told how bags were understood, and what is wrong with them.
 /// @throws std::runtime_error where there are none, or a folder holds several formats.
-std::vector<std::filesystem::path> FindScans(const std::vector<std::filesystem::path>& arguments);
+std::vector<ScanPlace> FindScans(const std::vector<std::filesystem::path>& arguments,
+                                 const io::CloudBagOptions& options,
+                                 const io::CloudBag::Tell& tell);
 
 /// A scan as it was read.
 struct LoadedScan {
   std::string name;  ///< Name of the file, without folder and endings.
   std::filesystem::path file;
-  PointCloud cloud;  ///< Points; none where the scan was left out.
+  std::optional<qwsm::Timestamp> stamp;  ///< Where its source tells it.
+  PointCloud cloud;                      ///< Points; none where the scan was left out.
   Pose3 T_odom_scan;
   /// Problems, each naming file and line; the scan is used all the same.
   std::vector<std::string> problems;
@@ -34,28 +49,33 @@ struct LoadedScan {
 /// none, a missing pose (the motion before it is taken to go on), a file in other units.
 class ScanSeries {
  public:
-  /// Gives scans in the order of their files.
+  /// Gives scans in the order of their places.
   /// @param starts poses by the numbers of the scans, counted from 0; empty: from `NAME.pose`
-  ///        beside each file.
-  ScanSeries(std::vector<std::filesystem::path> files,
+  ///        beside each file, or the odometry of the bag.
+  ScanSeries(std::vector<ScanPlace> places,
              io::NumberedPoses starts,
              const options::RegistrationOptions& options);
 
-  std::size_t size() const { return files_.size(); }
+  std::size_t size() const { return places_.size(); }
   std::optional<LoadedScan> Next();
 
  private:
   struct ReadScan {
     LoadedScan scan;
-    double range_m;  ///< Range that half of the points exceed.
+    bool is_of_bag = false;
+    std::optional<Pose3> T_odom_scan;  ///< As a bag tells it.
+    double range_m = 0.0;              ///< Range that half of the points exceed.
   };
 
-  ReadScan Read(const std::filesystem::path& file) const;
+  ReadScan Read(const ScanPlace& place) const;
+  static void ReadCloud(const ScanPlace& place, ReadScan& read);
+  void ReadFile(const ScanPlace& place, ReadScan& read) const;
   void ReadAhead();
   void CheckRange(ReadScan& read);
-  Pose3 StartPose(LoadedScan& scan);
+  Pose3 StartPose(ReadScan& read);
+  std::optional<Pose3> PoseInFile(LoadedScan& scan);
 
-  std::vector<std::filesystem::path> files_;
+  std::vector<ScanPlace> places_;
   io::NumberedPoses starts_;
   options::RegistrationOptions options_;
   std::size_t read_ = 0;

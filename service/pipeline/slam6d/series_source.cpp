@@ -27,9 +27,10 @@ std::optional<CloudObservation> SeriesSource::Read() {
     const auto stamp = static_cast<std::int64_t>(read_++) * period_;
     for (const std::string& problem : loaded->problems) warn_(problem);
     if (loaded->cloud.empty()) continue;
-    return CloudObservation{
-        .scan = {.stamp = stamp, .cloud = std::move(loaded->cloud), .T_robot_sensor = {}},
-        .T_odom_robot = loaded->T_odom_scan};
+    return CloudObservation{.scan = {.stamp = loaded->stamp.value_or(stamp),
+                                     .cloud = std::move(loaded->cloud),
+                                     .T_robot_sensor = {}},
+                            .T_odom_robot = loaded->T_odom_scan};
   }
   return std::nullopt;
 }

@@ -14,7 +14,8 @@
 
 namespace slam6d::pipeline {
 
-/// The scans of a series as a robot would take them, one every `period`, the first at time 0.
+/// The scans of a series as a robot would take them: each at its own time where that is known, else
+/// one every `period`, the first at time 0.
 class SeriesSource {
  public:
   using Warn = std::function<void(const std::string& problem)>;

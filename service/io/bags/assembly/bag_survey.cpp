@@ -118,22 +118,33 @@ std::string_view PlainMessage(std::string_view bytes, std::string& buffer) {
   return buffer;
 }
 
+void ForEachMessage(
+    const std::filesystem::path& path,
+    BagFaults& faults,
+    std::vector<OpenBagFile>& files,
+    const std::function<void(const BagTopic&, const BagMessage&, std::uint32_t)>& take) {
+  const auto tell = [&faults](const std::string& what) { faults.Doubt(what); };
+  for (const std::filesystem::path& file : FilesOfBag(path, tell)) {
+    const auto number = static_cast<std::uint32_t>(files.size());
+    files.emplace_back(file, [&faults, file](std::uint64_t where, const std::string& what) {
+      faults.OfFile(file.string(), where, what);
+    });
+    MessageSource& messages = files.back().messages();
+    while (const std::optional<BagMessage> message = messages.Next()) {
+      take(messages.topics()[message->topic], *message, number);
+    }
+  }
+}
+
 BagContents Survey(const std::filesystem::path& path, LogReport& report, BagFaults& faults) {
   BagContents contents;
   Surveyor surveyor(contents, report, faults);
-  const auto tell = [&faults](const std::string& what) { faults.Doubt(what); };
-  for (const std::filesystem::path& file : FilesOfBag(path, tell)) {
-    const auto number = static_cast<std::uint32_t>(contents.files.size());
-    contents.file_names.push_back(file.string());
-    contents.files.emplace_back(file,
-                                [&faults, file](std::uint64_t where, const std::string& what) {
-                                  faults.OfFile(file.string(), where, what);
-                                });
-    MessageSource& messages = contents.files.back().messages();
-    while (const std::optional<BagMessage> message = messages.Next()) {
-      surveyor.Take(messages.topics()[message->topic], *message, number);
-    }
-  }
+  ForEachMessage(path,
+                 faults,
+                 contents.files,
+                 [&](const BagTopic& topic, const BagMessage& message, std::uint32_t file) {
+                   surveyor.Take(topic, message, file);
+                 });
   for (auto& [name, odometry] : contents.odometry) odometry.track.Sort();
   for (auto& [name, track] : contents.truth) track.Sort();
   return contents;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -43,7 +44,6 @@ struct OdometryTopic {
 /// seen before the first scan is given.
 struct BagContents {
   std::vector<OpenBagFile> files;
-  std::vector<std::string> file_names;
   std::map<std::string, ScanTopic> scans;
   std::map<std::string, OdometryTopic> odometry;
   std::map<std::string, OdometryTrack> truth;       ///< Topics of a simulator's ground truth.
@@ -52,6 +52,16 @@ struct BagContents {
 
 /// The namespace of a topic: "/robot1" of "/robot1/scan", "" of "/scan".
 std::string NamespaceOf(std::string_view topic);
+
+/// Hands over every message of a bag, file after file.
+/// @param files takes the files, which can be asked for any message again.
+/// @param take (topic, message, number of the file).
+/// @throws std::runtime_error naming the file where one cannot be opened or is no bag.
+void ForEachMessage(
+    const std::filesystem::path& path,
+    BagFaults& faults,
+    std::vector<OpenBagFile>& files,
+    const std::function<void(const BagTopic&, const BagMessage&, std::uint32_t)>& take);
 
 /// Reads all messages of a bag. What they are is counted in the report.
 /// @throws std::runtime_error naming the file where one cannot be opened or is no bag.

@@ -5,7 +5,6 @@
 #include <chrono>
 
 #include "qwsm/sensor/scan_limits.hpp"
-#include "service/io/bags/messages/message_reader.hpp"
 
 namespace qwsm::io {
 namespace {
@@ -24,14 +23,6 @@ Timestamp TakeTime(MessageReader& fields) {
                                  : std::int64_t{static_cast<std::int32_t>(seconds)};
   if (whole < 0) throw MessageError("its stamp is before 1970");
   return std::chrono::seconds(whole) + std::chrono::nanoseconds(nanoseconds);
-}
-
-RosHeader TakeHeader(MessageReader& fields) {
-  if (fields.encoding() == Encoding::kRos1) fields.Unsigned32();  // Sequence number.
-  RosHeader header;
-  header.stamp = TakeTime(fields);
-  header.frame = fields.String();
-  return header;
 }
 
 Quaternion TakeQuaternion(MessageReader& fields) {
@@ -53,6 +44,14 @@ Transform3 TakeTransform(MessageReader& fields) {
 }
 
 }  // namespace
+
+RosHeader TakeHeader(MessageReader& fields) {
+  if (fields.encoding() == Encoding::kRos1) fields.Unsigned32();  // Sequence number.
+  RosHeader header;
+  header.stamp = TakeTime(fields);
+  header.frame = fields.String();
+  return header;
+}
 
 RosHeader DecodeHeader(std::string_view bytes, Encoding encoding) {
   MessageReader fields(bytes, encoding);

@@ -8,6 +8,7 @@
 
 #include "qwsm/sensor/laser_scan.hpp"
 #include "service/io/bags/containers/message_source.hpp"
+#include "service/io/bags/messages/message_reader.hpp"
 #include "service/io/bags/messages/transform3.hpp"
 
 /// The messages of ROS that matter here, as far as they do.
@@ -49,6 +50,8 @@ struct TransformMessage {
 
 // All throw MessageError where the bytes are no such message.
 
+/// Takes a header, the first field of a message. @throws MessageError.
+RosHeader TakeHeader(MessageReader& fields);
 /// The header, with which all these messages but transforms begin.
 RosHeader DecodeHeader(std::string_view bytes, Encoding encoding);
 LaserScanMessage DecodeLaserScan(std::string_view bytes, Encoding encoding);
