@@ -44,15 +44,15 @@ void AddVerbosity(CLI::App& parser, Verbosity& verbosity, const std::string& jso
       ->group("Messages");
 }
 
-void AddBagSetting(CLI::App& parser,
-                   config::OptionSources& sources,
-                   const std::string& flag,
-                   const std::string& key,
-                   const std::string& help) {
+CLI::Option* AddBagSetting(CLI::App& parser,
+                           config::OptionSources& sources,
+                           const std::string& flag,
+                           const std::string& key,
+                           const std::string& help) {
   const auto set = [&sources, key](const std::string& value) {
     sources.settings.push_back(key + "=" + value);
   };
-  parser.add_option_function<std::string>(flag, set, help)->type_name("NAME")->group("Bags");
+  return parser.add_option_function<std::string>(flag, set, help)->type_name("NAME")->group("Bags");
 }
 
 void AddTopics(CLI::App& parser, config::OptionSources& sources) {

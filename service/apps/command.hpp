@@ -50,11 +50,11 @@ CLI::App* AddParser(CLI::App& program, const std::string& name, const std::strin
 void AddConfiguration(CLI::App& parser, config::OptionSources& sources);
 
 /// Adds an argument that says what of a bag is read, and stands for a setting of the configuration.
-void AddBagSetting(CLI::App& parser,
-                   config::OptionSources& sources,
-                   const std::string& flag,
-                   const std::string& key,
-                   const std::string& help);
+CLI::Option* AddBagSetting(CLI::App& parser,
+                           config::OptionSources& sources,
+                           const std::string& flag,
+                           const std::string& key,
+                           const std::string& help);
 
 /// Adds the arguments --scan and --odom, which say what of a bag is read, as settings.
 void AddTopics(CLI::App& parser, config::OptionSources& sources);

@@ -15,6 +15,7 @@
 #include "service/apps/run_session.hpp"
 #include "service/apps/saved_map.hpp"
 #include "service/apps/scenario_arguments.hpp"
+#include "service/apps/team_mapping.hpp"
 #include "service/config/suggestion.hpp"
 #include "service/io/files/atomic_file.hpp"
 #include "service/io/maps/map_file.hpp"
@@ -153,6 +154,27 @@ ExitCode ContinueMap(const MapArguments& arguments,
   return code;
 }
 
+/// Maps all robots of a bag. @param several says which.
+ExitCode MapRobots(const MapArguments& arguments,
+                   const options::ProgramOptions& options,
+                   const io::SeveralRobotsError& several) {
+  if (arguments.continued || arguments.bag || arguments.run.verbosity.json ||
+      options.mapper.matcher != MatcherKind::kQWsm) {
+    throw UsageError(
+        fmt::format("{}; else they are mapped as a team, with which --continue, --bag, --json and "
+                    "other matchers do not go",
+                    several.what()));
+  }
+  const auto map_alone = [&](pipeline::ScanSource& source,
+                             const RunSession& session,
+                             const std::filesystem::path& map) {
+    MapArguments one = arguments;
+    one.save_map = map;
+    return MapAll(one, options, source, session);
+  };
+  return MapTeam(arguments.run, options, {several.robots(), map_alone, arguments.save_map});
+}
+
 ExitCode RunMap(MapArguments arguments) {
   StartMessages(arguments.run.verbosity);
   CheckSource(arguments);
@@ -167,7 +189,12 @@ ExitCode RunMap(MapArguments arguments) {
     map = OpenMap(*arguments.continued);
     options.mapper.map = map->options();
   }
-  const Origin origin = OpenOrigin(arguments, options.log);
+  Origin origin;
+  try {
+    origin = OpenOrigin(arguments, options.log);
+  } catch (const io::SeveralRobotsError& several) {
+    return MapRobots(arguments, options, several);
+  }
   if (arguments.run.dry_run) {
     if (arguments.is_simulated()) arguments.run.logs = {arguments.simulated.scenario};
     return TellPlan("map", arguments.run);
@@ -195,7 +222,8 @@ Command AddMapCommand(CLI::App& program) {
       "  qwsm map intel.log --set graph.enabled=false     nothing is corrected\n"
       "  qwsm map robot.log --set mapper.motion.rotation_per_rotation=0.5\n"
       "  qwsm map drive.bag                               ROS 1; rosbag2: a folder, .mcap, .db3\n"
-      "  qwsm map team --robot robot1 --scan robot1/scan  of a bag with more in it\n"
+      "  qwsm map team                                    all robots of a bag, in one map\n"
+      "  qwsm map team --robot robot1 --scan robot1/scan  one of them\n"
       "  qwsm map --sim office --seed 7                   a simulated robot, with the truth\n"
       "  zcat *.log.gz | qwsm map - --quiet               from a pipe");
   AddRunArguments(*parser, arguments->run)->required(false);

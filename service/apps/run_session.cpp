@@ -85,6 +85,10 @@ RunSession::RunSession(const RunArguments& arguments, const options::ProgramOpti
   io::WriteTextFile(folder_ / "config.yaml", config::DumpOptions(options));
 }
 
+RunSession RunSession::Part(const std::string& name) const {
+  return {arguments_, ResultsFolder(folder_ / name, arguments_.force, InputsOf(arguments_))};
+}
+
 RunTitle RunSession::Title(const std::string& command, const ReplayResult& result) const {
   RunTitle title{.command = "qwsm " + command,
                  .version = std::string(Version()),

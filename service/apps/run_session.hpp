@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "service/apps/command.hpp"
@@ -54,6 +55,10 @@ class RunSession {
   /// Makes the folder of the results. @throws io::WriteError where it cannot be had.
   RunSession(const RunArguments& arguments, const options::ProgramOptions& options);
 
+  /// A part of the run, such as one robot's: its results stand in a folder within the run's, and
+  /// its messages are those of the run. @throws io::WriteError where the folder cannot be had.
+  RunSession Part(const std::string& name) const;
+
   const pipeline::ResultsFolder& folder() const { return folder_; }
   bool has_pictures() const { return !arguments_.no_pictures; }
   /// What the report of the run says at its top. @param command without the program: "map".
@@ -75,6 +80,9 @@ class RunSession {
   void Summarize(const pipeline::ResultsWriter& results, const ScanMap& map) const;
 
  private:
+  RunSession(RunArguments arguments, pipeline::ResultsFolder folder)
+      : arguments_(std::move(arguments)), folder_(std::move(folder)) {}
+
   RunArguments arguments_;
   pipeline::ResultsFolder folder_;
 };

@@ -265,6 +265,36 @@ TEST_F(Bag, ReadsTheRobotThatIsAskedFor) {
             std::string::npos);
 }
 
+TEST_F(Bag, NamesTheRobotsWhereItIsNotSaidWhoseScansAreMeant) {
+  std::vector<MadeMessage> team = Drive(Ros::k2);
+  for (const std::string robot : {"/robot1", "/robot2"}) {
+    for (MadeMessage message : Drive(Ros::k2)) {
+      message.topic = robot + message.topic;
+      team.push_back(message);
+    }
+  }
+  team.push_back(test::ScanMessage(Ros::k2, "/robot2/scan", At(9), "laser", RangesAt(0)));
+  try {
+    ReadMcap(team);
+    FAIL() << "it was not asked whose scans are meant";
+  } catch (const SeveralRobotsError& several) {
+    EXPECT_EQ(several.robots(), (std::vector<std::string>{"robot2", "robot1"}));
+  }
+}
+
+TEST_F(Bag, TellsWhichMessagesAreNotNeeded) {
+  std::vector<MadeMessage> drive = Drive(Ros::k2);
+  for (int i = 0; i < 3; ++i) {
+    drive.push_back({"/clock", "rosgraph_msgs/msg/Clock", std::string("\0\1\0\0", 4) + "12345678"});
+  }
+  const LogContent log = ReadMcap(drive);
+  EXPECT_EQ(log.scans.size(), 4U);
+  EXPECT_EQ(log.report.other_messages, 3U);
+  EXPECT_EQ(log.report.notes.back(),
+            "messages that are not needed: 3 of rosgraph_msgs/Clock (time is that of the stamps in "
+            "headers)");
+}
+
 TEST_F(Bag, PassesOverMessagesThatAreNotWhatTheyShouldBeAndTellsOnce) {
   std::vector<MadeMessage> drive = Drive(Ros::k2);
   MadeMessage torn = drive[1];

@@ -21,7 +21,8 @@ void AddScanArguments(CLI::App& parser,
   AddBagSetting(
       parser, sources, "--odom", "bag.odometry", "topic of odometry, or /tf; else chosen");
   AddBagSetting(
-      parser, sources, "--every", "bag.every", "of so many clouds one is taken; else all");
+      parser, sources, "--every", "bag.every", "of so many clouds one is taken; else all")
+      ->type_name("N");
 }
 
 std::vector<pipeline::ScanPlace> FindScans(const std::vector<std::filesystem::path>& scans,

@@ -52,7 +52,18 @@ BagReader::BagReader(const std::filesystem::path& path, const LogOptions& option
   TakePlaces();
   contents_.transforms.clear();
   contents_.odometry.clear();
-  for (const auto& [type, count] : report_.unknown_messages) report_.other_messages += count;
+  TellOfOthers();
+}
+
+/// Counts the messages that are of no use here, and tells of which types they are.
+void BagReader::TellOfOthers() {
+  std::string types;
+  for (const auto& [type, count] : report_.unknown_messages) {
+    report_.other_messages += count;
+    types += (types.empty() ? "" : ", ") + std::to_string(count) + " of " + type;
+    if (type == "rosgraph_msgs/Clock") types += " (time is that of the stamps in headers)";
+  }
+  if (!types.empty()) report_.notes.push_back("messages that are not needed: " + types);
 }
 
 /// Lists the scans of all lasers in the order of their stamps.

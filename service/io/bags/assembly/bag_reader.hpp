@@ -33,6 +33,7 @@ class BagReader final : public LogReader {
     std::size_t laser = 0;
   };
 
+  void TellOfOthers();
   void TakePlaces();
   std::optional<LogRecord> NextScan();
   ScanReading ReadScan(const Place& place);

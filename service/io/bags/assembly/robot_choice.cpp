@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -59,6 +60,24 @@ class Chooser {
     throw LogError(report_.name + ": " + what);
   }
 
+  /// @param by_robot topics of scans by namespace.
+  [[noreturn]] void RefuseSeveral(
+      const std::map<std::string, std::vector<std::string>>& by_robot) const {
+    std::vector<std::pair<std::size_t, std::string>> robots;
+    for (const auto& [name_space, topics] : by_robot) {
+      if (name_space.empty()) continue;  // Scans of nobody's namespace.
+      std::size_t scans = 0;
+      for (const std::string& topic : topics) scans += contents_.scans[topic].places.size();
+      robots.emplace_back(scans, name_space.substr(1));
+    }
+    std::ranges::stable_sort(robots, std::greater(), &std::pair<std::size_t, std::string>::first);
+    std::vector<std::string> names;
+    for (const auto& [scans, name] : robots) names.push_back(name);
+    throw SeveralRobotsError(report_.name + ": holds several robots: " + ListOf(KeysOf(by_robot)) +
+                                 "; choose one with --robot",
+                             std::move(names));
+  }
+
   /// Namespaces that have odometry of their own.
   std::set<std::string> RobotNamespaces() const {
     std::set<std::string> robots;
@@ -89,9 +108,7 @@ class Chooser {
     std::map<std::string, std::vector<std::string>> by_robot;
     for (const std::string& topic : topics) by_robot[RobotOf(topic)].push_back(topic);
     if (by_robot.size() > 1) {
-      if (options_.robot.empty()) {
-        Refuse("holds several robots: " + ListOf(KeysOf(by_robot)) + "; choose one with --robot");
-      }
+      if (options_.robot.empty()) RefuseSeveral(by_robot);
       robot_ = AsTopic(options_.robot);
       if (!by_robot.contains(robot_)) {
         Refuse("has no scans of a robot '" + options_.robot + "'; it has " +

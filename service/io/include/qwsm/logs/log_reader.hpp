@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "qwsm/logs/log_record.hpp"
@@ -23,6 +24,20 @@ namespace qwsm::io {
 class LogError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+/// Tells that a bag holds several robots, and which, where it was not said whose scans are meant.
+class SeveralRobotsError : public LogError {
+ public:
+  /// Names the robots. @param robots their namespaces, without slashes, as LogOptions::robot has
+  /// them; those with the most scans first.
+  SeveralRobotsError(const std::string& what, std::vector<std::string> robots)
+      : LogError(what), robots_(std::move(robots)) {}
+
+  const std::vector<std::string>& robots() const { return robots_; }
+
+ private:
+  std::vector<std::string> robots_;
 };
 
 /// How a log is read. What the log states and what can be inferred from it needs no option.
@@ -77,7 +92,8 @@ class LogReader {
 /// Opens a log: CARMEN, Player or DP-SLAM text; plain, gzip, bzip2, xz or zstd; a bag of ROS 1, or
 /// of rosbag2 as a file (.mcap, .db3) or a folder; or the journal of a service. All are recognised
 /// from the content, never from the name. "-" is standard input, for texts.
-/// @throws LogError where there is no such file or it is not a log.
+/// @throws LogError where there is no such file or it is not a log; SeveralRobotsError where it is
+///         a bag of several robots and the options name none.
 std::unique_ptr<LogReader> OpenLog(const std::filesystem::path& path,
                                    const LogOptions& options = {});
 
