@@ -18,6 +18,7 @@
 #include "service/io/files/standard_output.hpp"
 #include "service/io/logs/carmen_writer.hpp"
 #include "service/io/trajectories/trajectory_file.hpp"
+#include "service/pipeline/text/messages.hpp"
 
 namespace qwsm::apps {
 namespace {
@@ -70,10 +71,16 @@ void Convert(const ConvertArguments& arguments,
   const auto options = config::LoadOptions<options::ProgramOptions>(arguments.sources);
   for (const fs::path& log : arguments.logs) {
     const std::unique_ptr<io::LogReader> reader = io::OpenLog(log, LogOptionsOf(options.log));
+    bool is_empty = true;
     while (const std::optional<io::LogRecord> record = reader->Next()) {
+      is_empty = false;
       write(*record);
       check();
     }
+    for (const std::string& note : reader->report().notes) {
+      messages::Info("{}: {}", log.string(), note);
+    }
+    if (is_empty) messages::Warn("{}: holds neither scans nor odometry", log.string());
   }
 }
 
@@ -101,12 +108,14 @@ void ConvertToText(const ConvertArguments& arguments, const std::string& format)
   file.Commit();
 }
 
-/// What the name of the output asks for, where nothing else was said.
+/// What the name of the output asks for, where nothing else was said: one without an ending is a
+/// folder, as `ros2 bag` makes them.
 std::string FormatOf(const ConvertArguments& arguments) {
   if (arguments.format) return *arguments.format;
   const std::optional<io::BagFormat> bag = io::BagFormatOf(arguments.output);
-  if (!bag) return "carmen";
-  return *bag == io::BagFormat::kMcap ? "mcap" : "db3";
+  const bool is_folder = arguments.output != "-" && !arguments.output.has_extension();
+  if (!bag && !is_folder) return "carmen";
+  return bag == io::BagFormat::kSqlite ? "db3" : "mcap";
 }
 
 ExitCode RunConvert(const ConvertArguments& arguments) {
@@ -130,7 +139,7 @@ Command AddConvertCommand(CLI::App& program) {
   parser->footer(
       "  qwsm convert player.log.gz -o carmen.log           any log as CARMEN\n"
       "  qwsm convert drive.bag -o drive.mcap               a bag of ROS 1 for ROS 2\n"
-      "  qwsm convert robot.log --to mcap -o robot          a folder, as ros2 bag makes them\n"
+      "  qwsm convert robot.log -o robot                    a folder, as ros2 bag makes them\n"
       "  qwsm convert robot.log --to odometry -o odom.tum   what odometry says, for eval\n"
       "  qwsm convert sim.log --to truth -o truth.tum       what the simulator knows");
   parser

@@ -59,7 +59,9 @@ std::unique_ptr<LogSource> OpenLogs(const RunArguments& arguments,
   auto source =
       std::make_unique<LogSource>(arguments.logs, LogOptionsOf(options), options.mirrored);
   if (source->Peek() == nullptr) {
-    throw UsageError("there is no scan in " + arguments.logs.front().string());
+    throw UsageError(fmt::format("there is no scan in {}; {}",
+                                 arguments.logs.front().string(),
+                                 fmt::join(source->Describe(), "; ")));
   }
   return source;
 }

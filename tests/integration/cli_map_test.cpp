@@ -71,9 +71,7 @@ TEST_F(MapCommand, GivesTheSameFromABag) {
   for (const char* name : {"room.mcap", "room.db3", "room"}) {
     SCOPED_TRACE(name);
     const fs::path bag = folder_.path() / name;
-    const bool is_folder = !bag.has_extension();
-    const Outcome converted = is_folder ? RunProgram({"convert", log_, "--to", "mcap", "-o", bag})
-                                        : RunProgram({"convert", log_, "-o", bag});
+    const Outcome converted = RunProgram({"convert", log_, "-o", bag});
     EXPECT_EQ(converted.exit_code, 0) << converted.errors;
     const fs::path mapped = folder_.path() / (std::string("of_") + name);
     const Outcome outcome = RunProgram({"map", bag, "--output", mapped});
