@@ -3,11 +3,21 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <chrono>
 #include <filesystem>
+#include <optional>
 #include <random>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "qwsm/logs/log_reader.hpp"
+#include "qwsm/mapping/mapper.hpp"
 #include "service/io/bags/writing/log_bag_writer.hpp"
+#include "service/pipeline/run/thread_time.hpp"
+#include "tests/support/scenes.hpp"
+#include "tests/support/simulated_drive.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace qwsm::io {
@@ -47,6 +57,18 @@ std::size_t WriteGigabyte(const std::filesystem::path& path) {
   return scans;
 }
 
+/// A drive with scans as robots have them, and odometry.
+void WriteDrive(const std::filesystem::path& path) {
+  const test::SimulatedDrive drive = test::DriveThrough(test::OfficeLoop(), {.scan_period_s = 0.1});
+  BagFile bag(path, *BagFormatOf(path));
+  LogBagWriter writer(bag);
+  for (const Observation& observation : drive.observations) {
+    writer.Write(ScanReading{
+        .scan = observation.scan, .T_odom_robot = observation.T_odom_robot, .laser = "front"});
+  }
+  bag.Commit();
+}
+
 class LargeBag : public testing::TestWithParam<const char*> {};
 
 TEST_P(LargeBag, OfAGigabyteIsReadInLittleMemory) {
@@ -67,6 +89,37 @@ INSTANTIATE_TEST_SUITE_P(All,
                          LargeBag,
                          testing::Values("large.mcap", "large.db3"),
                          [](const auto& tested) { return "Bag" + std::to_string(tested.index); });
+
+/// Processor time that something takes.
+template <class Work>
+std::chrono::duration<double> TimeOf(Work work) {
+  const auto before = pipeline::WorkedByThread();
+  work();
+  return pipeline::WorkedByThread() - before;
+}
+
+TEST(LargeBagOfScans, IsReadTenTimesAsFastAsItIsMapped) {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"drive.mcap", "drive.db3"}) {
+    const std::filesystem::path path = folder.path() / name;
+    WriteDrive(path);
+    std::vector<Observation> observations;
+    const auto reading = TimeOf([&] {
+      const auto reader = OpenLog(path);
+      while (std::optional<LogRecord> record = reader->Next()) {
+        if (auto* scan = std::get_if<ScanReading>(&*record)) {
+          observations.push_back({std::move(scan->scan), scan->T_odom_robot});
+        }
+      }
+    });
+    Mapper mapper;
+    const auto mapping = TimeOf([&] {
+      for (const Observation& observation : observations) mapper.Process(observation);
+    });
+    RecordProperty(name, std::to_string(mapping / reading));
+    EXPECT_GE(mapping / reading, 10.0) << name;
+  }
+}
 
 }  // namespace
 }  // namespace qwsm::io
