@@ -50,12 +50,18 @@ std::string RecordBag(const RecordArguments& arguments, const dds::Participant& 
                                  bag,
                                  {.info = [](const std::string& text) { messages::Info(text); },
                                   .warn = [](const std::string& text) { messages::Warn(text); }});
+  const std::filesystem::path unfinished = bag.KeepUnfinished();
   const pipeline::Interruption interruption;
   messages::Info("recording");
-  while (!interruption.requested() && !IsEnough(arguments, recorder.scans())) {
-    recorder.Record(100ms);
+  try {
+    while (!interruption.requested() && !IsEnough(arguments, recorder.scans())) {
+      recorder.Record(100ms);
+    }
+    bag.Commit();
+  } catch (const io::WriteError& error) {
+    throw io::WriteError(
+        fmt::format("{}; what was recorded before is in {}", error.what(), unfinished.string()));
   }
-  bag.Commit();
   return fmt::format("{} messages of {} topics, {} of them scans",
                      recorder.messages(),
                      recorder.topics(),

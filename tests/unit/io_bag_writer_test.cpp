@@ -77,6 +77,27 @@ TEST_P(BagWriting, RefusesATimeThatRos2DoesNotHave) {
   EXPECT_THROW(Write({OdometryReading{.stamp = 3'000'000'000s, .T_odom_robot = {}}}), WriteError);
 }
 
+TEST_P(BagWriting, ThatCannotGoOnLeavesWhatWasWritten) {
+  constexpr int kWritten = 4000;
+  const std::filesystem::path path = folder_.path() / GetParam();
+  std::filesystem::path unfinished;
+  {
+    BagFile bag(path, BagFormatOf(path).value_or(BagFormat::kMcap));
+    unfinished = bag.KeepUnfinished();
+    LogBagWriter writer(bag);
+    auto reading = std::get<ScanReading>(Records()[0]);
+    reading.T_odom_robot.reset();
+    for (int i = 0; i < kWritten; ++i) {
+      reading.scan.stamp = 1s * i;
+      reading.scan.ranges_m.assign(500, 1.0F + 0.001F * static_cast<float>(i));
+      writer.Write(reading);
+    }
+  }
+  const test::LogContent log = test::ReadAll(*OpenLog(unfinished));
+  EXPECT_GT(log.scans.size(), kWritten / 2U);
+  EXPECT_EQ(log.scans.back().scan.stamp, 1s * (log.scans.size() - 1)) << "none is missing between";
+}
+
 INSTANTIATE_TEST_SUITE_P(All,
                          BagWriting,
                          testing::Values("drive.mcap", "drive.db3", "folder"),

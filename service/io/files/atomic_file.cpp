@@ -93,6 +93,7 @@ AtomicFile::AtomicFile(std::filesystem::path path)
 AtomicFile::~AtomicFile() {
   if (committed_) return;
   buffer_->Close();
+  if (keeps_unfinished_) return;
   std::error_code ignored;
   std::filesystem::remove(temporary_path_, ignored);
 }

@@ -36,6 +36,10 @@ class AtomicFile {
   /// @throws WriteError
   void ThrowIfFailed() const;
 
+  /// From now on, what was written stays under its temporary name if there is no commit: for what
+  /// cannot be had again.
+  void KeepUnfinished() { keeps_unfinished_ = true; }
+
   /// Puts the file in its place. @throws WriteError if any byte did not get there.
   void Commit();
 
@@ -47,6 +51,7 @@ class AtomicFile {
   std::unique_ptr<FileBuffer> buffer_;
   std::ostream stream_;
   bool committed_ = false;
+  bool keeps_unfinished_ = false;
 };
 
 /// Writes a whole file at once. @throws WriteError.

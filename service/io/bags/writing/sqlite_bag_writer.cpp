@@ -8,7 +8,7 @@ namespace qwsm::io {
 namespace {
 
 constexpr const char* kTables = R"(
-PRAGMA journal_mode = OFF;
+PRAGMA journal_mode = MEMORY;
 PRAGMA synchronous = OFF;
 CREATE TABLE schema(schema_version INTEGER PRIMARY KEY, ros_distro TEXT NOT NULL);
 INSERT INTO schema VALUES(4, '');
@@ -25,6 +25,9 @@ CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL,
                       timestamp INTEGER NOT NULL, data BLOB NOT NULL);
 BEGIN;
 )";
+
+// What is lost of a recording that cannot go on.
+constexpr std::uint64_t kMessagesPerTransaction = 1000;
 
 SqliteDatabase WithTables(const std::filesystem::path& file) {
   SqliteDatabase database(file, SqliteDatabase::Access::kReadWrite);
@@ -66,6 +69,7 @@ void SqliteBagWriter::Write(std::size_t topic, Timestamp stamp, std::string_view
   insert_.Step();
   insert_.Reset();
   summary_.Count(topic, stamp);
+  if (summary_.messages % kMessagesPerTransaction == 0) database_.Execute("COMMIT; BEGIN;");
 }
 
 void SqliteBagWriter::Finish(const std::string& file_name) {
