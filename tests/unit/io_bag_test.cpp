@@ -282,6 +282,40 @@ TEST_F(Bag, NamesTheRobotsWhereItIsNotSaidWhoseScansAreMeant) {
   }
 }
 
+TEST_F(Bag, TellsRobotsApartThatShareOneTf) {
+  std::vector<MadeMessage> team;
+  for (const std::string robot : {"robot1", "robot2"}) {
+    for (int i = 0; i < 4; ++i) {
+      const double speed_m = robot == "robot1" ? 0.1 : 0.2;
+      team.push_back(test::TransformMessageOf(Ros::k2,
+                                              "/tf",
+                                              At(i),
+                                              robot + "/odom",
+                                              robot + "/base_link",
+                                              Spatial({speed_m * i, 0.0, 0.0})));
+      for (const std::string laser : {"front", "rear"}) {
+        team.push_back(test::ScanMessage(
+            Ros::k2, "/" + robot + "/" + laser + "/scan", At(i), robot + "/" + laser, RangesAt(i)));
+      }
+    }
+    for (const std::string laser : {"front", "rear"}) {
+      team.push_back(test::TransformMessageOf(Ros::k2,
+                                              "/tf_static",
+                                              0s,
+                                              robot + "/base_link",
+                                              robot + "/" + laser,
+                                              Spatial(kMounting)));
+    }
+  }
+  EXPECT_THROW(ReadMcap(team), SeveralRobotsError);
+  LogOptions options;
+  options.robot = "robot2";
+  options.scan_topics = {"/robot2/front/scan"};
+  const LogContent log = ReadMcap(team, "zstd", options);
+  ASSERT_EQ(log.scans.size(), 4U);
+  EXPECT_EQ(log.scans[3].T_odom_robot, (Pose2{0.2 * 3, 0.0, 0.0}));
+}
+
 TEST_F(Bag, TellsWhichMessagesAreNotNeeded) {
   std::vector<MadeMessage> drive = Drive(Ros::k2);
   for (int i = 0; i < 3; ++i) {

@@ -34,6 +34,32 @@ bool IsWithin(const std::string& topic, const std::string& name_space) {
   return topic.starts_with(name_space + "/");
 }
 
+/// The namespace that two have in common: "/robot1" of "/robot1/front" and "/robot1/rear".
+std::string CommonNamespace(const std::string& a, const std::string& b) {
+  std::string common = a;
+  while (!common.empty() && common != b && !IsWithin(b, common)) common = NamespaceOf(common);
+  return common;
+}
+
+/// The namespaces of robots that tell their odometry on a /tf that all share: their lasers are on
+/// frames that move by themselves. None where there is but one such frame.
+std::set<std::string> NamespacesOnSharedTransforms(const BagContents& contents) {
+  const auto shared = contents.transforms.find("");
+  if (shared == contents.transforms.end()) return {};
+  std::map<std::string, std::string> by_robot_frame;
+  for (const auto& [topic, scans] : contents.scans) {
+    const std::optional<std::string> frame = shared->second.RobotFrameOf(scans.frame);
+    if (!frame) continue;
+    const std::string own = NamespaceOf(topic);
+    const auto [known, is_new] = by_robot_frame.try_emplace(*frame, own);
+    if (!is_new) known->second = CommonNamespace(known->second, own);
+  }
+  std::set<std::string> namespaces;
+  for (const auto& [frame, name_space] : by_robot_frame) namespaces.insert(name_space);
+  namespaces.erase("");
+  return by_robot_frame.size() < 2 ? std::set<std::string>{} : namespaces;
+}
+
 class Chooser {
  public:
   Chooser(BagContents& contents, const LogOptions& options, LogReport& report, BagFaults& faults)
@@ -80,7 +106,7 @@ class Chooser {
 
   /// Namespaces that have odometry of their own.
   std::set<std::string> RobotNamespaces() const {
-    std::set<std::string> robots;
+    std::set<std::string> robots = NamespacesOnSharedTransforms(contents_);
     for (const auto& [topic, odometry] : contents_.odometry) robots.insert(NamespaceOf(topic));
     for (const auto& [name_space, tree] : contents_.transforms) {
       if (!name_space.empty()) robots.insert(name_space);
