@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "qwsm/logs/log_reader.hpp"
+#include "service/io/bags/containers/chunk_cache.hpp"
 #include "service/io/bags/containers/chunk_codec.hpp"
 #include "tests/support/bag_maker.hpp"
 #include "tests/support/log_text.hpp"
@@ -364,6 +365,20 @@ TEST_F(Bag, GoesAroundADamagedChunk) {
   bytes[bytes.find("size=", second) + 12] = '\x7F';
   test::WriteBytes(folder_.path() / "t.bag", bytes);
   EXPECT_GE(Read("t.bag").scans.size(), 3U);
+}
+
+TEST(ChunkCache, KeepsFewerOfLargeChunks) {
+  for (const std::size_t size : {std::size_t{1} << 10, std::size_t{40} << 20}) {
+    int loads = 0;
+    ChunkCache cache([&](std::uint64_t offset) {
+      ++loads;
+      return std::string(size, static_cast<char>(offset));
+    });
+    for (const std::uint64_t offset : {1, 2, 1, 2}) {
+      EXPECT_EQ(cache.At(offset).front(), static_cast<char>(offset));
+    }
+    EXPECT_EQ(loads, size < 2000 ? 2 : 4);
+  }
 }
 
 TEST_F(Bag, OfAnOlderFormatIsToldHowToMendIt) {
