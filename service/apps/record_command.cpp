@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -41,6 +42,16 @@ bool IsEnough(const RecordArguments& arguments, std::size_t scans) {
   return arguments.count && scans >= *arguments.count;
 }
 
+/// Records, and tells where what was recorded is if that cannot go on.
+void RecordKeeping(const std::filesystem::path& unfinished, const std::function<void()>& record) {
+  try {
+    record();
+  } catch (const io::WriteError& error) {
+    throw io::WriteError(
+        fmt::format("{}; what was recorded before is in {}", error.what(), unfinished.string()));
+  }
+}
+
 /// Everything that is said, as it is said.
 std::string RecordBag(const RecordArguments& arguments, const dds::Participant& participant) {
   io::BagFile bag(arguments.recording,
@@ -50,18 +61,14 @@ std::string RecordBag(const RecordArguments& arguments, const dds::Participant& 
                                  bag,
                                  {.info = [](const std::string& text) { messages::Info(text); },
                                   .warn = [](const std::string& text) { messages::Warn(text); }});
-  const std::filesystem::path unfinished = bag.KeepUnfinished();
   const pipeline::Interruption interruption;
   messages::Info("recording");
-  try {
+  RecordKeeping(bag.KeepUnfinished(), [&] {
     while (!interruption.requested() && !IsEnough(arguments, recorder.scans())) {
       recorder.Record(100ms);
     }
     bag.Commit();
-  } catch (const io::WriteError& error) {
-    throw io::WriteError(
-        fmt::format("{}; what was recorded before is in {}", error.what(), unfinished.string()));
-  }
+  });
   return fmt::format("{} messages of {} topics, {} of them scans",
                      recorder.messages(),
                      recorder.topics(),
@@ -78,13 +85,15 @@ std::string RecordLog(const RecordArguments& arguments, const dds::Participant& 
   dds::RobotFeed feed(participant, names, refusals);
   const pipeline::Interruption interruption;
   messages::Info("recording {}", names.Topic(dds::kScanTopic));
-  while (!interruption.requested() && !IsEnough(arguments, recorder.scans())) {
-    feed.Deliver(100ms, recorder);
-    recorder.WriteReady();
-    file.ThrowIfFailed();
-  }
-  recorder.Finish();
-  file.Commit();
+  RecordKeeping(file.KeepUnfinished(), [&] {
+    while (!interruption.requested() && !IsEnough(arguments, recorder.scans())) {
+      feed.Deliver(100ms, recorder);
+      recorder.WriteReady();
+      file.ThrowIfFailed();
+    }
+    recorder.Finish();
+    file.Commit();
+  });
   return fmt::format("{} scans", recorder.scans());
 }
 

@@ -54,6 +54,17 @@ TEST_F(AtomicFileTest, LeavesTheOldFileWhenGivenUp) {
   EXPECT_TRUE(FolderHoldsOnly(file_));
 }
 
+TEST_F(AtomicFileTest, LeavesWhatCannotBeHadAgain) {
+  fs::path unfinished;
+  {
+    AtomicFile file(file_);
+    unfinished = file.KeepUnfinished();
+    file.stream() << "as far as it came" << std::flush;
+  }
+  EXPECT_FALSE(fs::exists(file_));
+  EXPECT_EQ(ReadFile(unfinished), "as far as it came");
+}
+
 TEST_F(AtomicFileTest, SaysWhyItCannotBeWritten) {
   const fs::path nowhere = folder_.path() / "none" / "result.txt";
   try {

@@ -36,9 +36,12 @@ class AtomicFile {
   /// @throws WriteError
   void ThrowIfFailed() const;
 
-  /// From now on, what was written stays under its temporary name if there is no commit: for what
-  /// cannot be had again.
-  void KeepUnfinished() { keeps_unfinished_ = true; }
+  /// From now on, what was written stays under its temporary name, which is returned, if there is
+  /// no commit: for what cannot be had again.
+  const std::filesystem::path& KeepUnfinished() {
+    keeps_unfinished_ = true;
+    return temporary_path_;
+  }
 
   /// Puts the file in its place. @throws WriteError if any byte did not get there.
   void Commit();

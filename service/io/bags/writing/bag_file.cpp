@@ -61,11 +61,6 @@ void BagFile::Write(const TopicToWrite& topic, Timestamp stamp, std::string_view
   }
 }
 
-fs::path BagFile::KeepUnfinished() {
-  file_->KeepUnfinished();
-  return file_->temporary_path();
-}
-
 void BagFile::Commit() {
   const std::string name = path_.filename().string();
   std::string metadata;

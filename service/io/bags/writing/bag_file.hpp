@@ -32,7 +32,7 @@ class BagFile {
   void Write(const TopicToWrite& topic, Timestamp stamp, std::string_view cdr);
   /// From now on, what was written stays if the bag is never ended, as when the disk is full: under
   /// the name that is returned, and to be read as any bag that is cut off.
-  std::filesystem::path KeepUnfinished();
+  const std::filesystem::path& KeepUnfinished() { return file_->KeepUnfinished(); }
   /// Throws if a write has failed so far.
   void ThrowIfFailed() const { file_->ThrowIfFailed(); }
   /// Ends the bag and puts it in its place.
