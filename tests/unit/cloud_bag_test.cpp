@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -165,6 +166,14 @@ TEST_F(CloudsOfABag, AreNoneInABagOfOtherThings) {
 
 /// Where in the bytes of a cloud of ROS 2 its `width` stands.
 constexpr std::size_t kWidth = 4 + 8 + 4 + 12 + 4;
+
+TEST_F(CloudsOfABag, OfBillionsOfEmptyRowsTakeNoTime) {
+  MadeMessage cloud = qwsm::test::CloudMessage(Ros::k2, "/points", At(0), "velodyne", {});
+  cloud.bytes.replace(kWidth - 4, 8, "\xFF\xFF\xFF\xFF\0\0\0\0", 8);
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_TRUE(OpenMcap({cloud}).Read(0).points.empty());
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 1s);
+}
 
 TEST_F(CloudsOfABag, ThatAreDamagedAreLeftOutAndTold) {
   std::vector<MadeMessage> drive = Drive(Ros::k2);

@@ -105,6 +105,7 @@ PointCloudMessage DecodePointCloud(std::string_view bytes, Encoding encoding) {
   layout.row_step = message.Unsigned32();
   const std::string_view data = message.Bytes(message.Count(1));
   Check(layout, data.size());
+  if (layout.width == 0) return cloud;  // Of rows without points there may be billions.
   cloud.points_m.reserve(std::size_t{layout.width} * layout.height);
   for (std::uint32_t row = 0; row < layout.height; ++row) {
     const char* point = data.data() + std::size_t{row} * layout.row_step;
