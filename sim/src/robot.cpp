@@ -39,8 +39,12 @@ Robot::Robot(const RobotPlacement& placement, std::uint64_t seed, PhysicsWorld& 
       drive_(options_.drive, options_.mass_kg, world.MomentOfInertiaOf(body_)),
       odometry_(options_.odometry, options_.drive, SeedFor("odometry", seed)),
       gyro_(options_.gyro, SeedFor("gyro", seed)),
-      laser_(options_.laser, SeedFor("laser", seed)),
-      driver_(options_.driver, placement.route, SeedFor("driver", seed)) {}
+      driver_(options_.driver, placement.route, SeedFor("driver", seed)) {
+  Mount(options_.laser, SeedFor("laser", seed));
+  for (const LaserOptions& laser : options_.more_lasers) {
+    Mount(laser, SeedFor("laser " + std::to_string(lasers_.size()), seed));
+  }
+}
 
 void Robot::Drive(PhysicsWorld& world,
                   const Ground& ground,
@@ -60,26 +64,37 @@ void Robot::Advance(const PhysicsWorld& world, std::chrono::nanoseconds step) {
   gyro_.Advance(world.TwistOf(body_).yaw_rate_rad_s, step);
 }
 
-std::optional<Reading> Robot::Scan(const PhysicsWorld& world, qwsm::Timestamp now) {
-  if (laser_.is_scanning()) {
-    laser_.Continue(world, body_, now);
-  } else if (now >= ScanDue()) {
-    ++scans_begun_;
-    reading_.T_odom_robot = odometry_.T_odom_robot();
-    reading_.T_world_robot = world.PoseOf(body_);
-    if (options_.gyro.enabled) reading_.gyro_rad = gyro_.turned_rad();
-    laser_.Begin(world, body_, now);
+void Robot::Scan(const PhysicsWorld& world, qwsm::Timestamp now, std::vector<Reading>& completed) {
+  for (MountedLaser& mounted : lasers_) {
+    if (mounted.laser.is_scanning()) {
+      mounted.laser.Continue(world, body_, now);
+    } else if (mounted.IsDue(now)) {
+      BeginScan(world, now, mounted);
+    }
+    std::optional<qwsm::LaserScan> scan = mounted.laser.Take();
+    if (!scan) continue;
+    completed.push_back(mounted.reading);
+    completed.back().scan = std::move(*scan);
   }
-  std::optional<qwsm::LaserScan> scan = laser_.Take();
-  if (!scan) return std::nullopt;
-  reading_.scan = std::move(*scan);
-  return reading_;
 }
 
-qwsm::Timestamp Robot::ScanDue() const {
-  const std::chrono::duration<double> due(static_cast<double>(scans_begun_) /
-                                          options_.laser.rate_hz);
-  return std::chrono::round<qwsm::Timestamp>(due);
+void Robot::Mount(const LaserOptions& options, std::uint64_t seed) {
+  lasers_.push_back({.options = options, .laser = Laser(options, seed)});
+  lasers_.back().reading.laser = lasers_.size() - 1;
+}
+
+void Robot::BeginScan(const PhysicsWorld& world, qwsm::Timestamp now, MountedLaser& mounted) {
+  ++mounted.scans_begun;
+  mounted.reading.T_odom_robot = odometry_.T_odom_robot();
+  mounted.reading.T_world_robot = world.PoseOf(body_);
+  if (options_.gyro.enabled) mounted.reading.gyro_rad = gyro_.turned_rad();
+  mounted.laser.Begin(world, body_, now);
+}
+
+bool Robot::MountedLaser::IsDue(qwsm::Timestamp now) const {
+  const std::chrono::duration<double> due(options.first_scan_s +
+                                          static_cast<double>(scans_begun) / options.rate_hz);
+  return now >= std::chrono::round<qwsm::Timestamp>(due) && due.count() < options.breaks_at_s;
 }
 
 }  // namespace sim

@@ -53,10 +53,9 @@ std::span<const Reading> Simulation::Step() {
   completed_.clear();
   taken_ = 0;
   for (std::size_t i = 0; i < robots_.size(); ++i) {
-    std::optional<Reading> reading = robots_[i].Scan(world_, now_);
-    if (!reading) continue;
-    reading->robot = i;
-    completed_.push_back(std::move(*reading));
+    const std::size_t before = completed_.size();
+    robots_[i].Scan(world_, now_, completed_);
+    for (std::size_t k = before; k < completed_.size(); ++k) completed_[k].robot = i;
   }
   return completed_;
 }

@@ -5,6 +5,14 @@
 #include "service/io/trajectories/trajectory_file.hpp"
 
 namespace qwsm::pipeline {
+namespace {
+
+/// The names that logs have for lasers.
+std::string LaserName(std::size_t laser) {
+  return laser == 0 ? "front" : laser == 1 ? "rear" : "laser" + std::to_string(laser + 1);
+}
+
+}  // namespace
 
 SimulatedLog::SimulatedLog(const std::filesystem::path& folder,
                            std::size_t robot,
@@ -29,7 +37,7 @@ void SimulatedLog::Take(const sim::Reading& reading) {
   paths_.odometry.push_back({.stamp = stamp, .T_map_robot = T_world_odometry_});
 
   carmen_.Write(io::TruePoseReading{stamp, reading.T_world_robot, reading.T_odom_robot});
-  carmen_.Write(io::ScanReading{reading.scan, reading.T_odom_robot, "front"});
+  carmen_.Write(io::ScanReading{reading.scan, reading.T_odom_robot, LaserName(reading.laser)});
   io::WriteTumLine(truth_.stream(), paths_.truth.back());
   io::WriteTumLine(odometry_.stream(), paths_.odometry.back());
   log_.ThrowIfFailed();

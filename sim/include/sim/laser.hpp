@@ -19,6 +19,8 @@ struct LaserOptions {
   int beams = 181;
   double field_of_view_rad = std::numbers::pi;  ///< Angle from the first beam to the last.
   double rate_hz = 10.0;
+  double first_scan_s = 0.0;  ///< When its first scan begins: lasers need not fire together.
+  double breaks_at_s = 1e6;   ///< It begins no scan from then on.
   /// Time from the first beam to the last; 0 takes all at once, without skew.
   double sweep_s = 0.0;
   double range_min_m = 0.05;
@@ -43,6 +45,11 @@ void Describe(Visitor& visit, LaserOptions& o) {
         o.field_of_view_rad,
         {.help = "angle from the first beam to the last", .min = 0, .max = kTurn_rad});
   visit("rate_hz", o.rate_hz, {.help = "scans in a second", .min = 0.01, .max = 100});
+  visit(
+      "first_scan_s", o.first_scan_s, {.help = "when its first scan begins", .min = 0, .max = 1e6});
+  visit("breaks_at_s",
+        o.breaks_at_s,
+        {.help = "it begins no scan from then on", .min = 0, .max = 1e6});
   visit(
       "sweep_s", o.sweep_s, {.help = "time from the first beam to the last", .min = 0, .max = 10});
   visit("range_min_m", o.range_min_m, {.help = "nearest reading to trust", .min = 0, .max = 100});

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sim/driver.hpp"
 #include "sim/gyro.hpp"
@@ -28,6 +29,7 @@ struct RobotOptions {
   OdometryOptions odometry;
   GyroOptions gyro;
   LaserOptions laser;
+  std::vector<LaserOptions> more_lasers{};  ///< Besides that one.
   DriverOptions driver;
 };
 
@@ -50,11 +52,13 @@ void Describe(Visitor& visit, RobotOptions& o) {
   visit("odometry", o.odometry, {.help = "encoders"});
   visit("gyro", o.gyro, {.help = "yaw rate sensor"});
   visit("laser", o.laser, {.help = "laser scanner"});
+  visit("more_lasers", o.more_lasers, {.help = "others that it has besides, four at most"});
   visit("driver", o.driver, {.help = "who steers it, and where to"});
 }
 
 template <class Report>
 void Validate(const RobotOptions& o, Report& report) {
+  if (o.more_lasers.size() > 4) report("more_lasers", "must be four at most: logs name five");
   if (o.drive.track_m > o.width_m) report("width_m", "must be at least drive.track_m");
   if (o.drive.type == DriveType::kSkidSteer && o.drive.wheelbase_m > o.length_m) {
     report("length_m", "must be at least drive.wheelbase_m");
@@ -64,6 +68,7 @@ void Validate(const RobotOptions& o, Report& report) {
 /// A scan, and what was true and what was believed when its first beam was cast.
 struct Reading {
   std::size_t robot = 0;  ///< Index in the scenario.
+  std::size_t laser = 0;  ///< 0, or that of more_lasers, counted from 1.
   qwsm::LaserScan scan;
   qwsm::Pose2 T_odom_robot;        ///< Pose by the wheels, from where the robot started.
   qwsm::Pose2 T_world_robot;       ///< True pose.
@@ -91,8 +96,8 @@ class Robot {
   /// Reads encoders and gyro, after the step.
   void Advance(const PhysicsWorld& world, std::chrono::nanoseconds step);
 
-  /// Casts the beams that are due by now; the scan is returned once it is complete.
-  std::optional<Reading> Scan(const PhysicsWorld& world, qwsm::Timestamp now);
+  /// Casts the beams that are due by now. @param completed takes the scans that are complete.
+  void Scan(const PhysicsWorld& world, qwsm::Timestamp now, std::vector<Reading>& completed);
 
   Driver& driver() { return driver_; }
   const Driver& driver() const { return driver_; }
@@ -101,17 +106,26 @@ class Robot {
   const qwsm::Pose2& T_odom_robot() const { return odometry_.T_odom_robot(); }
 
  private:
-  qwsm::Timestamp ScanDue() const;
+  /// A laser, and the scan that it takes.
+  struct MountedLaser {
+    LaserOptions options;
+    Laser laser;
+    Reading reading{};
+    std::int64_t scans_begun = 0;
+
+    bool IsDue(qwsm::Timestamp now) const;
+  };
+
+  void Mount(const LaserOptions& options, std::uint64_t seed);
+  void BeginScan(const PhysicsWorld& world, qwsm::Timestamp now, MountedLaser& mounted);
 
   RobotOptions options_;
   BodyId body_;
   WheelDrive drive_;
   WheelOdometry odometry_;
   Gyro gyro_;
-  Laser laser_;
+  std::vector<MountedLaser> lasers_;
   Driver driver_;
-  Reading reading_;  ///< Reading of the scan being taken.
-  std::int64_t scans_begun_ = 0;
 };
 
 }  // namespace sim
