@@ -63,7 +63,8 @@ double TimeOfScan_ms(const Building& building,
   const double before_ms = Now_ms();
   const std::vector<ScanPoint> points = ToPoints(observation.scan);
   const MappingStep step = tracker.Track(map, observation, points);
-  if (step.relevant) map.Insert(step.relevant_scan, ToPoints(step.relevant_scan), step.map_robot);
+  if (step.relevant)
+    map.Insert(step.relevant_scan, ToPoints(step.relevant_scan), step.map_relevant);
   return Now_ms() - before_ms;
 }
 

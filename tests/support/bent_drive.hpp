@@ -39,6 +39,7 @@ inline void Bend(std::vector<MappingStep>& steps, double turn_rad) {
     T_bent = T_bent * moved * Pose2{.theta_rad = turn_rad};
     sigma_rad += turn_rad;
     step.map_robot = UncertainPose2::WithSigmas(T_bent, 10.0 * sigma_rad, sigma_rad);
+    step.map_relevant = step.map_robot;
   }
 }
 

@@ -12,8 +12,12 @@ MappedDrive::MappedDrive(const sim::ScenarioOptions& scenario, const MapperOptio
     if (reading->robot != 0) continue;
     const MappingStep step =
         mapper_.Process({.scan = reading->scan, .T_odom_robot = reading->T_odom_robot});
-    if (poses_.empty()) T_world_map_ = reading->T_world_robot * step.map_robot.T_a_b.Inverse();
-    poses_.push_back({.T_map_true = T_world_map_.Inverse() * reading->T_world_robot,
+    if (step.status == StepStatus::kFirst)
+      T_world_map_ = reading->T_world_robot * step.map_robot.T_a_b.Inverse();
+    const Timestamp stamp = reading->scan.stamp;
+    if (!poses_.empty() && poses_.back().stamp == stamp) poses_.pop_back();
+    poses_.push_back({.stamp = stamp,
+                      .T_map_true = T_world_map_.Inverse() * reading->T_world_robot,
                       .map_robot = step.map_robot});
   }
 }

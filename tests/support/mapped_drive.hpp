@@ -11,11 +11,13 @@ namespace qwsm::test {
 
 /// A pose as found and as it was, both in the frame of the map.
 struct FoundPose {
+  Timestamp stamp{};
   Pose2 T_map_true;
   UncertainPose2 map_robot;
 };
 
-/// The first robot of a scenario, mapped while it drives.
+/// The first robot of a scenario, mapped while it drives. Of several answers for one moment, as two
+/// lasers get, the last counts: it is by all that was seen.
 class MappedDrive {
  public:
   explicit MappedDrive(const sim::ScenarioOptions& scenario, const MapperOptions& options = {});

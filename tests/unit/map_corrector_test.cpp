@@ -108,6 +108,7 @@ TEST(MapCorrector, MendsAStepThatWasAnsweredWrongly) {
   for (std::size_t i = half_way; i < answers.steps.size(); ++i) {
     answers.steps[i].map_robot.T_a_b = T_wrong * answers.steps[i].map_robot.T_a_b;
     answers.steps[i].map_robot.covariance.diagonal() += Eigen::Vector3d(0.1, 0.1, 0.001);
+    answers.steps[i].map_relevant = answers.steps[i].map_robot;
   }
   const Correction correction = Corrected(answers.steps);
   EXPECT_LT(WorstError_m({correction.map_node.back()}, {Relevant(answers).T_map_true.back()}), 0.1);

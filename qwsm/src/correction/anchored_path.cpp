@@ -21,15 +21,17 @@ Pose2 Between(const Pose2& a, const Pose2& b, double share) {
 
 void AnchoredPath::Take(const MappingStep& step, const UncertainPose2& map_last) {
   if (step.relevant) {
-    anchors_.push_back({.stamp = step.stamp, .T_last_this = {}});
+    anchors_.push_back({.stamp = step.relevant_scan.stamp, .T_last_this = {}});
     if (anchors_.size() > 1 && !step.closed_loop) {
-      anchors_.back().T_last_this = map_last.T_a_b.Inverse() * step.map_robot.T_a_b;
+      anchors_.back().T_last_this = map_last.T_a_b.Inverse() * step.map_relevant.T_a_b;
     }
   }
   answers_.push_back({.stamp = step.stamp, .node_robot = step.map_robot, .node = {}});
   if (anchors_.empty()) return;
   answers_.back().node = static_cast<NodeId>(anchors_.size() - 1);
-  answers_.back().node_robot = step.relevant ? UncertainPose2{} : Since(map_last, step.map_robot);
+  const UncertainPose2& map_node = step.relevant ? step.map_relevant : map_last;
+  const bool is_node = step.relevant && step.map_relevant.T_a_b == step.map_robot.T_a_b;
+  answers_.back().node_robot = is_node ? UncertainPose2{} : Since(map_node, step.map_robot);
 }
 
 std::vector<UncertainPose2> AnchoredPath::At(std::span<const UncertainPose2> map_node) const {

@@ -111,19 +111,22 @@ void FreeRangeImage::MarkSeenThrough(std::span<const ScanPoint> points,
 }
 
 void FreeSpace::Add(const LaserScan& scan, const Pose2& T_map_robot) {
-  images_.emplace_back(scan, T_map_robot, options_);
-  if (images_.size() > static_cast<std::size_t>(options_.scans)) images_.pop_front();
+  const Pose2& T_robot_laser = scan.geometry.T_robot_laser;
+  images_.push_back({.T_robot_laser = T_robot_laser, .free = {scan, T_map_robot, options_}});
+  std::ptrdiff_t of_laser = std::ranges::count(images_, T_robot_laser, &Image::T_robot_laser);
+  for (; of_laser > options_.scans; images_.pop_front()) {
+    if (images_.front().T_robot_laser == T_robot_laser) --of_laser;
+  }
 }
 
 void FreeSpace::Move(const Pose2& T_new_old) {
-  for (FreeRangeImage& image : images_) image.Move(T_new_old);
+  for (Image& image : images_) image.free.Move(T_new_old);
 }
 
 std::vector<ScanPoint> FreeSpace::WithoutMoving(std::span<const ScanPoint> points,
                                                 const Pose2& T_map_robot) const {
   std::vector<std::uint8_t> seen_through(points.size());
-  for (const FreeRangeImage& image : images_)
-    image.MarkSeenThrough(points, T_map_robot, seen_through);
+  for (const Image& image : images_) image.free.MarkSeenThrough(points, T_map_robot, seen_through);
   std::vector<ScanPoint> still;
   still.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -20,13 +20,18 @@ std::uint64_t CellOf(const Eigen::Vector2d& p_m, double side_m) {
 
 }  // namespace
 
-void LocalSubmap::Add(const Pose2& T_map_robot, std::span<const ScanPoint> points) {
+void LocalSubmap::Add(const Pose2& T_map_robot,
+                      std::span<const ScanPoint> points,
+                      const Pose2& T_robot_laser) {
   if (points.empty()) return;
-  scans_.push_back({.T_map_robot = T_map_robot, .points = ThinOut(points, options_.spacing_m)});
+  scans_.push_back({.T_map_robot = T_map_robot,
+                    .T_robot_laser = T_robot_laser,
+                    .points = ThinOut(points, options_.spacing_m)});
   points_ += scans_.back().points.size();
-  const auto enough_scans = static_cast<std::size_t>(options_.count);
+  std::ptrdiff_t of_laser = std::ranges::count(scans_, T_robot_laser, &Scan::T_robot_laser);
   const auto enough_points = static_cast<std::size_t>(options_.points);
-  while (scans_.size() > enough_scans && points_ - scans_.front().points.size() >= enough_points) {
+  while (of_laser > options_.count && points_ - scans_.front().points.size() >= enough_points) {
+    if (scans_.front().T_robot_laser == T_robot_laser) --of_laser;
     points_ -= scans_.front().points.size();
     scans_.pop_front();
   }

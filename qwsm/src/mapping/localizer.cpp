@@ -64,7 +64,7 @@ MappingStep Localizer::Found(const Observation& observation, std::span<const Sca
 
 void Localizer::Extend(const MappingStep& step) {
   if (!step.relevant) return;
-  map_.Insert(step.relevant_scan, ToPoints(step.relevant_scan), step.map_robot);
+  map_.Insert(step.relevant_scan, ToPoints(step.relevant_scan), step.map_relevant);
 }
 
 void Localizer::Join(const ScanMap& local) {

@@ -27,7 +27,7 @@ MappingStep Mapper::Process(const Observation& observation) {
   if (step.relevant) {
     // The baselines match with the last relevant scan only.
     if (options().matcher != MatcherKind::kQWsm) map_.ForgetPoints();
-    map_.Insert(step.relevant_scan, ToPoints(step.relevant_scan), step.map_robot);
+    map_.Insert(step.relevant_scan, ToPoints(step.relevant_scan), step.map_relevant);
   }
   return step;
 }

@@ -17,22 +17,28 @@ constexpr double kPriorSamples = 4.0;
 // One jump of the odometry, by more than three sigmas, is not to count for a hundred.
 constexpr double kLargestChi2 = 9.0;
 constexpr double kSurprisingChi2 = 25.0;  // Five sigmas.
-constexpr double kSmallestScale = 0.02;   // Odometry is never believed to the last.
+constexpr double kSmallestShare = 1e-4;   // Of the variance at rest.
 constexpr double kLargestScale = 25.0;
 
 Eigen::Matrix3d Diagonal(const Eigen::Array33d& sigmas) {
   return sigmas.rowwise().sum().square().matrix().asDiagonal();
 }
 
+Pose2 ShareOf(const Pose2& motion, double share) {
+  return {share * motion.x_m, share * motion.y_m, share * motion.theta_rad};
+}
+
 }  // namespace
 
-Eigen::Array33d MotionModel::ModelledSigmas(const Pose2& motion) const {
+Eigen::Array33d MotionModel::ModelledSigmas(const Pose2& motion, double share) const {
+  // Of the same moment as the last scan, the next one still is not taken at quite the same place.
+  const double at_rest = std::sqrt(std::max(share, kSmallestShare));
   const double way_m = motion.translation_m().norm();
   const double turn_rad = std::abs(motion.theta_rad);
-  const Eigen::Array3d of_position(noise_.translation_floor_m,
+  const Eigen::Array3d of_position(at_rest * noise_.translation_floor_m,
                                    noise_.translation_per_translation * way_m,
                                    noise_.translation_per_rotation_m * turn_rad);
-  const Eigen::Array3d of_heading(noise_.rotation_floor_rad,
+  const Eigen::Array3d of_heading(at_rest * noise_.rotation_floor_rad,
                                   noise_.rotation_per_translation_rad * way_m,
                                   noise_.rotation_per_rotation * turn_rad);
   Eigen::Array33d sigmas;
@@ -40,26 +46,39 @@ Eigen::Array33d MotionModel::ModelledSigmas(const Pose2& motion) const {
   return sigmas;
 }
 
-PosePrediction MotionModel::Predict(const std::optional<Pose2>& T_odom_robot) const {
+PosePrediction MotionModel::Predict(const std::optional<Pose2>& T_odom_robot, double share) const {
   if (!T_odom_robot || !T_odom_last_) {
+    const Pose2 motion = ShareOf(T_last_robot_, share);
     const UncertainPose2 as_before{
-        .T_a_b = T_last_robot_,
-        .covariance = Diagonal(noise_.without_odometry * ModelledSigmas(T_last_robot_))};
+        .T_a_b = motion,
+        .covariance = Diagonal(noise_.without_odometry * ModelledSigmas(motion, share))};
     return {.conservative = as_before, .adapted = as_before};
   }
   const Pose2 motion = T_odom_last_->Inverse() * *T_odom_robot;
-  const Eigen::Array33d sigmas = ModelledSigmas(motion);
+  const Eigen::Array33d sigmas = ModelledSigmas(motion, share);
   return {.conservative = {.T_a_b = motion,
                            .covariance = Diagonal(sigmas * adapted_scale_.max(1.0).sqrt())},
-          .adapted = {.T_a_b = motion, .covariance = Diagonal(sigmas * adapted_scale_.sqrt())}};
+          .adapted = AsProved(motion, share)};
+}
+
+UncertainPose2 MotionModel::AsProved(const Pose2& motion, double share) const {
+  return {.T_a_b = motion,
+          .covariance = Diagonal(ModelledSigmas(motion, share) * adapted_scale_.sqrt())};
 }
 
 void MotionModel::Adapt(const UncertainPose2& predicted,
                         const MatchResult& found,
-                        const std::optional<Pose2>& T_odom_robot) {
+                        const std::optional<Pose2>& T_odom_robot,
+                        double share) {
   if (!T_odom_robot || !T_odom_last_) return;
-  const Pose2 motion = T_odom_last_->Inverse() * *T_odom_robot;
-  const Eigen::Array33d sigmas = ModelledSigmas(motion) * adapted_scale_.sqrt();
+  Adapt(predicted, found, T_odom_last_->Inverse() * *T_odom_robot, share);
+}
+
+void MotionModel::Adapt(const UncertainPose2& predicted,
+                        const MatchResult& found,
+                        const Pose2& motion,
+                        double share) {
+  const Eigen::Array33d sigmas = ModelledSigmas(motion, share) * adapted_scale_.sqrt();
   const Eigen::Matrix3d noise = Diagonal(sigmas);
   const Eigen::Array33d shares = sigmas.colwise() / sigmas.rowwise().sum();
 
@@ -101,13 +120,14 @@ void MotionModel::UpdateScale(int axis,
   samples_.row(axis) += sample;
   const Row rate = (samples_.row(axis) + kPriorSamples).inverse().max(kForgettingFactor);
   adapted_scale_.row(axis) *= 1.0 + rate * sample * (std::min(innovation_chi2, kLargestChi2) - 1.0);
-  adapted_scale_.row(axis) = adapted_scale_.row(axis).max(kSmallestScale).min(kLargestScale).eval();
+  adapted_scale_.row(axis) =
+      adapted_scale_.row(axis).max(smallest_scale_).min(kLargestScale).eval();
 }
 
-bool MotionModel::IsSurprising(const std::optional<Pose2>& T_odom_robot) const {
+bool MotionModel::IsSurprising(const std::optional<Pose2>& T_odom_robot, double share) const {
   if (!T_odom_robot || !T_odom_last_) return false;
   const Pose2 told = T_odom_last_->Inverse() * *T_odom_robot;
-  const UncertainPose2 as_before = Predict(std::nullopt).conservative;
+  const UncertainPose2 as_before = Predict(std::nullopt, share).conservative;
   const Eigen::Vector3d apart(told.x_m - as_before.T_a_b.x_m,
                               told.y_m - as_before.T_a_b.y_m,
                               NormalizeAngle(told.theta_rad - as_before.T_a_b.theta_rad));

@@ -76,6 +76,7 @@ RobotTracker::RobotTracker(const MapperOptions& options)
     : options_(options),
       motion_(options.motion),
       locator_(LocatorOptions(options)),
+      lasers_(options.motion),
       loop_detector_(locator_.options()),
       submap_(options.submap),
       seen_free_(options.free_space) {}
@@ -87,9 +88,10 @@ void RobotTracker::PlaceAt(const UncertainPose2& map_robot,
   seen_free_.Clear();
   map_last_ = map_robot;
   local_last_ = map_robot;
-  T_map_remembered_.reset();
+  lasers_.Clear();
   has_initial_pose_ = true;
   stands_at_initial_pose_ = !T_odom_robot;
+  held_.reset();
 }
 
 void RobotTracker::FollowCorrection(const UncertainPose2& map_robot) {
@@ -97,7 +99,9 @@ void RobotTracker::FollowCorrection(const UncertainPose2& map_robot) {
   const UncertainPose2 new_old{.T_a_b = T_new_old};
   map_last_ = map_robot;
   local_last_ = new_old * local_last_;
-  if (T_map_remembered_) T_map_remembered_ = T_new_old * *T_map_remembered_;
+  lasers_.Move(T_new_old);
+  if (held_) held_->map_robot = new_old * held_->map_robot;
+  if (held_) held_->local = new_old * held_->local;
   submap_.Move(T_new_old);
   seen_free_.Move(T_new_old);
 }
@@ -114,17 +118,12 @@ MappingStep RobotTracker::Track(const ScanMap& map,
   // A scan whose pose is dead-reckoned extends the map like any other once the robot has moved on:
   // beyond the surfaces mapped so far no scan can be matched, and the map would end there for good.
   // The covariance of the pose goes with its points.
-  const bool has_moved_on = HasMovedOn(points, step);
-  step.relevant = has_moved_on && (options_.extend_map || step.status == StepStatus::kFirst);
-  if (step.relevant) {
-    CloseLoop(map, points, step);
-    step.relevant_scan = seen_free_.WithoutMoving(observation.scan, points, step.map_robot.T_a_b);
-  }
-  if (has_moved_on) {
-    seen_free_.Add(observation.scan, step.map_robot.T_a_b);
-    T_map_remembered_ = step.map_robot.T_a_b;
-  }
-  Remember(observation, step);
+  const bool has_moved_on = HasMovedOn(observation.scan, points, step);
+  const bool extends = has_moved_on && (options_.extend_map || step.status == StepStatus::kFirst);
+  if (extends) CloseLoop(map, observation.scan, points, step);
+  Remember(observation, step, has_moved_on);
+  Extend(extends, observation, points, step);
+  if (has_moved_on) seen_free_.Add(observation.scan, step.map_robot.T_a_b);
   return step;
 }
 
@@ -145,14 +144,16 @@ void RobotTracker::Locate(const ScanMap& map,
                           const Observation& observation,
                           std::span<const ScanPoint> points,
                           MappingStep& step) {
+  const double share = lasers_.ShareOfPeriod(observation.scan);
   PosePrediction last_robot =
-      stands_at_initial_pose_ ? Unmoved() : motion_.Predict(observation.T_odom_robot);
+      stands_at_initial_pose_ ? Unmoved() : motion_.Predict(observation.T_odom_robot, share);
   // No robot drives out of all maps: its odometry has failed.
   if (!IsPosition((map_last_ * last_robot.conservative).T_a_b)) last_robot = Unmoved();
-  step.match = locator_.Locate(map, points, local_last_ * last_robot.conservative, seen_free_);
-  const bool is_surprising = motion_.IsSurprising(observation.T_odom_robot);
+  const UncertainPose2 predicted = local_last_ * last_robot.conservative;
+  step.match = LocateNear(map, observation, points, predicted);
+  const bool is_surprising = motion_.IsSurprising(observation.T_odom_robot, share);
   if (is_odometry_suspect_ || is_surprising) {
-    const PosePrediction without_odometry = motion_.Predict(std::nullopt);
+    const PosePrediction without_odometry = motion_.Predict(std::nullopt, share);
     const MatchResult other =
         locator_.Locate(map, points, local_last_ * without_odometry.conservative, seen_free_);
     if (is_odometry_suspect_ ? other.overlap >= step.match.overlap
@@ -167,8 +168,22 @@ void RobotTracker::Locate(const ScanMap& map,
   const UncertainPose2 last_in_map{.T_a_b = map_last_.T_a_b};
   Judge(map, points, (last_in_map * last_robot.conservative).covariance, step);
   if (step.status == StepStatus::kMatched) {
-    motion_.Adapt(local_last_ * last_robot.adapted, step.match, observation.T_odom_robot);
+    motion_.Adapt(local_last_ * last_robot.adapted, step.match, observation.T_odom_robot, share);
   }
+}
+
+// Near where the robot is by odometry and by what its other lasers have just told; by odometry
+// alone where that explains much more of the scan.
+MatchResult RobotTracker::LocateNear(const ScanMap& map,
+                                     const Observation& observation,
+                                     std::span<const ScanPoint> points,
+                                     const UncertainPose2& predicted) const {
+  const std::optional<UncertainPose2> told = lasers_.ToldByOthers(observation);
+  if (!told) return locator_.Locate(map, points, predicted, seen_free_);
+  const MatchResult match = locator_.Locate(map, points, Fused(predicted, *told), seen_free_);
+  if (match.overlap >= locator_.options().confident_overlap) return match;
+  const MatchResult alone = locator_.Locate(map, points, predicted, seen_free_);
+  return alone.overlap > match.overlap + locator_.options().widen_gain ? alone : match;
 }
 
 // The verdicts of Visser et al. (2009, section 4): a good correspondence is the pose, a bad one
@@ -209,19 +224,23 @@ StepStatus RobotTracker::StatusOf(const MatchResult& match) const {
                                                          : StepStatus::kMatched;
 }
 
-// Whether the scan is relevant by the thresholds of Visser et al. (2009, section 3).
-bool RobotTracker::HasMovedOn(std::span<const ScanPoint> points, const MappingStep& step) const {
+// Whether the scan is relevant by the thresholds of Visser et al. (2009, section 3), for its laser.
+bool RobotTracker::HasMovedOn(const LaserScan& scan,
+                              std::span<const ScanPoint> points,
+                              const MappingStep& step) const {
   if (step.status == StepStatus::kFirst) return !points.empty();
-  if (!T_map_remembered_) return true;
-  const Pose2 moved = T_map_remembered_->Inverse() * step.map_robot.T_a_b;
+  const std::optional<Pose2> T_map_before = lasers_.LastFarPoseOf(scan);
+  if (!T_map_before) return true;
+  const Pose2 moved = T_map_before->Inverse() * step.map_robot.T_a_b;
   return moved.translation_m().norm() > options_.relevant_translation_m ||
          std::abs(moved.theta_rad) > options_.relevant_rotation_rad;
 }
 
 void RobotTracker::CloseLoop(const ScanMap& map,
+                             const LaserScan& scan,
                              std::span<const ScanPoint> points,
                              MappingStep& step) {
-  submap_.Add(step.map_robot.T_a_b, points);
+  submap_.Add(step.map_robot.T_a_b, points, scan.geometry.T_robot_laser);
   if (options_.matcher != MatcherKind::kQWsm) return;
   const auto closed = loop_detector_.Detect(
       map, points, submap_.PointsAround(step.map_robot.T_a_b), step.map_robot);
@@ -237,13 +256,48 @@ void RobotTracker::CloseLoop(const ScanMap& map,
   seen_free_.Clear();
 }
 
-void RobotTracker::Remember(const Observation& observation, const MappingStep& step) {
+// What extends the map is what was seen, from where it was seen. Of a robot with several lasers the
+// next scan tells more of where that was, so that each waits for the next one.
+void RobotTracker::Extend(bool extends,
+                          const Observation& observation,
+                          std::span<const ScanPoint> points,
+                          MappingStep& step) {
+  std::optional<HeldScan> held = std::exchange(held_, std::nullopt);
+  if (step.closed_loop) held.reset();  // It was seen from a pose that has just been corrected.
+  if (held) held->map_robot.T_a_b = lasers_.WithHindsight(held->local, held->observation).T_a_b;
+  if (extends) {
+    held_ = {.observation = {.scan = seen_free_.WithoutMoving(
+                                 observation.scan, points, step.map_robot.T_a_b),
+                             .T_odom_robot = observation.T_odom_robot},
+             .map_robot = step.map_robot,
+             .local = {.T_a_b = step.map_robot.T_a_b, .covariance = step.local_covariance}};
+    const bool waits = held || (lasers_.take_turns() && !step.closed_loop);
+    if (!waits) held = std::exchange(held_, std::nullopt);
+  }
+  if (!held) return;
+  step.relevant = true;
+  step.relevant_scan = std::move(held->observation.scan);
+  step.T_odom_relevant = held->observation.T_odom_robot;
+  step.map_relevant = held->map_robot;
+}
+
+void RobotTracker::Remember(const Observation& observation,
+                            const MappingStep& step,
+                            bool has_moved_on) {
   const bool is_first = step.status == StepStatus::kFirst;
-  motion_.Remember(is_first ? Pose2{} : map_last_.T_a_b.Inverse() * step.map_robot.T_a_b,
-                   observation.T_odom_robot);
+  const std::optional<Pose2> T_map_before =
+      lasers_.empty() ? map_last_.T_a_b : lasers_.LastPoseOf(observation.scan);
+  if (is_first) {
+    motion_.Remember({}, observation.T_odom_robot);
+  } else if (T_map_before) {
+    motion_.Remember(T_map_before->Inverse() * step.map_robot.T_a_b, observation.T_odom_robot);
+  } else {
+    motion_.RememberOdometry(observation.T_odom_robot);
+  }
+  lasers_.Note(observation, step, has_moved_on);
   map_last_ = step.map_robot;
   local_last_ = {.T_a_b = step.map_robot.T_a_b, .covariance = step.local_covariance};
-  has_initial_pose_ = has_initial_pose_ && is_first && !step.relevant;
+  has_initial_pose_ = has_initial_pose_ && is_first && !has_moved_on;
   stands_at_initial_pose_ = has_initial_pose_;
   is_odometry_suspect_ = false;
 }

@@ -191,7 +191,9 @@ MatchResult WeightedScanMatcher::Match(const SurfaceMap& reference,
                                        std::span<const ScanPoint> points,
                                        const MatchPrior& prior,
                                        MatchTrace* trace) const {
-  MatchResult result{.status = MatchStatus::kIterationLimit, .T_ref_cur = prior.start};
+  MatchResult result{.status = MatchStatus::kIterationLimit,
+                     .T_ref_cur = prior.start,
+                     .predicted = prior.predicted};
   Pairing pairing(reference, points, prior.max_drift_m2, options_);
   AnnealedError start_error{prior.start_error};
   Linearization linear;

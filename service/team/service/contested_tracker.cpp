@@ -67,28 +67,30 @@ ContestedTracker::Tracked ContestedTracker::Track(const ScanMap& map,
                                                   std::span<const ScanPoint> points,
                                                   const std::optional<Pose2>& claimed) {
   Tracked tracked;
-  const bool is_new = Contest(claimed);
+  const bool is_new = Contest(claimed, observation.scan.geometry.T_robot_laser);
   tracked.step = tracker_.Track(map, observation, points);
   const Verdict verdict =
       trial_ ? Hear(map, observation, points, tracked.step) : Verdict::kRivalFails;
   const bool is_place_open = trial_ && !claimed_ && verdict == Verdict::kOpen;
   if (is_place_open) tracked.step.relevant = false;
   if (trial_ && verdict != Verdict::kOpen) {
-    tracked.news = Settle(observation, verdict == Verdict::kRivalTakesOver, tracked);
+    tracked.news = Settle(verdict == Verdict::kRivalTakesOver, tracked);
   } else if (!is_place_open) {
     // Whoever claims things of the laser does not keep the map from growing.
-    AddRelevant(tracked.step, observation, tracked.relevant);
+    AddRelevant(tracked.step, tracked.relevant);
   }
   explained_share_ = ExplainedShare(tracked.step);
   if (is_new && tracked.news == News::kNone) tracked.news = News::kMountingContested;
   return tracked;
 }
 
-/// Whether a claim about the laser begins a trial. One about the robot comes first.
-bool ContestedTracker::Contest(const std::optional<Pose2>& claimed) {
-  if (trial_ && !claimed_) return false;
+/// Whether a claim about the laser begins a trial. One about the robot comes first, and so does one
+/// about another laser.
+bool ContestedTracker::Contest(const std::optional<Pose2>& claimed, const Pose2& T_robot_laser) {
+  if (trial_ && !(claimed_ && T_robot_laser == T_robot_laser_)) return false;
   if (claimed == claimed_ || explained_share_ == 0.0) return false;
   claimed_ = claimed;
+  T_robot_laser_ = T_robot_laser;
   trial_.reset();
   if (claimed) trial_.emplace(tracker_, explained_share_);
   return claimed.has_value();
@@ -98,29 +100,27 @@ TrackingTrial::Verdict ContestedTracker::Hear(const ScanMap& map,
                                               const Observation& observation,
                                               std::span<const ScanPoint> points,
                                               const MappingStep& step) {
-  if (!claimed_) return trial_->Hear(map, {observation, points}, observation, step);
+  const bool is_contested = claimed_ && observation.scan.geometry.T_robot_laser == T_robot_laser_;
+  if (!is_contested) return trial_->Hear(map, {observation, points}, step);
   Observation as_claimed = observation;
   as_claimed.scan.geometry.T_robot_laser = *claimed_;
-  return trial_->Hear(map, {as_claimed, ToPoints(as_claimed.scan)}, observation, step);
+  return trial_->Hear(map, {as_claimed, ToPoints(as_claimed.scan)}, step);
 }
 
-ContestedTracker::News ContestedTracker::Settle(const Observation& observation,
-                                                bool is_rival_right,
-                                                Tracked& tracked) {
+ContestedTracker::News ContestedTracker::Settle(bool is_rival_right, Tracked& tracked) {
   if (is_rival_right) {
     tracked.step = trial_->rival_step();
     tracked.relevant = trial_->held_by_rival();
     tracker_ = trial_->rival();
   } else if (claimed_) {
-    AddRelevant(tracked.step, observation, tracked.relevant);
+    AddRelevant(tracked.step, tracked.relevant);
   } else {
     tracked.relevant = trial_->held();
   }
   trial_.reset();
   if (!claimed_) return is_rival_right ? News::kPlaceContradicted : News::kNone;
-  settled_.push_back({.T_robot_laser = observation.scan.geometry.T_robot_laser,
-                      .claimed = *claimed_,
-                      .is_believed = is_rival_right});
+  settled_.push_back(
+      {.T_robot_laser = T_robot_laser_, .claimed = *claimed_, .is_believed = is_rival_right});
   claimed_.reset();
   return is_rival_right ? News::kMountingChanged : News::kMountingRefuted;
 }

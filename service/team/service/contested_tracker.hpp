@@ -64,18 +64,19 @@ class ContestedTracker {
     bool is_believed = false;
   };
 
-  bool Contest(const std::optional<Pose2>& claimed);
+  bool Contest(const std::optional<Pose2>& claimed, const Pose2& T_robot_laser);
   TrackingTrial::Verdict Hear(const ScanMap& map,
                               const Observation& observation,
                               std::span<const ScanPoint> points,
                               const MappingStep& step);
-  News Settle(const Observation& observation, bool is_rival_right, Tracked& tracked);
+  News Settle(bool is_rival_right, Tracked& tracked);
 
   RobotTracker tracker_;
   double explained_share_ = 0.0;  // Share of the last scan that the map explains.
   std::optional<TrackingTrial> trial_;
   // The laser's place that the trial is about; nothing where it is about the robot's.
   std::optional<Pose2> claimed_;
+  Pose2 T_robot_laser_;  // Of the laser that is claimed to sit there.
   std::vector<Mounting> settled_;
 };
 

@@ -17,14 +17,12 @@ constexpr std::size_t kUndecidedScans = 10;
 
 }  // namespace
 
-void AddRelevant(const MappingStep& step,
-                 const Observation& observation,
-                 std::vector<TeamScan>& scans) {
+void AddRelevant(const MappingStep& step, std::vector<TeamScan>& scans) {
   if (!step.relevant) return;
   TeamScan& scan = scans.emplace_back();
   scan.scan = step.relevant_scan;
-  scan.map_robot = step.map_robot;
-  scan.T_odom_robot = observation.T_odom_robot;
+  scan.map_robot = step.map_relevant;
+  scan.T_odom_robot = step.T_odom_relevant;
 }
 
 double ExplainedShare(const MappingStep& step) {
@@ -48,11 +46,10 @@ void TrackingTrial::FollowCorrection(const Pose2& T_new_old) {
 
 TrackingTrial::Verdict TrackingTrial::Hear(const ScanMap& map,
                                            const Account& of_rival,
-                                           const Observation& observation,
                                            const MappingStep& step) {
   rival_step_ = rival_.Track(map, of_rival.observation, of_rival.points);
-  AddRelevant(step, observation, held_);
-  AddRelevant(rival_step_, of_rival.observation, held_by_rival_);
+  AddRelevant(step, held_);
+  AddRelevant(rival_step_, held_by_rival_);
   evidence_points_ += EvidenceOf(of_rival.points.size(), step);
   const double whole_scan = rival_.options().locator.search.independent_points;
   if (evidence_points_ > whole_scan) return Verdict::kRivalTakesOver;

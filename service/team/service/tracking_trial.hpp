@@ -43,10 +43,7 @@ class TrackingTrial {
   /// Weighs the next scan.
   /// @param of_rival the scan as the rival sees it.
   /// @param step what the other tracker made of it.
-  Verdict Hear(const ScanMap& map,
-               const Account& of_rival,
-               const Observation& observation,
-               const MappingStep& step);
+  Verdict Hear(const ScanMap& map, const Account& of_rival, const MappingStep& step);
 
   const RobotTracker& rival() const { return rival_; }
   /// What the rival made of the last scan.
@@ -70,10 +67,8 @@ class TrackingTrial {
   std::vector<TeamScan> held_by_rival_;
 };
 
-/// Adds the scan of a step if it is relevant, without a key.
-void AddRelevant(const MappingStep& step,
-                 const Observation& observation,
-                 std::vector<TeamScan>& scans);
+/// Adds the scan that a step has found relevant, without a key.
+void AddRelevant(const MappingStep& step, std::vector<TeamScan>& scans);
 
 /// Share of the scan that the map explains; 0 where there is no match.
 double ExplainedShare(const MappingStep& step);

@@ -27,7 +27,7 @@ template <class Visitor>
 void Describe(Visitor& visit, FreeSpaceOptions& o) {
   visit("scans",
         o.scans,
-        {.help = "what ends where one of so many last scans saw through has moved there",
+        {.help = "what ends where one of a laser's so many last scans saw through has moved there",
          .min = 0,
          .max = 1000});
   visit("margin_m",
@@ -69,9 +69,9 @@ class FreeRangeImage {
   std::array<float, kDirections> free_m2_{};  // Squared, by direction in the laser's frame.
 };
 
-/// The free space that the last few relevant scans of a robot saw. Points of a new scan that end
-/// there are of somebody who walked there, or another robot; in the map they would be paired with
-/// where he was a moment ago and drag the pose along.
+/// The free space that the last few relevant scans of a laser saw, and other lasers meanwhile.
+/// Points of a new scan that end there are of somebody who walked there, or another robot; in the
+/// map they would be paired with where he was a moment ago and drag the pose along.
 class FreeSpace {
  public:
   explicit FreeSpace(const FreeSpaceOptions& options = {}) : options_(options) {}
@@ -90,8 +90,13 @@ class FreeSpace {
                           const Pose2& T_map_robot) const;
 
  private:
+  struct Image {
+    Pose2 T_robot_laser;  // Tells lasers apart.
+    FreeRangeImage free;
+  };
+
   FreeSpaceOptions options_;
-  std::deque<FreeRangeImage> images_;  // The latest last.
+  std::deque<Image> images_;  // The latest last.
 };
 
 }  // namespace qwsm

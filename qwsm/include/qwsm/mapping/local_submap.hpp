@@ -21,7 +21,9 @@ struct LocalSubmapOptions {
 
 template <class Visitor>
 void Describe(Visitor& visit, LocalSubmapOptions& o) {
-  visit("count", o.count, {.help = "relevant scans that make up the submap", .min = 1, .max = 100});
+  visit("count",
+        o.count,
+        {.help = "relevant scans of a laser that make up the submap", .min = 1, .max = 100});
   visit("points",
         o.points,
         {.help = "more scans than these, where they show less than so many points",
@@ -32,13 +34,17 @@ void Describe(Visitor& visit, LocalSubmapOptions& o) {
         {.help = "one point per cell of this size", .min = 0.01, .max = 10});
 }
 
-/// The local submap: the last few relevant scans together. One scan in a corridor resembles many
-/// places, the last ten metres do not. Where little is in view, more scans are kept.
+/// The local submap: the last few relevant scans of a laser, and what others saw meanwhile. One
+/// scan in a corridor resembles many places, the last ten metres do not. Where little is in view,
+/// more scans are kept.
 class LocalSubmap {
  public:
   explicit LocalSubmap(const LocalSubmapOptions& options = {}) : options_(options) {}
 
-  void Add(const Pose2& T_map_robot, std::span<const ScanPoint> points);
+  /// @param T_robot_laser tells lasers apart.
+  void Add(const Pose2& T_map_robot,
+           std::span<const ScanPoint> points,
+           const Pose2& T_robot_laser = {});
   void Clear();
   /// Follows a map that was moved here. @param T_new_old the old map's frame in the new one.
   void Move(const Pose2& T_new_old);
@@ -49,6 +55,7 @@ class LocalSubmap {
  private:
   struct Scan {
     Pose2 T_map_robot;
+    Pose2 T_robot_laser;
     std::vector<ScanPoint> points;  // Thinned.
   };
 

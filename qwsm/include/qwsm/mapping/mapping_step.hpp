@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include "qwsm/geometry/pose2.hpp"
@@ -34,9 +35,12 @@ struct MappingStep {
   MatchResult match{};        ///< The match that gave the pose, or the bad one that did not.
   bool closed_loop = false;   ///< The pose does not continue the one before.
   int epoch = 0;              ///< How often the map was corrected before this scan.
-  bool relevant = false;      ///< Whether the map is to be extended with this scan.
-  /// The scan without the beams that ended on what moves; empty unless it is relevant.
+  bool relevant = false;      ///< Whether the map is to be extended with `relevant_scan`.
+  /// The scan without the beams that ended on what moves; empty unless it is relevant. Of a robot
+  /// with several lasers the scan before this one, of which this one has told more.
   LaserScan relevant_scan{};
+  UncertainPose2 map_relevant{};           ///< Where the relevant scan was taken.
+  std::optional<Pose2> T_odom_relevant{};  ///< Odometry at its stamp.
 };
 
 }  // namespace qwsm

@@ -52,16 +52,26 @@ void Describe(Visitor& visit, MotionNoise& o) {
 /// Predicts how the robot moved since the last scan: by odometry, or as it moved before.
 class MotionModel {
  public:
-  explicit MotionModel(const MotionNoise& noise = {}) : noise_(noise) {}
+  /// @param smallest_scale of the modelled variances: odometry is never believed to the last.
+  explicit MotionModel(const MotionNoise& noise = {}, double smallest_scale = 0.02)
+      : noise_(noise), smallest_scale_(smallest_scale) {}
 
   /// Predicts the pose of the robot now in its own last frame.
-  PosePrediction Predict(const std::optional<Pose2>& T_odom_robot) const;
+  /// @param share of the time between two scans of a laser that has passed since the last scan of
+  ///   any: less than 1 where several take turns, and errors at rest grow by that share only.
+  PosePrediction Predict(const std::optional<Pose2>& T_odom_robot, double share = 1.0) const;
+
+  /// A motion that odometry reads, as uncertain as it has proved to be so far.
+  UncertainPose2 AsProved(const Pose2& motion, double share) const;
 
   /// Whether odometry tells of a motion that nobody expects who only knows the one before.
-  bool IsSurprising(const std::optional<Pose2>& T_odom_robot) const;
+  bool IsSurprising(const std::optional<Pose2>& T_odom_robot, double share = 1.0) const;
 
-  /// Remembers how the robot really moved, and with which odometry reading.
+  /// Remembers how the robot really moved between two scans of a laser, and the odometry reading of
+  /// the last scan.
   void Remember(const Pose2& T_last_robot, const std::optional<Pose2>& T_odom_robot);
+  /// Remembers the odometry reading only.
+  void RememberOdometry(const std::optional<Pose2>& T_odom_robot) { T_odom_last_ = T_odom_robot; }
 
   /// Adapts the noise to where the robot was found, having been expected at `predicted`. Each part
   /// is scaled as odometry proves better or worse than modelled, by the innovations (Mehra 1970),
@@ -70,16 +80,23 @@ class MotionModel {
   /// @param predicted with the adapted covariance; in the frame of the match.
   void Adapt(const UncertainPose2& predicted,
              const MatchResult& found,
-             const std::optional<Pose2>& T_odom_robot);
+             const std::optional<Pose2>& T_odom_robot,
+             double share = 1.0);
+  /// The same for a motion that odometry read.
+  void Adapt(const UncertainPose2& predicted,
+             const MatchResult& found,
+             const Pose2& motion,
+             double share);
 
  private:
   // Rows: along x, along y, heading. Columns: at rest, per way, per turn.
-  Eigen::Array33d ModelledSigmas(const Pose2& motion) const;
+  Eigen::Array33d ModelledSigmas(const Pose2& motion, double share) const;
   void UpdateScale(int axis, const Eigen::Array33d& shares, double innovation_chi2, double weight);
 
   MotionNoise noise_;
+  double smallest_scale_;
   std::optional<Pose2> T_odom_last_;
-  Pose2 T_last_robot_;  // The last motion, for when there is no odometry.
+  Pose2 T_last_robot_;  // The last motion between two scans, for when there is no odometry.
   Eigen::Array33d adapted_scale_ = Eigen::Array33d::Ones();  // Of the modelled variances.
   Eigen::Array33d samples_ = Eigen::Array33d::Zero();        // Innovations that each scale is from.
 };

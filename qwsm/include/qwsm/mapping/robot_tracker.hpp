@@ -6,6 +6,7 @@
 #include <span>
 
 #include "qwsm/mapping/free_space.hpp"
+#include "qwsm/mapping/laser_turns.hpp"
 #include "qwsm/mapping/local_submap.hpp"
 #include "qwsm/mapping/loop_detector.hpp"
 #include "qwsm/mapping/mapper_options.hpp"
@@ -20,6 +21,9 @@ namespace qwsm {
 /// Follows one robot through a map that it does not own: several robots may share it, each with a
 /// tracker of its own. The map is only read, so that trackers may work in parallel; to extend it
 /// with the relevant scans is the caller's business. Deterministic; reads no clock.
+///
+/// Of a robot with several lasers, each scan is one more look at where it is, from where its laser
+/// sits and at its own time; each laser extends the map with what it sees.
 class RobotTracker {
  public:
   explicit RobotTracker(const MapperOptions& options = {});
@@ -55,26 +59,46 @@ class RobotTracker {
               const Observation& observation,
               std::span<const ScanPoint> points,
               MappingStep& step);
+  MatchResult LocateNear(const ScanMap& map,
+                         const Observation& observation,
+                         std::span<const ScanPoint> points,
+                         const UncertainPose2& predicted) const;
   void Judge(const ScanMap& map,
              std::span<const ScanPoint> points,
              const Eigen::Matrix3d& motion_covariance,
              MappingStep& step) const;
   StepStatus StatusOf(const MatchResult& match) const;
-  bool HasMovedOn(std::span<const ScanPoint> points, const MappingStep& step) const;
-  void CloseLoop(const ScanMap& map, std::span<const ScanPoint> points, MappingStep& step);
-  void Remember(const Observation& observation, const MappingStep& step);
+  bool HasMovedOn(const LaserScan& scan,
+                  std::span<const ScanPoint> points,
+                  const MappingStep& step) const;
+  void CloseLoop(const ScanMap& map,
+                 const LaserScan& scan,
+                 std::span<const ScanPoint> points,
+                 MappingStep& step);
+  void Remember(const Observation& observation, const MappingStep& step, bool has_moved_on);
+  void Extend(bool extends,
+              const Observation& observation,
+              std::span<const ScanPoint> points,
+              MappingStep& step);
+
+  // A relevant scan that the next one will tell more about.
+  struct HeldScan {
+    Observation observation;
+    UncertainPose2 map_robot;
+    UncertainPose2 local;  // The same, as uncertain as relative to the map around.
+  };
 
   MapperOptions options_;
   MotionModel motion_;
   ScanLocator locator_;
+  LaserTurns lasers_;
   LoopDetector loop_detector_;
   LocalSubmap submap_;
   FreeSpace seen_free_;
   UncertainPose2 map_last_;    // Pose at the last scan, or as given since.
   UncertainPose2 local_last_;  // The same, as uncertain as relative to the map around.
-  std::optional<Pose2>
-      T_map_remembered_;           // Pose at the last scan that was far enough from the one before.
-  bool has_initial_pose_ = false;  // The last pose was given, not found.
+  std::optional<HeldScan> held_;
+  bool has_initial_pose_ = false;        // The last pose was given, not found.
   bool stands_at_initial_pose_ = false;  // And the next scan is taken there.
   bool is_odometry_suspect_ = false;     // It may have begun anew since the last scan.
 };

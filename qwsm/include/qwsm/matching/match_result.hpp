@@ -30,6 +30,8 @@ std::string_view Name(MatchStatus status);
 struct [[nodiscard]] MatchResult {
   MatchStatus status = MatchStatus::kTooFewPairs;
   Pose2 T_ref_cur;
+  /// The prediction that the answer was fused with.
+  UncertainPose2 predicted{};
   /// Covariance of (x, y, theta) in the answer, prior included. Pairs count by the error model
   /// times `reduced_chi2`, and `correlated_points` of them as one.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
