@@ -57,7 +57,7 @@ CLI::Option* AddBagSetting(CLI::App& parser,
 
 void AddTopics(CLI::App& parser, config::OptionSources& sources) {
   AddBagSetting(
-      parser, sources, "--scan", "log.scan", "topics of scans, with commas; else one laser's");
+      parser, sources, "--scan", "log.scan", "topics of scans, with commas; else all lasers'");
   AddBagSetting(
       parser, sources, "--odom", "log.odometry", "topic of odometry, or /tf; else chosen");
 }

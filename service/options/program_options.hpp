@@ -46,7 +46,7 @@ void Describe(Visitor& visit, LogOptions& o) {
         {.help = "of a bag: time from first to last beam, as the robot moves; -1: as messages say",
          .min = -1,
          .max = 1});
-  visit("scan", o.scan, {.help = "of a bag: topics of scans, with commas; empty: one laser's"});
+  visit("scan", o.scan, {.help = "of a bag: topics of scans, with commas; empty: all lasers'"});
   visit(
       "odometry", o.odometry, {.help = "of a bag: topic of odometry, or /tf; empty: the robot's"});
   visit("robot", o.robot, {.help = "of a bag of several robots: the namespace of one"});

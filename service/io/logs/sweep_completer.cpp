@@ -32,6 +32,7 @@ void SweepCompleter::Observe(const Sweep& sweep, const std::optional<Pose2>& T_o
   Laser& laser = found->second;
   ++laser.sweeps[sweep.message];
   ++laser.observed;
+  laser.mounting_known = laser.mounting_known || sweep.mounting_known;
   const std::optional<Pose2>& T_sweep = sweep.reading.T_odom_robot;
   laser.range_maximum.Add(sweep.reading.scan.ranges_m, T_sweep ? T_sweep : T_odom_robot);
   const bool open = !decided_ && !sweep.mounting_known;
@@ -63,7 +64,10 @@ void SweepCompleter::Decide() {
 }
 
 bool SweepCompleter::IsWanted(const std::string& name, const Laser& laser) const {
-  if (options_.laser.empty()) return name == front_;
+  // Of others it has to be known where they sit; one of another robot is not of this one.
+  const bool is_placed = laser.mounting_known || laser.T_robot_laser;
+  const bool is_of_robot = name.find('@') == std::string::npos;
+  if (options_.laser.empty()) return name == front_ || (is_placed && is_of_robot);
   return options_.laser == "all" || options_.laser == name || laser.sweeps.contains(options_.laser);
 }
 

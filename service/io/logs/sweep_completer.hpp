@@ -40,6 +40,7 @@ class SweepCompleter {
     std::map<std::string_view, std::size_t> sweeps;  // Number of sweeps, by message.
     RangeMaximumEstimator range_maximum;
     MountingEstimator mounting;
+    bool mounting_known = false;  // The log says where it sits.
     bool decided = false;
     std::string_view message;  // The message that is delivered, if any.
     float range_max_m = 0.0F;

@@ -70,11 +70,7 @@ class Chooser {
     RobotChoice choice;
     if (topics.empty()) return choice;
     const std::string robot_frame = ChooseOdometry(topics.front(), choice.odometry);
-    for (const std::string& topic : topics) {
-      choice.lasers.push_back(Mount(topic, robot_frame));
-      choice.lasers.back().name =
-          topics.size() == 1 ? "front" : "laser" + std::to_string(choice.lasers.size());
-    }
+    choice.lasers = MountAll(topics, robot_frame);
     for (auto& [topic, track] : contents_.truth) {
       if (RobotOf(topic) == robot_) choice.truth = std::move(track);
     }
@@ -144,7 +140,7 @@ class Chooser {
       robot_ = by_robot.begin()->first;
     }
     topics = by_robot[robot_];
-    return options_.scan_topics.empty() ? OneLaser(topics) : topics;
+    return options_.scan_topics.empty() ? OneTopicPerLaser(topics) : topics;
   }
 
   std::vector<std::string> WantedScans() const {
@@ -160,7 +156,7 @@ class Chooser {
     return topics;
   }
 
-  std::vector<std::string> OneLaser(const std::vector<std::string>& topics) {
+  std::vector<std::string> OneTopicPerLaser(const std::vector<std::string>& topics) {
     std::map<std::string, std::string> by_frame;
     for (const std::string& topic : topics) {
       const auto [known, is_new] = by_frame.try_emplace(contents_.scans[topic].frame, topic);
@@ -173,20 +169,8 @@ class Chooser {
     }
     std::vector<std::string> chosen;
     for (const auto& [frame, topic] : by_frame) chosen.push_back(topic);
-    return OneOf(std::move(chosen));
-  }
-
-  /// The laser with the most scans: matched in turns, those of several are worse than one's alone.
-  std::vector<std::string> OneOf(std::vector<std::string> topics) {
-    if (topics.size() < 2) return topics;
-    std::ranges::sort(topics);
-    const std::string best =
-        *std::ranges::max_element(topics, {}, [this](const std::string& topic) {
-          return contents_.scans[topic].places.size();
-        });
-    faults_.Doubt("has several lasers, " + ListOf(topics) + ": " + best +
-                  " is read; choose one, or several with commas, with --scan");
-    return {best};
+    std::ranges::sort(chosen);
+    return chosen;
   }
 
   /// The transforms of the robot: its own, or those that all share.
@@ -243,6 +227,33 @@ class Chooser {
     return best;
   }
 
+  /// The lasers as they sit; of several that nobody asked for, those that fit a level map.
+  std::vector<LaserChoice> MountAll(const std::vector<std::string>& topics,
+                                    const std::string& robot_frame) {
+    std::vector<LaserChoice> lasers;
+    for (const std::string& topic : topics) lasers.push_back(Mount(topic, robot_frame));
+    const auto fits = [](const LaserChoice& laser) { return laser.is_placed && laser.is_level; };
+    if (options_.scan_topics.empty() && std::ranges::any_of(lasers, fits)) {
+      std::erase_if(lasers, [&](const LaserChoice& laser) {
+        if (fits(laser)) return false;
+        faults_.Doubt(laser.topic + " is left out for that; choose it with --scan");
+        return true;
+      });
+    }
+    if (options_.scan_topics.empty()) {  // The one that looks ahead is the front one.
+      std::ranges::stable_sort(lasers, {}, [](const LaserChoice& laser) {
+        return std::abs(laser.T_robot_laser.theta_rad);
+      });
+    }
+    for (std::size_t i = 0; i < lasers.size(); ++i) {
+      lasers[i].name = i == 0 ? "front" : i == 1 ? "rear" : "laser" + std::to_string(i + 1);
+      report_.notes.push_back("scans from " + lasers[i].topic + ", of '" +
+                              contents_.scans[lasers[i].topic].frame + "'" +
+                              (lasers[i].is_upside_down ? ", which is upside down" : ""));
+    }
+    return lasers;
+  }
+
   LaserChoice Mount(const std::string& topic, const std::string& robot_frame) {
     const std::string& frame = contents_.scans[topic].frame;
     LaserChoice laser{.topic = topic, .name = {}, .T_robot_laser = {}};
@@ -251,19 +262,18 @@ class Chooser {
       faults_.Doubt("nothing says where the laser '" + frame + "' of " + topic + " sits on '" +
                     robot_frame + "': taken as in its middle, looking forward");
     }
+    laser.is_placed = T_robot_laser.has_value();
     if (T_robot_laser) {
       const double uprightness = UprightnessOf(T_robot_laser->rotation);
       laser.T_robot_laser = Planar(*T_robot_laser);
       laser.is_upside_down = uprightness < 0.0;
-      TellTilt(topic, uprightness);
+      laser.is_level = std::abs(uprightness) > kLevel;
+      if (!laser.is_level) TellTilt(topic, uprightness);
     }
-    report_.notes.push_back("scans from " + topic + ", of '" + frame + "'" +
-                            (laser.is_upside_down ? ", which is upside down" : ""));
     return laser;
   }
 
   void TellTilt(const std::string& topic, double uprightness) {
-    if (std::abs(uprightness) > kLevel) return;
     const double tilt_deg =
         std::acos(std::min(1.0, std::abs(uprightness))) * 180.0 / std::numbers::pi;
     faults_.Doubt("the laser of " + topic + " is tilted by " +

@@ -12,9 +12,11 @@ namespace qwsm::io {
 /// A laser of the robot that is read.
 struct LaserChoice {
   std::string topic;
-  std::string name;  ///< "front", or "laser1", "laser2" ... of several.
+  std::string name;  ///< "front"; of several, the others are "rear", "laser3" ...
   Pose2 T_robot_laser;
   bool is_upside_down = false;  ///< Its bearings count clockwise, seen from above.
+  bool is_placed = false;       ///< Transforms say where it sits.
+  bool is_level = true;
 };
 
 /// What of a bag is read.
@@ -29,8 +31,8 @@ struct RobotChoice {
 ///
 /// A robot is a namespace with odometry of its own, whether nav_msgs/Odometry or /tf; where there
 /// is only one, all scans are its own. Topics of one frame are one laser told twice, as raw and
-/// filtered scans are: of them, and of several lasers, the one with the most messages is read
-/// unless options name others.
+/// filtered scans are: of them the one with the most messages is read. All lasers of the robot are
+/// read, unless options name some.
 /// @throws LogError where an option names what is not there, or does not say which robot is meant.
 RobotChoice ChooseRobot(BagContents& contents,
                         const LogOptions& options,

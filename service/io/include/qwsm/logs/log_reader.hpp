@@ -43,9 +43,10 @@ class SeveralRobotsError : public LogError {
 /// How a log is read. What the log states and what can be inferred from it needs no option.
 struct LogOptions {
   bool strict = false;  ///< Throw at a malformed line instead of counting and skipping it.
-  /// The laser's name or message ("rear", "RLASER"), or "all"; empty: the front one.
+  /// The laser's name or message ("rear", "RLASER"), or "all"; empty: all of which it is known
+  /// where they sit, or else the front one.
   std::string laser;
-  /// Of a bag: topics of scans; empty: that of one laser.
+  /// Of a bag: topics of scans; empty: those of all lasers.
   std::vector<std::string> scan_topics;
   /// Of a bag: topic of odometry, or "/tf"; empty: the robot's own.
   std::string odometry_topic;
