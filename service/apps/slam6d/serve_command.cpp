@@ -38,8 +38,12 @@ class CloudServer {
         closer_(graph::MakeLoopCloser(options.loop_error)),
         service_(
             {.team = options.team, .slam = options.slam}, *closer_, Sinks(), arguments.journal),
-        inbox_(
-            participant_, arguments.robots, service_.robots(), {&map_outbox_, &outbox_}, refusals_),
+        inbox_(participant_,
+               arguments.robots,
+               {std::string(qwsm::dds::kCloudTopic)},
+               service_.robots(),
+               {&map_outbox_, &outbox_},
+               refusals_),
         view_(qwsm::apps::ShowLive(
             arguments, options.view, {participant_, graph_, service_.identity()})) {}
 

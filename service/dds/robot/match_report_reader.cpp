@@ -25,8 +25,9 @@ class BasicReportReader<Kind>::Topics {
       : participant_(participant), wait_set_(participant) {
     for (const std::string& robot : robots) Listen(robot);
     if (!robots.empty()) return;
-    discovery_.emplace(
-        participant, std::string(OnWire<Kind>::kReportTopic), OnWire<Kind>::kReportType);
+    discovery_.emplace(participant,
+                       std::vector{std::string(OnWire<Kind>::kReportTopic)},
+                       OnWire<Kind>::kReportType);
     wait_set_.Add(discovery_->handle());
   }
 

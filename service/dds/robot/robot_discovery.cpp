@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/dds/robot/robot_discovery.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -9,13 +11,25 @@
 
 namespace qwsm::dds {
 
-RobotDiscovery::RobotDiscovery(const Participant& participant, std::string part, std::string type)
-    : part_(std::move(part)), type_(std::move(type)), publications_(participant) {}
+RobotDiscovery::RobotDiscovery(const Participant& participant,
+                               std::vector<std::string> parts,
+                               std::string type)
+    : parts_(std::move(parts)), type_(std::move(type)), publications_(participant) {
+  std::ranges::sort(parts_, std::greater(), &std::string::size);
+}
 
 RobotDiscovery::Changes RobotDiscovery::Take() {
   Changes changes;
   publications_.TakeAll([&](const Publication& publication) { Note(publication, changes); });
   return changes;
+}
+
+// Of `rear/scan` and `scan` the longer one is meant: there is no robot `rear`.
+std::optional<std::string> RobotDiscovery::RobotOf(std::string_view topic) const {
+  for (const std::string& part : parts_) {
+    if (std::optional<std::string> robot = RobotNames::RobotOf(topic, part)) return robot;
+  }
+  return std::nullopt;
 }
 
 void RobotDiscovery::Note(const Publication& publication, Changes& changes) {
@@ -27,7 +41,7 @@ void RobotDiscovery::Note(const Publication& publication, Changes& changes) {
     return;
   }
   if (robot_of_.contains(publication.writer) || publication.type != type_) return;
-  const std::optional<std::string> robot = RobotNames::RobotOf(publication.topic, part_);
+  const std::optional<std::string> robot = RobotOf(publication.topic);
   if (!robot) return;
   robot_of_[publication.writer] = *robot;
   if (!publication.is_reliable) unreliable_.insert(*robot);

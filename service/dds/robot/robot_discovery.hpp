@@ -4,8 +4,10 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "service/dds/entities/publications.hpp"
@@ -23,9 +25,9 @@ class RobotDiscovery {
   };
 
   /// Looks for topics.
-  /// @param part last part of a topic's name.
-  /// @param type its DDS type: topics of other types are passed over.
-  RobotDiscovery(const Participant& participant, std::string part, std::string type);
+  /// @param parts last parts of the topics' names, as `scan` and `rear/scan`.
+  /// @param type their DDS type: topics of other types are passed over.
+  RobotDiscovery(const Participant& participant, std::vector<std::string> parts, std::string type);
 
   /// Robots that have joined or left since the last call.
   Changes Take();
@@ -36,7 +38,9 @@ class RobotDiscovery {
  private:
   void Note(const Publication& publication, Changes& changes);
 
-  std::string part_;
+  std::optional<std::string> RobotOf(std::string_view topic) const;
+
+  std::vector<std::string> parts_;  // The longest first.
   std::string type_;
   Publications publications_;
   std::map<Guid, std::string> robot_of_;      // Robot, by publisher.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/dds/robot/robot_feed.hpp"
 
+#include <string>
+
 #include "service/dds/entities/reader.hpp"
 #include "service/dds/entities/wait_set.hpp"
 #include "service/dds/robot/robot_inbox.hpp"
@@ -14,7 +16,7 @@ class RobotFeed::Topics {
   Topics(const Participant& participant, const RobotNames& names, Refusals& refusals)
       : wait_set_(participant),
         static_transforms_(participant, kStaticTransformsTopic, Profile::kStaticTransforms),
-        inbox_(participant, names, refusals) {
+        inbox_(participant, names, refusals, {std::string(kScanTopic)}) {
     for (const Entity::Handle handle : inbox_.handles()) wait_set_.Add(handle);
   }
 

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/dds/robot/robot_inbox.hpp"
 
+#include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <utility>
 
 #include "qwsm/geometry/position.hpp"
@@ -33,26 +35,42 @@ template <class Kind>
 BasicRobotInbox<Kind>::BasicRobotInbox(const Participant& participant,
                                        const RobotNames& names,
                                        Refusals& refusals,
+                                       const std::vector<std::string>& scan_topics,
                                        Profile scans)
     : names_(names),
       refusals_(refusals),
       robot_frame_(names.Frame(kRobotFrame)),
       odometry_(participant, names.Topic(kOdometryTopic), Profile::kSensorIn),
-      scans_(participant, names.Topic(OnWire<Kind>::kScanTopic), scans),
-      initial_poses_(participant, names.Topic(kInitialPoseTopic), Profile::kSensorIn) {}
+      initial_poses_(participant, names.Topic(kInitialPoseTopic), Profile::kSensorIn) {
+  for (const std::string& topic : scan_topics) {
+    const std::string name = names.Topic(topic);
+    scans_.push_back({.name = name, .reader = {participant, name, scans}});
+  }
+}
 
 template <class Kind>
-std::array<Entity::Handle, 3> BasicRobotInbox<Kind>::handles() const {
-  return {odometry_.handle(), scans_.handle(), initial_poses_.handle()};
+std::vector<Entity::Handle> BasicRobotInbox<Kind>::handles() const {
+  std::vector<Entity::Handle> handles{odometry_.handle(), initial_poses_.handle()};
+  for (const ScanTopic& topic : scans_) handles.push_back(topic.reader.handle());
+  return handles;
 }
 
 template <class Kind>
 void BasicRobotInbox<Kind>::HoldScans() {
   // Who comes back may have been mounted anew. What a publisher that is gone sent last was not.
-  if (!std::exchange(has_publisher_, scans_.writer_count() > 0) && has_publisher_) {
-    mountings_.clear();
+  const bool has_publisher = std::ranges::any_of(
+      scans_, [](const ScanTopic& topic) { return topic.reader.writer_count() > 0; });
+  if (!std::exchange(has_publisher_, has_publisher) && has_publisher_) mountings_.clear();
+  const auto held = static_cast<std::ptrdiff_t>(unplaced_.size());
+  for (ScanTopic& topic : scans_) {
+    topic.reader.TakeAll(
+        [&](const typename OnWire<Kind>::Scan& sample) { HoldScan(topic.name, sample); });
   }
-  scans_.TakeAll([this](const typename OnWire<Kind>::Scan& sample) { HoldScan(sample); });
+  if (scans_.size() < 2 || std::ssize(unplaced_) <= held) return;
+  std::stable_sort(
+      unplaced_.begin() + held, unplaced_.end(), [](const UnplacedScan& a, const UnplacedScan& b) {
+        return a.scan.stamp < b.scan.stamp;
+      });
 }
 
 template <class Kind>
@@ -77,8 +95,8 @@ void BasicRobotInbox<Kind>::TakeOdometry(const wire::Odometry& sample,
 }
 
 template <class Kind>
-void BasicRobotInbox<Kind>::HoldScan(const typename OnWire<Kind>::Scan& sample) {
-  const std::string topic = names_.Topic(OnWire<Kind>::kScanTopic);
+void BasicRobotInbox<Kind>::HoldScan(const std::string& topic,
+                                     const typename OnWire<Kind>::Scan& sample) {
   const std::string_view objection = ObjectionTo(sample);
   if (!objection.empty()) return refusals_.Add(topic, objection);
   unplaced_.push_back(
@@ -116,7 +134,7 @@ void BasicRobotInbox<Kind>::DeliverScan(typename Kind::Scan scan,
     mountings_.try_emplace(sensor_frame, told);
   }
   const auto used = mountings_.find(sensor_frame);
-  if (used == mountings_.end() || IsSame(used->second, told)) {
+  if (used == mountings_.end() || Kind::IsSame(used->second, told)) {
     listener.TakeScan(names_.name(), std::move(scan));
     return;
   }
@@ -154,8 +172,8 @@ std::optional<typename BasicRobotInbox<Kind>::Placement> BasicRobotInbox<Kind>::
 /// The participants that send the robot's scans, or its odometry.
 template <class Kind>
 std::set<Guid> BasicRobotInbox<Kind>::Own() const {
-  std::set<Guid> own = scans_.Participants();
-  own.merge(odometry_.Participants());
+  std::set<Guid> own = odometry_.Participants();
+  for (const ScanTopic& topic : scans_) own.merge(topic.reader.Participants());
   return own;
 }
 
@@ -166,7 +184,7 @@ std::optional<typename Kind::Pose> BasicRobotInbox<Kind>::FindSensor(
   if (!transforms.has_rivals()) return transforms.Find(robot_frame_, sensor_frame);
   const auto known = transforms.Find(robot_frame_, sensor_frame, Own());
   const auto by_last = transforms.Find(robot_frame_, sensor_frame);
-  const bool is_overruled = known && by_last && !IsSame(*known, *by_last);
+  const bool is_overruled = known && by_last && !Kind::IsSame(*known, *by_last);
   if (is_overruled && overruled_.insert(sensor_frame).second) {
     refusals_.Add(kStaticTransformsTopic, "the robot itself says otherwise where its sensor sits");
   }

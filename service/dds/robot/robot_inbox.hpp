@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <chrono>
 #include <deque>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "service/dds/entities/reader.hpp"
 #include "service/dds/wire/refusals.hpp"
@@ -23,14 +23,16 @@ template <class Kind>
 class BasicRobotInbox {
  public:
   /// Subscribes to a robot's topics.
+  /// @param scan_topics below its namespace; several lasers may have one each, or share one.
   /// @param scans the profile its scans are read with.
   /// @param refusals outlives this.
   BasicRobotInbox(const Participant& participant,
                   const RobotNames& names,
                   Refusals& refusals,
+                  const std::vector<std::string>& scan_topics,
                   Profile scans = Profile::kSensorIn);
 
-  std::array<Entity::Handle, 3> handles() const;
+  std::vector<Entity::Handle> handles() const;
 
   /// Takes the scans that have arrived. To be called before transforms and odometry are taken:
   /// robots tell these before the scan, so that whose scan is here has them here, too.
@@ -47,7 +49,7 @@ class BasicRobotInbox {
   };
 
   void TakeOdometry(const wire::Odometry& sample, team::RobotListener<Kind>& listener);
-  void HoldScan(const typename OnWire<Kind>::Scan& sample);
+  void HoldScan(const std::string& topic, const typename OnWire<Kind>::Scan& sample);
   void DeliverPlacedScans(const BasicStaticTransforms<Kind>& transforms,
                           team::RobotListener<Kind>& listener);
   void TakeInitialPose(const wire::PoseWithCovarianceStamped& sample,
@@ -72,7 +74,11 @@ class BasicRobotInbox {
   Refusals& refusals_;
   std::string robot_frame_;
   Reader<wire::Odometry> odometry_;
-  Reader<typename OnWire<Kind>::Scan> scans_;
+  struct ScanTopic {
+    std::string name;
+    Reader<typename OnWire<Kind>::Scan> reader;
+  };
+  std::deque<ScanTopic> scans_;
   Reader<wire::PoseWithCovarianceStamped> initial_poses_;
   std::deque<UnplacedScan> unplaced_;
   // Since when each frame's place is missing.

@@ -4,6 +4,8 @@
 
 #include <dds/dds.h>
 
+#include <algorithm>
+#include <deque>
 #include <string>
 #include <thread>
 #include <utility>
@@ -38,22 +40,27 @@ class BasicRobotPublisher<Kind>::Topics {
   bool has_pose_listener() const { return told_poses_.reader_count() > 0; }
   const RobotNames& names() const { return names_; }
 
-  /// A sensor that is mounted anew gets a new frame: transforms and scans may overtake each other.
-  void PlaceSensor(const Pose& T_robot_sensor) {
-    if (T_robot_sensor_ && IsSame(*T_robot_sensor_, T_robot_sensor)) return;
-    T_robot_sensor_ = T_robot_sensor;
-    sensor_frame_ = names_.Frame(kLaserFrame);
-    if (placements_++ > 0) sensor_frame_ += "_" + std::to_string(placements_);
+  /// The frame of a sensor that sits there. Each has its own, and one that is mounted anew gets a
+  /// new one: transforms and scans may overtake each other.
+  const std::string& PlaceSensor(const Pose& T_robot_sensor) {
+    const auto known = std::ranges::find_if(sensors_, [&](const Sensor& sensor) {
+      return Kind::IsSame(sensor.T_robot_sensor, T_robot_sensor);
+    });
+    if (known != sensors_.end()) return known->frame;
+    if (sensors_.size() == kMostSensors) sensors_.pop_front();
+    std::string frame = names_.Frame(kLaserFrame);
+    if (placements_++ > 0) frame += "_" + std::to_string(placements_);
     static_transforms_.Write(
-        TransformSample({}, robot_frame_, sensor_frame_, ToWire(T_robot_sensor)).sample());
+        TransformSample({}, robot_frame_, frame, ToWire(T_robot_sensor)).sample());
+    return sensors_.emplace_back(Sensor{T_robot_sensor, std::move(frame)}).frame;
   }
 
   bool Publish(const Observation& observation) {
-    PlaceSensor(OnWire<Kind>::Mounting(observation.scan));
+    const std::string& frame = PlaceSensor(OnWire<Kind>::Mounting(observation.scan));
     if (odometry_ && observation.T_odom_robot) {
       PublishOdometry(observation.scan.stamp, *observation.T_odom_robot);
     }
-    const typename OnWire<Kind>::Sample sample(observation.scan, sensor_frame_);
+    const typename OnWire<Kind>::Sample sample(observation.scan, frame);
     return scans_->Write(sample.sample());
   }
 
@@ -82,6 +89,12 @@ class BasicRobotPublisher<Kind>::Topics {
   }
 
  private:
+  struct Sensor {
+    Pose T_robot_sensor;
+    std::string frame;
+  };
+  static constexpr std::size_t kMostSensors = 16;  // More are mounted anew.
+
   wire::Odometry OdometryOf(Timestamp stamp, const std::string& frame, const Pose& pose) const {
     wire::Odometry sample{};
     sample.header = HeaderOf(stamp, frame);
@@ -95,8 +108,7 @@ class BasicRobotPublisher<Kind>::Topics {
   std::string robot_frame_;
   std::string world_frame_ = kWorldFrame;
   std::string map_frame_ = kMapFrame;
-  std::string sensor_frame_;
-  std::optional<Pose> T_robot_sensor_;
+  std::deque<Sensor> sensors_;
   int placements_ = 0;
   Writer<wire::TFMessage> static_transforms_;
   Writer<wire::TFMessage> transforms_;

@@ -19,16 +19,18 @@ std::uint64_t NanosecondsNow() {
 template <class Session>
 ServiceInbox<Session>::ServiceInbox(const Participant& participant,
                                     const std::vector<std::string>& robots,
+                                    std::vector<std::string> scan_topics,
                                     team::SessionList<Session>& sessions,
                                     std::vector<RobotTopics*> topics,
                                     Refusals& refusals)
     : participant_(participant),
       sessions_(sessions),
+      scan_topics_(std::move(scan_topics)),
       topics_(std::move(topics)),
       refusals_(refusals),
       finds_robots_(robots.empty()),
       wait_set_(participant),
-      discovery_(participant, std::string(OnWire<Kind>::kScanTopic), OnWire<Kind>::kScanType),
+      discovery_(participant, scan_topics_, OnWire<Kind>::kScanType),
       others_(participant, OnWire<Kind>::kReportTopic, OnWire<Kind>::kReportType),
       static_transform_reader_(participant, kStaticTransformsTopic, Profile::kStaticTransforms) {
   wait_set_.Add(discovery_.handle());
@@ -111,8 +113,8 @@ template <class Session>
 void ServiceInbox<Session>::Listen(const std::string& name, Profile profile, Robot& robot) {
   if (robot.inbox) StopListening(robot);
   robot.profile = profile;
-  robot.inbox =
-      std::make_unique<BasicRobotInbox<Kind>>(participant_, RobotNames(name), refusals_, profile);
+  robot.inbox = std::make_unique<BasicRobotInbox<Kind>>(
+      participant_, RobotNames(name), refusals_, scan_topics_, profile);
   for (const Entity::Handle handle : robot.inbox->handles()) wait_set_.Add(handle);
 }
 

@@ -30,10 +30,12 @@ class ServiceInbox {
  public:
   /// Joins the robots that are named; where none is, whoever publishes scans that no other service
   /// answers, now or since that service is gone.
+  /// @param scan_topics of each robot, below its namespace.
   /// @param topics where each of the robots is told about.
   /// @param participant and all others outlive this.
   ServiceInbox(const Participant& participant,
                const std::vector<std::string>& robots,
+               std::vector<std::string> scan_topics,
                team::SessionList<Session>& sessions,
                std::vector<RobotTopics*> topics,
                Refusals& refusals);
@@ -69,6 +71,7 @@ class ServiceInbox {
 
   const Participant& participant_;
   team::SessionList<Session>& sessions_;
+  std::vector<std::string> scan_topics_;
   std::vector<RobotTopics*> topics_;
   Refusals& refusals_;
   bool finds_robots_;

@@ -18,7 +18,12 @@ TeamInbox::TeamInbox(const Participant& participant,
       refusals_(refusals),
       shared_scans_(participant, kSharedScansTopic, Profile::kSharedScansOfOthers),
       epochs_(participant, RobotNames("").Topic(kMapEpochTopic), Profile::kSharedScansOfOthers),
-      robots_(participant, robots, service.robots(), std::move(topics), refusals) {
+      robots_(participant,
+              robots,
+              service.scan_topics(),
+              service.robots(),
+              std::move(topics),
+              refusals) {
   robots_.wait_set().Add(shared_scans_.handle());
   robots_.wait_set().Add(epochs_.handle());
 }

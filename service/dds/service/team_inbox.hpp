@@ -14,7 +14,8 @@ namespace qwsm::dds {
 /// Brings the service what robots and other services say. Used by one thread.
 class TeamInbox {
  public:
-  /// Joins the robots as ServiceInbox does. @param participant and all others outlive this.
+  /// Joins the robots as ServiceInbox does. Their scans are on the topics that the service's
+  /// options name. @param participant and all others outlive this.
   TeamInbox(const Participant& participant,
             const std::vector<std::string>& robots,
             team::TeamService& service,

@@ -16,11 +16,6 @@
 
 namespace qwsm::dds {
 
-inline bool IsSame(const Pose2& a, const Pose2& b) { return a == b; }
-inline bool IsSame(const slam6d::Pose3& a, const slam6d::Pose3& b) {
-  return a.rotation == b.rotation && a.translation_m == b.translation_m;
-}
-
 /// Says how what a robot says, and is told, looks on the wire: all that the readers and writers of
 /// scans and of clouds do not have in common.
 template <class Kind>

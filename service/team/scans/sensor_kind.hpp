@@ -19,6 +19,9 @@ struct Planar {
   using UncertainPose = UncertainPose2;
   using Observation = qwsm::Observation;
   using Step = MappingStep;
+
+  static const Pose& MountingOf(const Scan& scan) { return scan.geometry.T_robot_laser; }
+  static bool IsSame(const Pose& a, const Pose& b) { return a == b; }
 };
 
 /// Types for clouds of points in space; sessions, inboxes and publishers are made for it or for
@@ -29,6 +32,11 @@ struct Spatial {
   using UncertainPose = slam6d::UncertainPose3;
   using Observation = CloudObservation;
   using Step = CloudStep;
+
+  static const Pose& MountingOf(const Scan& scan) { return scan.T_robot_sensor; }
+  static bool IsSame(const Pose& a, const Pose& b) {
+    return a.rotation == b.rotation && a.translation_m == b.translation_m;
+  }
 };
 
 }  // namespace qwsm::team

@@ -67,6 +67,8 @@ class TeamService {
   const std::string& identity() const { return host_.identity(); }
   /// The robots of the service, by name: they take what robots say.
   SessionList<RobotSession>& robots() { return host_.sessions(); }
+  /// The topics of a robot's scans, below its namespace.
+  std::vector<std::string> scan_topics() const { return ScanTopicsOf(options_.team); }
 
   /// Takes in relevant scans of other services, several at once where they are there: they are
   /// inserted by stamp, so that services that start late get the same map from the same scans.

@@ -22,6 +22,8 @@ constexpr double kJump_rad = 0.5;
 
 double LengthM(const Pose2& motion) { return motion.translation_m().norm(); }
 double LengthM(const slam6d::Pose3& motion) { return motion.translation_m.norm(); }
+constexpr std::size_t kMostSensors = 16;
+
 double TurnRad(const Pose2& motion) { return std::abs(motion.theta_rad); }
 double TurnRad(const slam6d::Pose3& motion) { return slam6d::RotationAngle(motion.rotation); }
 
@@ -90,7 +92,7 @@ bool SessionIntake<Kind>::Enqueue(Scan scan, const std::optional<Pose>& T_robot_
     ++counts_.malformed;
     return false;
   }
-  switch (guard_.Judge(scan.stamp)) {
+  switch (GuardOf(scan).Judge(scan.stamp)) {
     case StampVerdict::kDuplicate:
       ++counts_.duplicates;
       return false;
@@ -113,6 +115,17 @@ bool SessionIntake<Kind>::Enqueue(Scan scan, const std::optional<Pose>& T_robot_
       {.scan = std::move(scan), .arrived = now, .T_robot_sensor_claimed = T_robot_sensor_claimed});
   counts_.dropped = queue_.dropped();
   return true;
+}
+
+template <class Kind>
+StampGuard& SessionIntake<Kind>::GuardOf(const Scan& scan) {
+  const Pose& mounting = Kind::MountingOf(scan);
+  const auto known = std::ranges::find_if(guards_, [&](const SensorStamps& sensor) {
+    return Kind::IsSame(sensor.T_robot_sensor, mounting);
+  });
+  if (known != guards_.end()) return known->guard;
+  if (guards_.size() == kMostSensors) guards_.pop_front();
+  return guards_.emplace_back(SensorStamps{mounting, guard_}).guard;
 }
 
 /// Scans that are too heavy would cost the others their answers.

@@ -98,6 +98,13 @@ class SessionIntake {
     std::optional<Pose> T_robot_sensor_claimed;
   };
 
+  /// Sensors of one robot have stamps of their own; they are told apart by where they sit.
+  struct SensorStamps {
+    Pose T_robot_sensor;
+    StampGuard guard;
+  };
+
+  StampGuard& GuardOf(const Scan& scan);
   bool IsHere() const;
   void ThinOut(Scan& scan);
   Lane::Time AwaitsOdometryUntil(const Arrival& next) const;
@@ -110,7 +117,8 @@ class SessionIntake {
 
   mutable std::mutex mutex_;  // Guards what follows.
   RobotState state_ = RobotState::kExpected;
-  StampGuard guard_;
+  StampGuard guard_;  // Of a sensor that was not heard yet.
+  std::deque<SensorStamps> guards_;
   OdometryBuffer<Pose> odometry_;
   bool expects_odometry_ = false;
   bool hears_odometry_ = false;              // Whether there was odometry since the robot joined.

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Robots with several lasers: the service, a process on loopback, hears them on one topic or on
+// several, and answers each scan.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "service/dds/entities/writer.hpp"
+#include "service/dds/wire/transform_sample.hpp"
+#include "tests/support/replay.hpp"
+#include "tests/support/robot_in_room.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace qwsm::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Pose2 kRear{.x_m = 0.0, .y_m = 0.0, .theta_rad = 0.5};
+
+/// What the laser of an observation sees, as told by one that is turned as the rear one is.
+LaserScan SeenFromRear(const Observation& observation) {
+  LaserScan scan = observation.scan;
+  scan.geometry.first_bearing_rad -= static_cast<float>(kRear.theta_rad);
+  return scan;
+}
+
+class DdsLasers : public ::testing::Test {
+ protected:
+  std::string Path(const char* name) const { return folder_.path() / name; }
+
+  TemporaryFolder folder_;
+  PrivateNetwork network_;
+};
+
+TEST_F(DdsLasers, AreHeardOnTopicsOfTheirOwn) {
+  RobotInRoom robot(network_);
+  const dds::Writer<dds::wire::TFMessage> mountings(
+      robot.participant(), dds::kStaticTransformsTopic, dds::Profile::kStaticTransformsOut);
+  const dds::Writer<dds::wire::LaserScan> rear(
+      robot.participant(), "/robot1/rear/scan", dds::Profile::kSensorOut);
+  const std::string frame = "robot1/rear";
+  mountings.Write(dds::TransformSample({}, "robot1/base_link", frame, dds::ToWire(kRear)).sample());
+
+  Daemon service(network_.JoinService({"serve", "--set", "team.scans=scan,rear/scan"}));
+  std::map<Timestamp, int> answers;
+  for (int i = 0; i < 4000 && answers.size() < 40; ++i) {
+    const Observation observation = robot.NextObservation();
+    const LaserScan scan = SeenFromRear(observation);
+    rear.Write(dds::ToWire(scan, frame));
+    robot.Publish(observation);
+    for (const dds::MatchReport& report : robot.Hear(5ms)) ++answers[report.stamp];
+  }
+  ASSERT_GE(answers.size(), 40U);
+  EXPECT_GE(std::ranges::count_if(answers, [](const auto& answer) { return answer.second == 2; }),
+            20)
+      << "scans of one stamp are of two lasers";
+  const Outcome served = service.End();
+  EXPECT_EQ(served.exit_code, 0);
+  EXPECT_EQ(served.output.find("rear"), std::string::npos) << "is no robot: " << served.output;
+}
+
+TEST_F(DdsLasers, OfALogGiveItsPathBitForBit) {
+  std::ofstream(Path("two.yaml")) << "layout: {kind: rubble}\n"
+                                     "robots:\n"
+                                     "  - laser: {mount_x_m: 0.2}\n"
+                                     "    more_lasers:\n"
+                                     "      - {mount_x_m: -0.2, mount_heading_deg: 180,"
+                                     " first_scan_s: 0.05}\n";
+  const Outcome simulated =
+      RunProgram({"sim", Path("two.yaml"), "--duration", "20", "--output", Path("drive")});
+  ASSERT_EQ(simulated.exit_code, 0) << simulated.errors;
+  ASSERT_NO_FATAL_FAILURE(
+      MapOverNetworkAndFromFile(network_, Path("drive/robot.log"), folder_.path()));
+  const std::string expected = ReadFile(Path("mapped/trajectory.tum"));
+  ASSERT_GT(expected.size(), 10'000U);
+  EXPECT_TRUE(ReadFile(Path("served/trajectory.tum")) == expected);
+}
+
+TEST_F(DdsLasers, TopicsThatAreNoneAreRefused) {
+  const Outcome served = network_.Run({"serve", "--set", "team.scans=scan,/rear"});
+  EXPECT_EQ(served.exit_code, 2);
+  EXPECT_NE(served.errors.find("team.scans: must be names below a robot's namespace"),
+            std::string::npos)
+      << served.errors;
+}
+
+}  // namespace
+}  // namespace qwsm::test
