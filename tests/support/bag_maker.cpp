@@ -198,6 +198,19 @@ MadeMessage OdometryMessageOf(Ros ros,
   return {topic, TypeIn(ros, "nav_msgs", "Odometry"), fields.bytes()};
 }
 
+MadeMessage ImuMessageOf(Ros ros,
+                         const std::string& topic,
+                         Timestamp stamp,
+                         const std::string& frame,
+                         double turn_rate_rad_s) {
+  Fields fields(ros);
+  fields.AddHeader(stamp, frame);
+  for (int i = 0; i < 4 + 9 + 2; ++i) fields.Add(0.0);
+  fields.Add(turn_rate_rad_s);
+  for (int i = 0; i < 9 + 3 + 9; ++i) fields.Add(0.0);
+  return {topic, TypeIn(ros, "sensor_msgs", "Imu"), fields.bytes()};
+}
+
 MadeMessage TransformMessageOf(Ros ros,
                                const std::string& topic,
                                Timestamp stamp,

@@ -37,6 +37,11 @@ MadeMessage OdometryMessageOf(Ros ros,
                               Timestamp stamp,
                               const std::string& child,
                               const Pose2& pose);
+MadeMessage ImuMessageOf(Ros ros,
+                         const std::string& topic,
+                         Timestamp stamp,
+                         const std::string& frame,
+                         double turn_rate_rad_s);
 MadeMessage TransformMessageOf(Ros ros,
                                const std::string& topic,
                                Timestamp stamp,

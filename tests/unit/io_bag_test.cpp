@@ -197,6 +197,28 @@ TEST_F(Bag, TurnsTheScansOfAnUpsideDownLaser) {
   EXPECT_EQ(geometry.bearing_step_rad, -0.1F);
 }
 
+TEST_F(Bag, TellsHowFarTheGyroTurned) {
+  for (const Ros ros : {Ros::k1, Ros::k2}) {
+    std::vector<MadeMessage> drive = Drive(ros);
+    for (auto stamp = At(0) - 10ms; stamp < At(2) + 5ms; stamp += 20ms) {
+      drive.push_back(test::ImuMessageOf(ros, "/imu", stamp, "imu", -0.5));
+    }
+    drive.push_back(test::TransformMessageOf(  // Upside down.
+        ros,
+        "/tf_static",
+        0s,
+        "base_link",
+        "imu",
+        {.rotation = {.x = 1.0, .w = 0.0}}));
+    const std::vector<ScanReading> scans =
+        ros == Ros::k1 ? ReadRos1(drive).scans : ReadMcap(drive).scans;
+    ASSERT_TRUE(scans.at(0).gyro_rad && scans.at(1).gyro_rad);
+    const std::chrono::duration<double> since = At(1) - At(0);
+    EXPECT_NEAR(*scans[1].gyro_rad - *scans[0].gyro_rad, 0.5 * since.count(), 1e-9);
+    EXPECT_FALSE(scans.at(3).gyro_rad) << "it was silent by then";
+  }
+}
+
 TEST_F(Bag, LeavesOutLasersThatDoNotFit) {
   std::vector<MadeMessage> drive = Drive(Ros::k2);
   drive.push_back(test::ScanMessage(Ros::k2, "/mast/scan", At(1), "mast", RangesAt(1)));

@@ -120,6 +120,11 @@ UncertainPose2 LaserTurns::WithHindsight(const UncertainPose2& map_robot,
   return Fused(map_robot, last.look->map_robot * motion_.AsProved(back, share));
 }
 
+std::optional<UncertainPose2> LaserTurns::last_look() const {
+  if (lasers_.empty() || !lasers_.back().look) return std::nullopt;
+  return lasers_.back().look->map_robot;
+}
+
 // What was matched without what it was fused with.
 std::optional<LaserTurns::Look> LaserTurns::LookOf(const Observation& observation,
                                                    const MappingStep& step) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace qwsm {
 namespace {
@@ -41,9 +42,18 @@ Eigen::Array33d MotionModel::ModelledSigmas(const Pose2& motion, double share) c
   const Eigen::Array3d of_heading(at_rest * noise_.rotation_floor_rad,
                                   noise_.rotation_per_translation_rad * way_m,
                                   noise_.rotation_per_rotation * turn_rad);
+  const Eigen::Array3d of_gyro(
+      at_rest * noise_.gyro_floor_rad, 0.0, noise_.gyro_per_rotation * turn_rad);
+  const Eigen::Array3d& heading = is_heading_by_gyro_ ? of_gyro : of_heading;
   Eigen::Array33d sigmas;
-  sigmas << of_position.transpose(), of_position.transpose(), of_heading.transpose();
+  sigmas << of_position.transpose(), of_position.transpose(), heading.transpose();
   return sigmas;
+}
+
+void MotionModel::SetHeadingByGyro(bool by_gyro) {
+  if (by_gyro == std::exchange(is_heading_by_gyro_, by_gyro)) return;
+  adapted_scale_.row(2).swap(other_scale_);
+  samples_.row(2).swap(other_samples_);
 }
 
 PosePrediction MotionModel::Predict(const std::optional<Pose2>& T_odom_robot, double share) const {

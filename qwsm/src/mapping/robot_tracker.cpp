@@ -84,6 +84,7 @@ RobotTracker::RobotTracker(const MapperOptions& options)
 void RobotTracker::PlaceAt(const UncertainPose2& map_robot,
                            const std::optional<Pose2>& T_odom_robot) {
   motion_.Remember({}, T_odom_robot);
+  gyro_.Restart(T_odom_robot);
   submap_.Clear();
   seen_free_.Clear();
   map_last_ = map_robot;
@@ -109,6 +110,17 @@ void RobotTracker::FollowCorrection(const UncertainPose2& map_robot) {
 MappingStep RobotTracker::Track(const ScanMap& map,
                                 const Observation& observation,
                                 std::span<const ScanPoint> points) {
+  const std::optional<Pose2> T_odom_robot = gyro_.Follow(observation);
+  motion_.SetHeadingByGyro(gyro_.leads());
+  if (T_odom_robot == observation.T_odom_robot) return TrackBy(map, observation, points);
+  Observation with_gyro = observation;
+  with_gyro.T_odom_robot = T_odom_robot;
+  return TrackBy(map, with_gyro, points);
+}
+
+MappingStep RobotTracker::TrackBy(const ScanMap& map,
+                                  const Observation& observation,
+                                  std::span<const ScanPoint> points) {
   MappingStep step{.stamp = observation.scan.stamp};
   if (map.empty()) {
     Begin(observation, points, step);
@@ -270,15 +282,24 @@ void RobotTracker::Extend(bool extends,
                                  observation.scan, points, step.map_robot.T_a_b),
                              .T_odom_robot = observation.T_odom_robot},
              .map_robot = step.map_robot,
-             .local = {.T_a_b = step.map_robot.T_a_b, .covariance = step.local_covariance}};
+             .local = {.T_a_b = step.map_robot.T_a_b, .covariance = step.local_covariance},
+             .T_wheels_robot = gyro_.T_wheels_robot()};
     const bool waits = held || (lasers_.take_turns() && !step.closed_loop);
     if (!waits) held = std::exchange(held_, std::nullopt);
   }
   if (!held) return;
   step.relevant = true;
   step.relevant_scan = std::move(held->observation.scan);
-  step.T_odom_relevant = held->observation.T_odom_robot;
+  step.T_odom_relevant = held->T_wheels_robot;
   step.map_relevant = held->map_robot;
+}
+
+// By what the scan alone tells: the pose is by the gyro as well.
+void RobotTracker::LearnTurn(const MappingStep& step) {
+  const std::optional<UncertainPose2> look = lasers_.last_look();
+  if (!look || step.status == StepStatus::kFirst) return;
+  gyro_.Learn(NormalizeAngle(look->T_a_b.theta_rad - local_last_.T_a_b.theta_rad),
+              std::sqrt(look->covariance(2, 2) + local_last_.covariance(2, 2)));
 }
 
 void RobotTracker::Remember(const Observation& observation,
@@ -295,6 +316,7 @@ void RobotTracker::Remember(const Observation& observation,
     motion_.RememberOdometry(observation.T_odom_robot);
   }
   lasers_.Note(observation, step, has_moved_on);
+  LearnTurn(step);
   map_last_ = step.map_robot;
   local_last_ = {.T_a_b = step.map_robot.T_a_b, .covariance = step.local_covariance};
   has_initial_pose_ = has_initial_pose_ && is_first && !has_moved_on;

@@ -46,6 +46,9 @@ class LaserTurns {
   /// Where the robot was at an observation before the last one, as that tells, too.
   UncertainPose2 WithHindsight(const UncertainPose2& map_robot, const Observation& before) const;
 
+  /// The last scan's pose as that scan alone tells it; nothing where it was not matched.
+  std::optional<UncertainPose2> last_look() const;
+
   bool empty() const { return lasers_.empty(); }
   /// Follows a map that was corrected.
   void Move(const Pose2& T_new_old);

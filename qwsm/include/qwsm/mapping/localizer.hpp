@@ -11,9 +11,9 @@ namespace qwsm {
 
 /// Follows a robot through a map that was made before. Where the robot is need not be known: until
 /// it is found, and when the map contradicts its scans for some metres, it is lost, and its answers
-/// are poses in a frame of its own. The map stays as it is, or, with `extend_map`, goes on: relevant
-/// scans extend it, those of a robot that was lost as soon as it is found. Deterministic; reads no
-/// clock.
+/// are poses in a frame of its own. The map stays as it is, or, with `extend_map`, goes on:
+/// relevant scans extend it, those of a robot that was lost as soon as it is found. Deterministic;
+/// reads no clock.
 class Localizer {
  public:
   /// @param start pose at the first scan, if it is known.

@@ -20,6 +20,8 @@ struct MotionNoise {
   double rotation_per_rotation = 0.2;
   double rotation_per_translation_rad = 0.0525;
   double without_odometry = 2.0;
+  double gyro_floor_rad = 0.0005;
+  double gyro_per_rotation = 0.003;
 };
 
 template <class Visitor>
@@ -47,6 +49,13 @@ void Describe(Visitor& visit, MotionNoise& o) {
         {.help = "factor on all these sigmas where only the last motion is known",
          .min = 1,
          .max = 100});
+  visit(
+      "gyro_floor_rad",
+      o.gyro_floor_rad,
+      {.help = "sigma of the heading between scans where a gyro tells it", .min = 1e-5, .max = 3});
+  visit("gyro_per_rotation",
+        o.gyro_per_rotation,
+        {.help = "sigma of a gyro's heading per radian turned", .min = 0, .max = 10});
 }
 
 /// Predicts how the robot moved since the last scan: by odometry, or as it moved before.
@@ -55,6 +64,9 @@ class MotionModel {
   /// @param smallest_scale of the modelled variances: odometry is never believed to the last.
   explicit MotionModel(const MotionNoise& noise = {}, double smallest_scale = 0.02)
       : noise_(noise), smallest_scale_(smallest_scale) {}
+
+  /// Says whether the heading of the next motion is a gyro's, of which is learned apart.
+  void SetHeadingByGyro(bool by_gyro);
 
   /// Predicts the pose of the robot now in its own last frame.
   /// @param share of the time between two scans of a laser that has passed since the last scan of
@@ -99,6 +111,10 @@ class MotionModel {
   Pose2 T_last_robot_;  // The last motion between two scans, for when there is no odometry.
   Eigen::Array33d adapted_scale_ = Eigen::Array33d::Ones();  // Of the modelled variances.
   Eigen::Array33d samples_ = Eigen::Array33d::Zero();        // Innovations that each scale is from.
+  bool is_heading_by_gyro_ = false;
+  // Scale and samples of the heading by the source that does not tell it now.
+  Eigen::Array<double, 1, 3> other_scale_ = Eigen::Array<double, 1, 3>::Ones();
+  Eigen::Array<double, 1, 3> other_samples_ = Eigen::Array<double, 1, 3>::Zero();
 };
 
 }  // namespace qwsm

@@ -12,7 +12,9 @@ namespace qwsm {
 /// What a robot tells at one moment.
 struct Observation {
   LaserScan scan;
-  std::optional<Pose2> T_odom_robot;  ///< Odometry at the scan's stamp, if there is any.
+  std::optional<Pose2> T_odom_robot{};  ///< Odometry at the scan's stamp, if there is any.
+  /// Angle turned since some moment as a gyro tells it, at the scan's stamp; not wrapped.
+  std::optional<double> gyro_rad{};
 };
 
 }  // namespace qwsm

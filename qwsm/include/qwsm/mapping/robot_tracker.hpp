@@ -6,6 +6,7 @@
 #include <span>
 
 #include "qwsm/mapping/free_space.hpp"
+#include "qwsm/mapping/gyro_odometry.hpp"
 #include "qwsm/mapping/laser_turns.hpp"
 #include "qwsm/mapping/local_submap.hpp"
 #include "qwsm/mapping/loop_detector.hpp"
@@ -52,6 +53,9 @@ class RobotTracker {
   const MapperOptions& options() const { return options_; }
 
  private:
+  MappingStep TrackBy(const ScanMap& map,
+                      const Observation& observation,
+                      std::span<const ScanPoint> points);
   void Begin(const Observation& observation,
              std::span<const ScanPoint> points,
              MappingStep& step) const;
@@ -76,6 +80,7 @@ class RobotTracker {
                  std::span<const ScanPoint> points,
                  MappingStep& step);
   void Remember(const Observation& observation, const MappingStep& step, bool has_moved_on);
+  void LearnTurn(const MappingStep& step);
   void Extend(bool extends,
               const Observation& observation,
               std::span<const ScanPoint> points,
@@ -85,10 +90,12 @@ class RobotTracker {
   struct HeldScan {
     Observation observation;
     UncertainPose2 map_robot;
-    UncertainPose2 local;  // The same, as uncertain as relative to the map around.
+    UncertainPose2 local;                 // The same, as uncertain as relative to the map around.
+    std::optional<Pose2> T_wheels_robot;  // Odometry as it was told.
   };
 
   MapperOptions options_;
+  GyroOdometry gyro_;
   MotionModel motion_;
   ScanLocator locator_;
   LaserTurns lasers_;

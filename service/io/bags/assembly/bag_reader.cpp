@@ -32,6 +32,11 @@ double SweepOf(const LaserScanMessage& message, const LogOptions& options) {
   return options.sweep_s.value_or(static_cast<double>(message.time_step_s) * gaps);
 }
 
+std::chrono::nanoseconds OffsetOf(const LogOptions& options) {
+  return std::chrono::round<std::chrono::nanoseconds>(
+      std::chrono::duration<double>(options.stamp_offset_s));
+}
+
 }  // namespace
 
 BagReader::BagReader(const std::filesystem::path& path, const LogOptions& options)
@@ -75,7 +80,10 @@ void BagReader::TakePlaces() {
       continue;
     }
     const auto number = static_cast<std::size_t>(laser - choice_.lasers.begin());
-    for (const ScanPlace& place : scans.places) places_.push_back({.scan = place, .laser = number});
+    for (ScanPlace place : scans.places) {
+      place.stamp += OffsetOf(options_);
+      places_.push_back({.scan = place, .laser = number});
+    }
   }
   contents_.scans.clear();
   std::ranges::sort(places_, {}, [](const Place& place) {
@@ -137,7 +145,15 @@ LaserScan BagReader::Deskew(LaserScan scan,
   const auto sweep =
       std::chrono::round<std::chrono::nanoseconds>(std::chrono::duration<double>(sweep_s));
   const std::optional<Pose2> T_odom_last = choice_.odometry.At(scan.stamp + sweep, 0);
-  return T_odom_last ? Deskewed(scan, T_odom_first->Inverse() * *T_odom_last) : scan;
+  if (!T_odom_last) return scan;
+  Pose2 T_first_last = T_odom_first->Inverse() * *T_odom_last;
+  const std::optional<double> gyro_first_rad = choice_.gyro.At(scan.stamp);
+  const std::optional<double> gyro_last_rad = choice_.gyro.At(scan.stamp + sweep);
+  // Its bias does not count within a scan.
+  if (gyro_first_rad && gyro_last_rad) {
+    T_first_last.theta_rad = NormalizeAngle(*gyro_last_rad - *gyro_first_rad);
+  }
+  return Deskewed(scan, T_first_last);
 }
 
 ScanReading BagReader::ReadScan(const Place& place) {
@@ -149,7 +165,9 @@ ScanReading BagReader::ReadScan(const Place& place) {
   const double sweep_s = SweepOf(message, options_);
   ScanReading reading{.scan = ScanOf(std::move(message), laser),
                       .T_odom_robot = choice_.odometry.At(place.scan.stamp, place.scan.sequence),
-                      .laser = laser.name};
+                      .laser = laser.name,
+                      .gyro_rad = choice_.gyro.At(place.scan.stamp)};
+  reading.scan.stamp = place.scan.stamp;
   LaserGeometry& geometry = reading.scan.geometry;
   if (options_.range_max_m) geometry.range_max_m = *options_.range_max_m;
   if (options_.T_robot_laser) geometry.T_robot_laser = *options_.T_robot_laser;

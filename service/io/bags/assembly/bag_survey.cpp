@@ -45,6 +45,8 @@ class Surveyor {
       TakeTruth(topic, DecodeOdometry(bytes, topic.encoding));
     } else if (topic.type == kOdometryMessage) {
       TakeOdometry(topic, bytes);
+    } else if (topic.type == kImuMessage) {
+      TakeImu(topic, DecodeImu(bytes, topic.encoding));
     } else if (topic.type == kTransformsMessage || topic.type == kOldTransformsMessage) {
       TakeTransforms(topic, bytes);
     } else {
@@ -73,6 +75,12 @@ class Surveyor {
     odometry.child_frame = FrameName(pose.child_frame);
     odometry.track.Add({.stamp = pose.header.stamp, .T_odom_robot = Planar(pose.T_frame_child)},
                        report_.lines);
+  }
+
+  void TakeImu(const BagTopic& topic, const ImuMessage& imu) {
+    GyroTopic& gyro = contents_.gyros[topic.name];
+    gyro.frame = FrameName(imu.header.frame);
+    gyro.track.Add(imu.header.stamp, imu.turn_rate_rad_s);
   }
 
   void TakeTruth(const BagTopic& topic, const OdometryMessage& truth) {

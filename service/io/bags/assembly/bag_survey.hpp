@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "service/io/bags/assembly/bag_faults.hpp"
+#include "service/io/bags/assembly/gyro_track.hpp"
 #include "service/io/bags/assembly/odometry_track.hpp"
 #include "service/io/bags/assembly/transform_tree.hpp"
 #include "service/io/bags/containers/bag_files.hpp"
@@ -38,6 +39,12 @@ struct OdometryTopic {
   OdometryTrack track;
 };
 
+/// A topic of a gyro.
+struct GyroTopic {
+  std::string frame;
+  GyroTrack track;
+};
+
 /// What a bag holds: read once from begin to end, and kept but for the scans themselves.
 ///
 /// Messages may stand in any order, and what says where a laser sits may come last: so all are
@@ -46,6 +53,7 @@ struct BagContents {
   std::vector<OpenBagFile> files;
   std::map<std::string, ScanTopic> scans;
   std::map<std::string, OdometryTopic> odometry;
+  std::map<std::string, GyroTopic> gyros;
   std::map<std::string, OdometryTrack> truth;       ///< Topics of a simulator's ground truth.
   std::map<std::string, TransformTree> transforms;  ///< By namespace: "" or "/robot1".
 };

@@ -71,6 +71,7 @@ class Chooser {
     if (topics.empty()) return choice;
     const std::string robot_frame = ChooseOdometry(topics.front(), choice.odometry);
     choice.lasers = MountAll(topics, robot_frame);
+    ChooseGyro(robot_frame, choice.gyro);
     for (auto& [topic, track] : contents_.truth) {
       if (RobotOf(topic) == robot_) choice.truth = std::move(track);
     }
@@ -225,6 +226,22 @@ class Chooser {
                     "; choose with --odom");
     }
     return best;
+  }
+
+  /// The robot's gyro, of several that with the most messages: /imu/data and /imu/data_raw are one.
+  void ChooseGyro(const std::string& robot_frame, GyroTrack& track) {
+    std::string best;
+    for (const auto& [topic, gyro] : contents_.gyros) {
+      if (RobotOf(topic) != robot_) continue;
+      if (best.empty() || gyro.track.size() > contents_.gyros[best].track.size()) best = topic;
+    }
+    if (best.empty()) return;
+    const std::string& frame = contents_.gyros[best].frame;
+    const std::optional<Transform3> T_robot_gyro = Transforms().Find(robot_frame, frame);
+    report_.notes.push_back("turns from the gyro of " + best + ", of '" + frame + "'" +
+                            (T_robot_gyro ? "" : ", taken as upright on the robot"));
+    track = std::move(contents_.gyros[best].track);
+    track.Integrate(T_robot_gyro.value_or(Transform3{}).rotation);
   }
 
   /// The lasers as they sit; of several that nobody asked for, those that fit a level map.

@@ -23,6 +23,7 @@ struct LaserChoice {
 struct RobotChoice {
   std::vector<LaserChoice> lasers;
   OdometryTrack odometry;
+  GyroTrack gyro;
   OdometryTrack truth;
 };
 

@@ -3,12 +3,14 @@
 #include "service/io/bags/messages/ros_messages.hpp"
 
 #include <chrono>
+#include <cmath>
 
 #include "qwsm/sensor/scan_limits.hpp"
 
 namespace qwsm::io {
 namespace {
 
+constexpr double kFastestTurn_rad_s = 100.0;
 constexpr std::uint32_t kNanosecondsInSecond = 1'000'000'000;
 // A transform is never shorter than its stamp, two lengths and seven numbers.
 constexpr std::size_t kLeastTransformBytes = 72;
@@ -81,6 +83,19 @@ OdometryMessage DecodeOdometry(std::string_view bytes, Encoding encoding) {
   message.T_frame_child = TakeTransform(fields);
   if (!IsSound(message.T_frame_child)) throw MessageError("its pose is no position");
   return message;
+}
+
+ImuMessage DecodeImu(std::string_view bytes, Encoding encoding) {
+  constexpr int kOrientationAndItsCovariance = 4 + 9;
+  MessageReader fields(bytes, encoding);
+  ImuMessage imu;
+  imu.header = TakeHeader(fields);
+  for (int i = 0; i < kOrientationAndItsCovariance; ++i) fields.Double();
+  for (double& rate_rad_s : imu.turn_rate_rad_s) {
+    rate_rad_s = fields.Double();
+    if (!(std::abs(rate_rad_s) <= kFastestTurn_rad_s)) throw MessageError("it turns at no rate");
+  }
+  return imu;
 }
 
 std::vector<TransformMessage> DecodeTransforms(std::string_view bytes, Encoding encoding) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,7 @@ namespace qwsm::io {
 
 inline constexpr std::string_view kLaserScanMessage = "sensor_msgs/LaserScan";
 inline constexpr std::string_view kOdometryMessage = "nav_msgs/Odometry";
+inline constexpr std::string_view kImuMessage = "sensor_msgs/Imu";
 inline constexpr std::string_view kTransformsMessage = "tf2_msgs/TFMessage";
 inline constexpr std::string_view kOldTransformsMessage = "tf/tfMessage";
 
@@ -42,6 +44,11 @@ struct OdometryMessage {
   Transform3 T_frame_child;
 };
 
+struct ImuMessage {
+  RosHeader header;
+  std::array<double, 3> turn_rate_rad_s{};  ///< About the axes of its frame.
+};
+
 struct TransformMessage {
   RosHeader header;
   std::string child_frame;
@@ -56,6 +63,7 @@ RosHeader TakeHeader(MessageReader& fields);
 RosHeader DecodeHeader(std::string_view bytes, Encoding encoding);
 LaserScanMessage DecodeLaserScan(std::string_view bytes, Encoding encoding);
 OdometryMessage DecodeOdometry(std::string_view bytes, Encoding encoding);
+ImuMessage DecodeImu(std::string_view bytes, Encoding encoding);
 std::vector<TransformMessage> DecodeTransforms(std::string_view bytes, Encoding encoding);
 
 }  // namespace qwsm::io

@@ -54,6 +54,8 @@ struct LogOptions {
   std::string robot;
   /// Of a bag: time from a scan's first beam to its last, in seconds; else as its messages say.
   std::optional<double> sweep_s;
+  /// Of a bag: what is added to the stamps of scans, in seconds.
+  double stamp_offset_s = 0.0;
   std::optional<Pose2> T_robot_laser;       ///< Replaces what the log says of the mounting.
   std::optional<float> range_max_m;         ///< Replaces what the log says or shows.
   std::optional<double> field_of_view_rad;  ///< Replaces the guess where lines do not state it.

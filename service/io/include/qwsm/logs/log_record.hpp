@@ -17,6 +17,9 @@ struct ScanReading {
   std::optional<Pose2> T_odom_robot;
   /// Name of the laser: "front", "rear", "laser3" (CARMEN), "laser:0" (Player).
   std::string laser;
+  /// Angle turned since some moment as the robot's gyro tells it, where the log has one; not
+  /// wrapped.
+  std::optional<double> gyro_rad{};
 };
 
 /// The robot's own dead reckoning.
