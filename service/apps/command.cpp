@@ -91,6 +91,7 @@ io::LogOptions LogOptionsOf(const options::LogOptions& options) {
   if (options.sweep_s >= 0.0) log.sweep_s = options.sweep_s;
   std::istringstream topics(options.scan);
   for (std::string topic; std::getline(topics, topic, ',');) log.scan_topics.push_back(topic);
+  log.stamp_offset_s = options.stamp_offset_s;
   log.odometry_topic = options.odometry;
   log.robot = options.robot;
   log.on_fault = [](const std::string& fault) { messages::Warn(fault); };

@@ -22,6 +22,7 @@ struct LogOptions {
   double field_of_view_rad = 0.0;
   bool mirrored = false;
   double sweep_s = -1.0;
+  double stamp_offset_s = 0.0;
   std::string scan;
   std::string odometry;
   std::string robot;
@@ -46,6 +47,11 @@ void Describe(Visitor& visit, LogOptions& o) {
         {.help = "of a bag: time from first to last beam, as the robot moves; -1: as messages say",
          .min = -1,
          .max = 1});
+  visit("stamp_offset_s",
+        o.stamp_offset_s,
+        {.help = "of a bag: what is added to the stamps of scans, to fit those of odometry",
+         .min = -3600,
+         .max = 3600});
   visit("scan", o.scan, {.help = "of a bag: topics of scans, with commas; empty: all lasers'"});
   visit(
       "odometry", o.odometry, {.help = "of a bag: topic of odometry, or /tf; empty: the robot's"});

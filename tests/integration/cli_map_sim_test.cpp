@@ -48,6 +48,18 @@ TEST_F(MapSimCommand, MapsAndComparesWithTheTruth) {
   EXPECT_NEAR(truth.back().T_map_robot.x_m, estimate.back().T_map_robot.x_m, 0.1);
 }
 
+TEST_F(MapSimCommand, TellsOfABagWhoseStampsDoNotFit) {
+  const fs::path simulated = folder_.path() / "simulated";
+  const std::string bag = folder_.path() / "drive.mcap";
+  RunProgram({"sim", "office", "--duration", "90", "--output", simulated});
+  ASSERT_EQ(RunProgram({"convert", simulated / "robot.log", "--output", bag}).exit_code, 0);
+  const std::string what = "ahead of odometry, by how both turn; --set log.stamp_offset_s=";
+  const Outcome fitting = Map({bag, "--no-pictures"});
+  EXPECT_EQ(fitting.errors.find(what), std::string::npos) << fitting.errors;
+  const Outcome late = Map({bag, "--no-pictures", "--force", "--set", "log.stamp_offset_s=0.3"});
+  EXPECT_NE(late.errors.find(what), std::string::npos) << late.errors;
+}
+
 TEST_F(MapSimCommand, GivesTheSameAsTheLogOfThatSimulation) {
   ASSERT_EQ(Map({"--sim", "rubble", "--duration", "5", "--seed", "3"}).exit_code, 0);
   const Trajectory together = io::ReadTumFile(results_ / "trajectory.tum");

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <variant>
 
@@ -21,7 +22,7 @@ void Mirror(LaserGeometry& geometry) {
 LogSource::LogSource(const std::vector<std::filesystem::path>& logs,
                      const io::LogOptions& options,
                      bool mirrored)
-    : warn_(options.on_fault), mirrored_(mirrored) {
+    : warn_(options.on_fault), mirrored_(mirrored), stamp_offset_s_(options.stamp_offset_s) {
   for (const std::filesystem::path& log : logs) readers_.push_back(io::OpenLog(log, options));
 }
 
@@ -43,9 +44,11 @@ std::optional<Observation> LogSource::Read() {
       ++current_;
     } else if (auto* reading = std::get_if<io::ScanReading>(&*record)) {
       Observation observation{.scan = std::move(reading->scan),
-                              .T_odom_robot = reading->T_odom_robot};
+                              .T_odom_robot = reading->T_odom_robot,
+                              .gyro_rad = reading->gyro_rad};
       if (mirrored_) Mirror(observation.scan.geometry);
       Check(observation);
+      CheckStamps(observation);
       return observation;
     } else if (const auto* pose = std::get_if<io::TruePoseReading>(&*record)) {
       truth_.push_back({.stamp = pose->stamp, .T_map_robot = pose->T_world_robot});
@@ -65,6 +68,24 @@ void LogSource::Check(const Observation& observation) {
                   "counts its beams from the other side; --set log.mirrored={} mends it",
                   readers_.front()->report().name,
                   !mirrored_));
+}
+
+// In a bag odometry has stamps of its own; in a text it stands beside the scan.
+void LogSource::CheckStamps(const Observation& observation) {
+  const io::LogReport& report = readers_.front()->report();
+  const bool is_bag = report.line_name == "messages";
+  if (!is_bag || told_of_stamps_ || told_of_turns_ || !warn_) return;
+  stamps_.Add(observation.scan, observation.T_odom_robot);
+  if (!stamps_.offset_s()) return;
+  told_of_stamps_ = true;
+  const double offset_s = *stamps_.offset_s();
+  warn_(
+      fmt::format("{}: scans are {:.2f} s {} odometry, by how both turn; "
+                  "--set log.stamp_offset_s={:.2f} mends it",
+                  report.name,
+                  std::abs(offset_s),
+                  offset_s < 0.0 ? "ahead of" : "behind",
+                  stamp_offset_s_ + offset_s));
 }
 
 SourceProgress LogSource::progress() const {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "qwsm/logs/log_reader.hpp"
+#include "qwsm/sensor/stamp_check.hpp"
 #include "qwsm/sensor/turn_check.hpp"
 #include "service/pipeline/run/scan_source.hpp"
 
@@ -40,11 +41,15 @@ class LogSource final : public ScanSource {
  private:
   std::optional<Observation> Read();
   void Check(const Observation& observation);
+  void CheckStamps(const Observation& observation);
 
   std::function<void(const std::string&)> warn_;
   bool mirrored_;
   TurnCheck turns_;
   bool told_of_turns_ = false;
+  StampCheck stamps_;
+  bool told_of_stamps_ = false;
+  double stamp_offset_s_;
   std::vector<std::unique_ptr<io::LogReader>> readers_;
   std::size_t current_ = 0;
   std::size_t scans_ = 0;
