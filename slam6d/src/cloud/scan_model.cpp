@@ -14,48 +14,34 @@ Eigen::Vector3d PointInSlot(const KdTreeLayout& layout, std::size_t slot) {
   return {block.x_m[slot % kLanes], block.y_m[slot % kLanes], block.z_m[slot % kLanes]};
 }
 
-/// A leaf's points as a surface.
+/// The points of a leaf, by their mean and how they scatter about it.
 struct Patch {
-  Surfel surfel;
-  Eigen::Vector3d variances_m2;  ///< Of its points, the smallest first: across it.
+  double count = 0.0;
+  Eigen::Vector3d mean_m = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< Of the scatter, as columns.
+  /// Along the axes, the smallest first: across the patch.
+  Eigen::Vector3d variances_m2 = Eigen::Vector3d::Zero();
 };
-
-/// First-order perturbation of the eigenvector across (Kanatani 1996): the noise is
-/// that of the thickness.
-Eigen::Matrix3d NormalCovariance(const Eigen::Matrix3d& axes,
-                                 const Eigen::Vector3d& variances_m2,
-                                 double count) {
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (int axis = 1; axis < 3; ++axis) {
-    const double variance = variances_m2(0) / (count * std::max(variances_m2(axis), 1e-300));
-    covariance += variance * axes.col(axis) * axes.col(axis).transpose();
-  }
-  return covariance;
-}
 
 std::optional<Patch> FitPatch(const KdTreeLayout& layout,
                               const KdNode& leaf,
                               const SurfelOptions& options) {
   if (leaf.point_count < static_cast<std::uint32_t>(options.min_points)) return std::nullopt;
   const std::size_t first = static_cast<std::size_t>(leaf.first) * kLanes;
-  const double count = leaf.point_count;
   Patch patch;
-  Surfel& surfel = patch.surfel;
+  patch.count = static_cast<double>(leaf.point_count);
   for (std::uint32_t i = 0; i < leaf.point_count; ++i) {
-    surfel.mean_m += PointInSlot(layout, first + i) / count;
+    patch.mean_m += PointInSlot(layout, first + i) / patch.count;
   }
   Eigen::Matrix3d scatter_m2 = Eigen::Matrix3d::Zero();
   for (std::uint32_t i = 0; i < leaf.point_count; ++i) {
-    const Eigen::Vector3d offset_m = PointInSlot(layout, first + i) - surfel.mean_m;
-    scatter_m2 += offset_m * offset_m.transpose() / count;
+    const Eigen::Vector3d offset_m = PointInSlot(layout, first + i) - patch.mean_m;
+    scatter_m2 += offset_m * offset_m.transpose() / patch.count;
   }
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
   eigen.computeDirect(scatter_m2);
+  patch.axes = eigen.eigenvectors();
   patch.variances_m2 = eigen.eigenvalues().cwiseMax(0.0);
-  surfel.normal = eigen.eigenvectors().col(0);
-  if (surfel.normal.dot(surfel.mean_m) > 0.0) surfel.normal = -surfel.normal;
-  surfel.variance_m2 = patch.variances_m2(0) / count;
-  surfel.normal_covariance = NormalCovariance(eigen.eigenvectors(), patch.variances_m2, count);
   return patch;
 }
 
@@ -76,6 +62,22 @@ double UsualThickness2(const std::vector<std::optional<Patch>>& patches,
   const auto middle = thickness2_m2.begin() + static_cast<std::ptrdiff_t>(thickness2_m2.size() / 2);
   std::nth_element(thickness2_m2.begin(), middle, thickness2_m2.end());
   return *middle;
+}
+
+/// The surface that a patch samples: its noise is its thickness across.
+Surfel SurfelOf(const Patch& patch, double thickness2_m2) {
+  Surfel surfel;
+  surfel.mean_m = patch.mean_m;
+  surfel.normal = patch.axes.col(0);
+  if (surfel.normal.dot(surfel.mean_m) > 0.0) surfel.normal = -surfel.normal;
+  surfel.variance_m2 = thickness2_m2 / patch.count;
+  // First-order perturbation of the eigenvector across (Kanatani 1996).
+  for (int axis = 1; axis < 3; ++axis) {
+    const Eigen::Vector3d along = patch.axes.col(axis);
+    const double variance = surfel.variance_m2 / std::max(patch.variances_m2(axis), 1e-300);
+    surfel.normal_covariance += variance * along * along.transpose();
+  }
+  return surfel;
 }
 
 PointCloud InTreeOrder(const PointCloud& cloud, const KdTree& tree) {
@@ -110,14 +112,16 @@ SurfelMap FindSurfels(const KdTree& tree, const SurfelOptions& options) {
   map.surfel_of_block.assign(layout.blocks.size(), SurfelMap::kNone);
   for (std::size_t leaf = 0; leaf < patches.size(); ++leaf) {
     const std::optional<Patch>& patch = patches[leaf];
-    // Close to the scanner patches are smaller than the noise, and flat by chance.
-    if (!patch || !IsFlat(*patch, std::max(patch->variances_m2(0), usual2_m2), options)) continue;
+    if (!patch) continue;
+    // A few points are flatter than the noise by chance, and patches close to the scanner smaller.
+    const double thickness2_m2 = std::max(patch->variances_m2(0), usual2_m2);
+    if (!IsFlat(*patch, thickness2_m2, options)) continue;
     const std::size_t end =
         leaf + 1 < first_blocks.size() ? first_blocks[leaf + 1] : layout.blocks.size();
     std::fill(map.surfel_of_block.begin() + static_cast<std::ptrdiff_t>(first_blocks[leaf]),
               map.surfel_of_block.begin() + static_cast<std::ptrdiff_t>(end),
               static_cast<std::int32_t>(map.surfels.size()));
-    map.surfels.push_back(patch->surfel);
+    map.surfels.push_back(SurfelOf(*patch, thickness2_m2));
   }
   return map;
 }
