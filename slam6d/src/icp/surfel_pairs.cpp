@@ -19,8 +19,9 @@ constexpr std::size_t kSurfelsPerChunk = 512;
 /// the observations scatter.
 constexpr std::size_t kSurfelsPerCluster = 16;
 
-/// Surfels whose normals differ more than this (37 degrees) are different surfaces.
-constexpr double kMinNormalCosine = 0.8;
+/// Surfels whose normals differ more than this (18 degrees) are different surfaces: those that lie
+/// across the foot of a tree or the edge of a step hold a scan where nothing holds it.
+constexpr double kMinNormalCosine = 0.95;
 
 /// Sine of the angle (3 degrees) below which a surfel may be seen from either side: its normal is
 /// no better known.
