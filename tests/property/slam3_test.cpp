@@ -99,16 +99,16 @@ TEST(Slam3, RefinementGathersScansThatWereLeftApart) {
   std::mt19937 random(9);
   std::vector<ScanModel> models;
   for (const PointCloud& scan : drive.scans) models.emplace_back(scan);
-  std::vector<ModelScan> scans;
+  std::vector<IcpReference> scans;
   for (std::size_t i = 0; i < models.size(); ++i) {
     Pose3 T_room_scan = drive.T_room_scan[i];
     if (i > 0) T_room_scan.translation_m += DrawNormal(random, 0.03);
-    scans.push_back({.scan = {.model = &models[i], .T_map_ref = T_room_scan}});
+    scans.push_back({.model = &models[i], .T_map_ref = T_room_scan});
   }
   const RefinementOptions options{.max_visits = 30};
   const RefinementResult result = RefineModel(scans, {}, options);
   EXPECT_TRUE(result.settled);
-  EXPECT_EQ(result.T_map_scan[0].translation_m, scans[0].scan.T_map_ref.translation_m);
+  EXPECT_EQ(result.T_map_scan[0].translation_m, scans[0].T_map_ref.translation_m);
   EXPECT_LT(LargestErrorM(result.T_map_scan, drive.T_room_scan), 0.003);
   const auto stop_at_once = [](const RefinementProgress&) { return false; };
   EXPECT_EQ(RefineModel(scans, {}, options, stop_at_once).fits, 1U);

@@ -60,26 +60,26 @@ double ReachM(const ScanModel& model) {
 }
 
 /// The nearest of the scans that overlap with one of them.
-std::vector<std::size_t> Neighbors(std::span<const ModelScan> scans,
+std::vector<std::size_t> Neighbors(std::span<const IcpReference> scans,
                                    std::size_t current,
                                    const RefinementOptions& options) {
-  const IcpReference& cur = scans[current].scan;
+  const IcpReference& cur = scans[current];
   const double reach_m = ReachM(*cur.model) + options.max_distance_m;
   const auto distance_m = [&](std::size_t scan) {
-    return (scans[scan].scan.T_map_ref.translation_m - cur.T_map_ref.translation_m).norm();
+    return (scans[scan].T_map_ref.translation_m - cur.T_map_ref.translation_m).norm();
   };
   std::vector<std::size_t> by_distance;
   for (std::size_t scan = 0; scan < scans.size(); ++scan) {
-    if (scan == current || scans[scan].scan.model == nullptr) continue;
+    if (scan == current || scans[scan].model == nullptr) continue;
     // So that the time of a fit does not grow with the model.
-    if (distance_m(scan) > reach_m + ReachM(*scans[scan].scan.model)) continue;
+    if (distance_m(scan) > reach_m + ReachM(*scans[scan].model)) continue;
     by_distance.push_back(scan);
   }
   std::ranges::stable_sort(by_distance, {}, distance_m);
   std::vector<std::size_t> neighbors;
   for (const std::size_t scan : by_distance) {
     if (neighbors.size() == static_cast<std::size_t>(options.max_neighbors)) break;
-    const IcpReference& ref = scans[scan].scan;
+    const IcpReference& ref = scans[scan];
     const Pose3 T_ref_cur = ref.T_map_ref.Inverse() * cur.T_map_ref;
     if (OverlapsByPairs(*ref.model, *cur.model, T_ref_cur, options)) {
       neighbors.push_back(scan);
@@ -89,23 +89,22 @@ std::vector<std::size_t> Neighbors(std::span<const ModelScan> scans,
 }
 
 /// Where the scan fits best among its neighbours; where it is, if that cannot be found.
-Pose3 Fit(std::span<const ModelScan> scans,
+Pose3 Fit(std::span<const IcpReference> scans,
           std::size_t current,
           std::span<const std::size_t> neighbors,
-          IcpOptions icp) {
+          const IcpOptions& icp) {
   std::vector<IcpReference> M;
-  for (const std::size_t scan : neighbors) M.push_back(scans[scan].scan);
-  icp.metric = scans[current].metric;
-  const auto& [D, T_map_cur] = scans[current].scan;
+  for (const std::size_t scan : neighbors) M.push_back(scans[scan]);
+  const auto& [D, T_map_cur] = scans[current];
   const IcpResult result = Align(M, *D, T_map_cur, icp);
   const bool found =
       result.status == IcpStatus::kConverged || result.status == IcpStatus::kIterationLimit;
   return found ? result.T_ref_cur : T_map_cur;
 }
 
-std::vector<Pose3> PosesOf(std::span<const ModelScan> scans) {
+std::vector<Pose3> PosesOf(std::span<const IcpReference> scans) {
   std::vector<Pose3> poses;
-  for (const ModelScan& scan : scans) poses.push_back(scan.scan.T_map_ref);
+  for (const IcpReference& scan : scans) poses.push_back(scan.T_map_ref);
   return poses;
 }
 
@@ -127,24 +126,24 @@ bool OverlapsByPairs(const ScanModel& ref,
   return false;
 }
 
-RefinementResult RefineModel(std::span<const ModelScan> scans,
+RefinementResult RefineModel(std::span<const IcpReference> scans,
                              const IcpOptions& icp,
                              const RefinementOptions& options,
                              const RefinementObserver& observer) {
   IcpOptions fit = icp;
   fit.max_distance_m = options.max_distance_m;
   fit.max_iterations = std::min(fit.max_iterations, kMostIterations);
-  std::vector<ModelScan> model(scans.begin(), scans.end());
+  std::vector<IcpReference> model(scans.begin(), scans.end());
   FitQueue queue(scans.size(), options.max_visits);
   for (std::size_t scan = 0; scan < scans.size(); ++scan) {
-    if (scans[scan].scan.model != nullptr) queue.Add(scan);
+    if (scans[scan].model != nullptr) queue.Add(scan);
   }
   RefinementResult result{.T_map_scan = {}};
   // Nüchter et al. (2007), section 3.5, steps 1 to 3.
   while (queue.size() > 0) {
     const std::size_t current = queue.Pop();                                        // 1.
     const std::vector<std::size_t> neighbors = Neighbors(model, current, options);  // 2.
-    Pose3& T_map_cur = model[current].scan.T_map_ref;
+    Pose3& T_map_cur = model[current].T_map_ref;
     const Pose3 before = T_map_cur;
     if (!neighbors.empty()) T_map_cur = Fit(model, current, neighbors, fit);
     if (Moved(before, T_map_cur, options)) {  // 3.

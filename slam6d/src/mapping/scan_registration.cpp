@@ -30,9 +30,9 @@ class Attempts {
     }
   }
 
-  Registration From(const Pose3& T_map_cur, const IcpOptions& icp) const {
+  Registration From(const Pose3& T_map_cur) const {
     const PoseAndGuess start{.now = T_map_cur, .guess = cur_.T_map_scan};
-    Registration result{.icp = Align(models_, *cur_.model, start, icp), .metric = icp.metric};
+    Registration result{.icp = Align(models_, *cur_.model, start, options_.icp)};
     result.agreement = Compare(images_, *cur_.image, result.icp.T_ref_cur);
     result.convinces = HasPose(result.icp) && IsWithinReach(result.icp.T_ref_cur) &&
                        result.agreement.Contradiction() <= options_.evidence.max_contradiction;
@@ -50,18 +50,13 @@ class Attempts {
     return GuessByOverlap(cubes, cur, cur_.T_map_scan, options_.guess).T_map_cur;
   }
 
-  /// Points from far off, then planes from there; among trees, where the little that is flat leads
-  /// astray, points have the last word.
+  /// Points find together from far off; planes have the last word, as only their pairs tell what
+  /// they leave open.
   Registration ByPoints() const {
     IcpOptions points = options_.icp;
     points.metric = IcpMetric::kPointToPoint;
     points.max_distance_m *= kWidePairsFactor;
-    const Registration coarse = From(cur_.T_map_scan, points);
-    if (!IsWithinReach(coarse.icp.T_ref_cur)) return coarse;
-    const Registration planes = From(coarse.icp.T_ref_cur, options_.icp);
-    if (planes.convinces) return planes;
-    points.max_distance_m = options_.icp.max_distance_m;
-    return From(coarse.icp.T_ref_cur, points);
+    return From(Align(models_, *cur_.model, cur_.T_map_scan, points).T_ref_cur);
   }
 
  private:
@@ -103,9 +98,9 @@ Registration RegisterScan(std::span<const PlacedScan> references,
                           const PlacedScan& cur,
                           const RegistrationOptions& options) {
   const Attempts attempts(references, cur, options);
-  const Registration first = attempts.From(cur.T_map_scan, options.icp);
+  const Registration first = attempts.From(cur.T_map_scan);
   if (IsSettled(first)) return first;
-  const Registration second = attempts.From(attempts.GuessByOctrees(), options.icp);
+  const Registration second = attempts.From(attempts.GuessByOctrees());
   if (IsSettled(second) || options.icp.metric == IcpMetric::kPointToPoint) {
     return BetterOf(first, second);
   }

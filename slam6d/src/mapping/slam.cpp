@@ -127,8 +127,7 @@ SlamStep Slam::Add(const PointCloud& scan, const Pose3& T_odom_scan) {
   T_odom_last_ = T_odom_scan;
   Entry entry{.range_m = RangeOf(points, kRangeShare),
               .model = ScanModel(points, options_.tree),
-              .image = std::move(image),
-              .metric = options_.icp.metric};
+              .image = std::move(image)};
   const bool usable = entry.model.tree.size() >= kLeastPoints;
   if (!graph_.T_map_scan.empty()) {
     step.covariance = covariances_.back() + CovarianceOfGuess(options_.icp);
@@ -166,7 +165,7 @@ std::vector<std::size_t> Slam::LastUsable(int count) const {
   return scans;
 }
 
-void Slam::Match(Entry& entry, SlamStep& step) {
+void Slam::Match(const Entry& entry, SlamStep& step) {
   const std::vector<std::size_t> references = LastUsable(options_.references);
   if (references.empty()) {
     step.status = SlamStatus::kFirst;
@@ -174,7 +173,6 @@ void Slam::Match(Entry& entry, SlamStep& step) {
   }
   const PlacedScan cur{.model = &entry.model, .image = &entry.image, .T_map_scan = step.T_map_scan};
   const Registration match = Register(references, cur, HowToRegister(options_));
-  entry.metric = match.metric;
   step.match = match.icp;
   step.overlap = match.agreement.Overlap();
   step.contradiction = match.agreement.Contradiction();
@@ -211,8 +209,7 @@ void Slam::Constrain(std::size_t from, std::size_t to, const UncertainPose3& T_m
 void Slam::CloseLoops(SlamStep& step) {
   const std::size_t scan = entries_.size() - 1;
   const Entry& cur = *entries_[scan];
-  RegistrationOptions how = Widened(HowToRegister(options_), kLoopSearchFactor);
-  how.icp.metric = cur.metric;
+  const RegistrationOptions how = Widened(HowToRegister(options_), kLoopSearchFactor);
   for (const std::size_t earlier : LoopHypotheses(graph_.T_map_scan, cur.range_m, options_.loop)) {
     if (!entries_[earlier]) continue;
     const Registration match = Register(std::span(&earlier, 1), Placed(scan), how);
@@ -227,14 +224,11 @@ void Slam::CloseLoops(SlamStep& step) {
 
 RefinementResult Slam::Refine(const RefinementObserver& observer) {
   if (!options_.refinement.enabled) return {.T_map_scan = graph_.T_map_scan};
-  std::vector<ModelScan> scans;
+  std::vector<IcpReference> scans;
   for (std::size_t scan = 0; scan < entries_.size(); ++scan) {
-    ModelScan model{.scan = {.model = nullptr, .T_map_ref = graph_.T_map_scan[scan]}};
-    if (entries_[scan]) {
-      model.scan.model = &entries_[scan]->model;
-      model.metric = entries_[scan]->metric;
-    }
-    scans.push_back(model);
+    const std::optional<Entry>& entry = entries_[scan];
+    scans.push_back(
+        {.model = entry ? &entry->model : nullptr, .T_map_ref = graph_.T_map_scan[scan]});
   }
   RefinementResult result = RefineModel(scans, options_.icp, options_.refinement, observer);
   graph_.T_map_scan = result.T_map_scan;

@@ -54,20 +54,14 @@ struct RefinementResult {
   bool settled = false;  ///< The queue ran empty: no scan wants to move any more.
 };
 
-/// A scan of the model that is refined.
-struct ModelScan {
-  IcpReference scan;                            ///< A scan without a model stays out.
-  IcpMetric metric = IcpMetric::kPlaneToPlane;  ///< Metric by which the scan is fitted to others.
-};
-
 /// Simultaneous matching (Nüchter et al. 2007, section 3.5, after Pulli 1999): each scan is fitted
 /// to all it overlaps, and where it moves, these are fitted again, until nothing moves. The first
-/// scan, the master, stays where it is.
+/// scan, the master, stays where it is; scans without a model stay out.
 ///
 /// Departing from Nüchter et al., the queue begins with all scans, as one that already fits would
 /// hide those behind it; a scan's neighbours are the nearest ones only, so that the time grows with
 /// the number of scans and not with its square; and a scan is fitted so many times at most.
-RefinementResult RefineModel(std::span<const ModelScan> scans,
+RefinementResult RefineModel(std::span<const IcpReference> scans,
                              const IcpOptions& icp,
                              const RefinementOptions& options,
                              const RefinementObserver& observer = {});

@@ -43,8 +43,7 @@ struct PlacedScan {
 
 /// What came of a registration.
 struct Registration {
-  IcpResult icp;                                ///< Its `ref` is the map.
-  IcpMetric metric = IcpMetric::kPlaneToPlane;  ///< Metric that found the pose.
+  IcpResult icp;  ///< Its `ref` is the map.
   Agreement agreement{};
   /// Whether the pairs hold the pose, within what the guess may be wrong by, and free space does
   /// not contradict it.
@@ -53,8 +52,8 @@ struct Registration {
 
 /// Registers a scan, which is guessed to be at its pose, with all references at once (Nüchter et
 /// al. 2007, sections 3.2 and 3.3): from the guess; where that does not convince, from where
-/// overlapping octrees put it; then by points, which find together from farther off than planes.
-/// Where pairs of a pose that convinces never settle, the others are tried as well, and the one
+/// overlapping octrees put it; then from where points, which find together from farther off, put
+/// it. Where pairs of a pose that convinces never settle, the others are tried as well, and the one
 /// that sees most of what the references saw counts.
 ///
 /// Departing from Nüchter et al., ICP comes before the octrees: these cost many times as much.

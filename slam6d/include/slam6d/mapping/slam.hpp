@@ -122,7 +122,6 @@ class Slam {
     double range_m;  ///< How far the scanner sees.
     ScanModel model;
     RangeImage image;
-    IcpMetric metric;  ///< Metric by which the scan was registered.
   };
 
   PlacedScan Placed(std::size_t scan) const;
@@ -131,7 +130,7 @@ class Slam {
                         const RegistrationOptions& options) const;
   std::vector<std::size_t> LastUsable(int count) const;
   void Constrain(std::size_t from, std::size_t to, const UncertainPose3& T_map_to);
-  void Match(Entry& entry, SlamStep& step);
+  void Match(const Entry& entry, SlamStep& step);
   void CloseLoops(SlamStep& step);
   UncertainPose3 Uncertain(std::size_t scan) const;
   UncertainPose3 ByLastConstraint() const;
