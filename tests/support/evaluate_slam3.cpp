@@ -9,7 +9,6 @@
 // pairs: COUNT pairs of scans that overlap by 5 to 60 %, in all kinds of places: which were
 // believed, which should have been, and how honest their covariances are (NEES over degrees of
 // freedom: 1 when they are right).
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -66,14 +65,6 @@ TrajectoryError ErrorOf(const std::vector<Pose3>& poses, const std::vector<Pose3
   }
   const auto count = static_cast<double>(poses.size());
   return {.cm = std::sqrt(sum.cm / count), .deg = std::sqrt(sum.deg / count)};
-}
-
-/// The squared error of a pose over its covariance, per degree of freedom.
-double NeesOf(const Pose3& pose, const Matrix6d& covariance, const Pose3& truth) {
-  Vector6d error;
-  error << pose.translation_m - truth.translation_m,
-      RotationVector(pose.rotation * truth.rotation.transpose());
-  return error.dot(covariance.inverse() * error) / 6.0;
 }
 
 struct LoopOutcome {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/support/stops3.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -175,6 +176,13 @@ double TrueOverlap(const Stops3& stops) {
 }
 
 }  // namespace
+
+double NeesOf(const Pose3& pose, const Matrix6d& covariance, const Pose3& truth) {
+  Vector6d error;
+  error << pose.translation_m - truth.translation_m,
+      RotationVector(pose.rotation * truth.rotation.transpose());
+  return error.dot(covariance.inverse() * error) / 6.0;
+}
 
 Stops3 LoopInYard(std::uint64_t seed) {
   constexpr int kStops = 24;

@@ -26,6 +26,10 @@ struct Stops3 {
   std::vector<PointCloud> scans;
 };
 
+/// The squared error of a pose over its covariance, per degree of freedom: 1 on average where the
+/// covariance is right (NEES).
+double NeesOf(const Pose3& pose, const Matrix6d& covariance, const Pose3& truth);
+
 /// A closed loop round a yard between houses: 24 stops, of which the last two are where the first
 /// two were. 181 x 256 beams of a scanner like Kurt3D's, 1 cm of noise, 0.2 % of stray points.
 Stops3 LoopInYard(std::uint64_t seed);

@@ -17,7 +17,7 @@ constexpr double kObservableShare = 3.0;
 
 /// The residuals of a few pairs may agree by chance: no less of the scatter that their weights
 /// promise is taken for granted.
-constexpr double kLeastScatter = 0.1;
+constexpr double kLeastScatter = 0.25;
 
 }  // namespace
 

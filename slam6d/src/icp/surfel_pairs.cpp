@@ -108,6 +108,7 @@ bool IsBackOf(const Surfel& ref, const Eigen::Vector3d& scanner_ref_m) {
 
 NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
   A += other.A;
+  hessian += other.hessian;
   b += other.b;
   A_noise += other.A_noise;
   b_noise += other.b_noise;
@@ -127,6 +128,7 @@ NormalEquations NormalEquations::In(const Pose3& T_map_ref) const {
   const Matrix6d R = BlockRotation(T_map_ref.rotation);
   NormalEquations moved = *this;
   moved.A = R * A * R.transpose();
+  moved.hessian = R * hessian * R.transpose();
   moved.b = R * b;
   moved.A_noise = R * A_noise * R.transpose();
   moved.b_noise = R * b_noise;
@@ -177,12 +179,14 @@ void SurfelPairs::AddPair(const Rules& rules, std::size_t i, NormalEquations& eq
   // Geman & McClure (1987): weight (1 + r^2 / s^2)^-2.
   const double outlier = 1.0 + residual_m * residual_m / rules.scale2_m2;
   const double weight = 1.0 / (variance_m2 * outlier * outlier);
-  Matrix6x3 M;  // J = M n
+  const double slope = (4.0 - 3.0 * outlier) / outlier;  // d(weight r)/dr over the weight.
+  Matrix6x3 M;                                           // J = M n
   M << Eigen::Matrix3d::Identity(), Skew(point_m - rules.T_ref_cur.translation_m);
   const Vector6d J = M * normal;
   C += kLeastNormalVariance * Eigen::Matrix3d::Identity();
   const Matrix6x3 MC = M * C;
   equations.A.noalias() += weight * J * J.transpose();
+  equations.hessian.noalias() += slope * weight * J * J.transpose();
   equations.b += weight * residual_m * J;
   equations.A_noise.noalias() += weight * MC * M.transpose();
   equations.b_noise.noalias() += weight * MC * offset_m;
@@ -241,7 +245,7 @@ NormalEquations SurfelPairs::Collect(const Pose3& T_ref_cur, int iteration) {
   }
   total.clusters = std::move(clusters);
   total.settled = settled;
-  information_ = total.A;
+  information_ = total.hessian;
   return total;
 }
 

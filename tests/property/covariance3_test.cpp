@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What a registration promises is kept: pairs of scans that overlap little, in all kinds of places.
+#include <gtest/gtest.h>
+
+#include "slam6d/mapping/slam.hpp"
+#include "tests/support/stops3.hpp"
+
+namespace slam6d::test {
+namespace {
+
+/// How a pair was registered: its error over its covariance, or nothing where it was not believed.
+std::optional<double> NeesOfPair(const Stops3& stops) {
+  const PathLoopCloser closer;
+  Slam slam({}, closer);
+  static_cast<void>(slam.Add(stops.scans[0], stops.T_odom_scan[0]));
+  const SlamStep step = slam.Add(stops.scans[1], stops.T_odom_scan[1]);
+  if (step.status != SlamStatus::kMatched) return std::nullopt;
+  return NeesOf(step.T_map_scan, step.covariance, stops.T_world_scan[1]);
+}
+
+// A false hold of single pairs along a street made this 12 000 for one, and 400 in the mean.
+TEST(Covariance3, PredictsTheErrorOfScansThatOverlapLittle) {
+  constexpr std::uint64_t kFirst = 1025;
+  constexpr int kPairs = 30;
+  double sum = 0.0;
+  int believed = 0;
+  for (int i = 0; i < kPairs; ++i) {
+    const auto kind = static_cast<PlaceKind>(i % static_cast<int>(kPlaceNames.size()));
+    const std::optional<ScanPair3> pair =
+        DrawPair(kind, kFirst + static_cast<std::uint64_t>(i), 0.05, 0.6);
+    ASSERT_TRUE(pair);
+    const std::optional<double> nees = NeesOfPair(pair->stops);
+    if (!nees) continue;
+    EXPECT_LT(*nees, 10.0) << "pair " << i;
+    sum += *nees;
+    ++believed;
+  }
+  EXPECT_GE(believed, kPairs - 2);
+  EXPECT_GT(sum / believed, 0.4);
+  EXPECT_LT(sum / believed, 2.0);
+}
+
+}  // namespace
+}  // namespace slam6d::test
