@@ -15,8 +15,8 @@ namespace {
 constexpr std::size_t kLeastPoints = 3;
 
 /// The covariance of a registration assumes independent errors; nothing is better than this.
-constexpr double kLeastSigma_m = 3e-4;
-constexpr double kLeastSigma_rad = 3e-5;
+constexpr double kLeastSigma_m = 1e-4;
+constexpr double kLeastSigma_rad = 1e-5;
 
 /// How far the scanner sees: nearly all points lie within, but for stray ones.
 constexpr double kRangeShare = 0.95;
