@@ -19,9 +19,10 @@ constexpr std::size_t kSurfelsPerChunk = 512;
 /// the observations scatter.
 constexpr std::size_t kSurfelsPerCluster = 16;
 
-/// Surfels whose normals differ more than this (18 degrees) are different surfaces: those that lie
-/// across the foot of a tree or the edge of a step hold a scan where nothing holds it.
-constexpr double kMinNormalCosine = 0.95;
+/// Surfels whose normals differ more than this (20 degrees) are different surfaces: those that lie
+/// across the foot of a tree or the edge of a step hold a scan where nothing holds it. As normals
+/// point towards the scanner, so are the two sides of a wall.
+constexpr double kMinNormalCosine = 0.94;
 
 /// Sine of the angle (3 degrees) below which a surfel may be seen from either side: its normal is
 /// no better known.
@@ -93,8 +94,9 @@ double MostDeviateBy(std::span<const double> residuals_of_points_m) {
   return kDeviationPerMedian * *middle;
 }
 
-/// Whether the current scanner sees the back of what the reference's own scanner saw: of a wall
-/// thinner than the maximum distance the two sides would otherwise be paired.
+/// Whether the current scanner sees the back of what the reference's own scanner saw, where points
+/// have no normals that tell: of a wall thinner than the maximum distance the two sides would
+/// otherwise be paired.
 bool IsBackOf(const Surfel& ref, const Eigen::Vector3d& scanner_ref_m) {
   const auto sine_of_sight = [&](const Eigen::Vector3d& eye_m) {
     const Eigen::Vector3d sight_m = eye_m - ref.mean_m;
@@ -157,7 +159,6 @@ void SurfelPairs::AddPair(const Rules& rules, std::size_t i, NormalEquations& eq
   const std::int32_t number = ref_.surfel_of_block[search_.neighbor_slot(i) / kLanes];
   if (number == SurfelMap::kNone) return;
   const Surfel& ref = ref_.surfels[static_cast<std::size_t>(number)];
-  if (IsBackOf(ref, rules.T_ref_cur.translation_m)) return;
   Eigen::Vector3d normal = ref.normal;
   Eigen::Matrix3d C = ref.normal_covariance;
   double variance_m2 = ref.variance_m2 + options_.surface_noise_m * options_.surface_noise_m;
@@ -165,11 +166,13 @@ void SurfelPairs::AddPair(const Rules& rules, std::size_t i, NormalEquations& eq
     const Surfel& cur = cur_surfels_->surfels[i];
     const Eigen::Vector3d normal_ref = rules.T_ref_cur.rotation * cur.normal;
     const double cosine = ref.normal.dot(normal_ref);
-    if (std::abs(cosine) < kMinNormalCosine) return;
-    normal = (ref.normal + std::copysign(1.0, cosine) * normal_ref).normalized();
+    if (cosine < kMinNormalCosine) return;
+    normal = (ref.normal + normal_ref).normalized();
     variance_m2 += cur.variance_m2;
     const Eigen::Matrix3d& R = rules.T_ref_cur.rotation;
     C = 0.25 * (C + R * cur.normal_covariance * R.transpose());  // Of the mean of both.
+  } else if (IsBackOf(ref, rules.T_ref_cur.translation_m)) {
+    return;
   }
   const Eigen::Vector3d point_m = cur_ref_[i];
   const Eigen::Vector3d offset_m = ref.mean_m - point_m;
