@@ -25,6 +25,9 @@ constexpr Color kPointColor = FromBytes(0, 40, 120);
 constexpr Color kPath = FromBytes(220, 60, 20);
 constexpr Color kText = FromBytes(60, 60, 60);
 
+/// About so many of the points tell where nearly all of them are.
+constexpr std::size_t kWindowSample = 50'000;
+
 Eigen::Vector2d Seen(const Eigen::Vector3d& point_m, CloudView view) {
   return {point_m.x(), view == CloudView::kTop ? point_m.y() : point_m.z()};
 }
@@ -115,7 +118,8 @@ void WriteScale(const Projection& projection, const Eigen::Vector2d& corner_px, 
 CloudWindow WindowOf(const CloudScene& scene, CloudView view) {
   std::vector<double> across;
   std::vector<double> up;
-  for (std::size_t i = 0; i < scene.points.size(); ++i) {
+  const std::size_t step = scene.points.size() / kWindowSample + 1;
+  for (std::size_t i = 0; i < scene.points.size(); i += step) {
     const Eigen::Vector2d seen = Seen(scene.points[i], view);
     across.push_back(seen.x());
     up.push_back(seen.y());
