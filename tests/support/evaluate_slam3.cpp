@@ -5,10 +5,12 @@
 // simulated places, with the options of `slam6d register`.
 //
 // loops: closed loops in yards of COUNT seeds; the error of the default, of a chain (one reference,
-// no loops, no refinement), and the processor time of the registrations.
+// no loops, no refinement), how thick the model's walls are over the noise of the scanner (a wall
+// seen head-on is 1 thick), and the processor time of the registrations.
 // pairs: COUNT pairs of scans that overlap by 5 to 60 %, in all kinds of places: which were
 // believed, which should have been, and how honest their covariances are (NEES over degrees of
 // freedom: 1 when they are right).
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,6 +24,7 @@
 
 #include "service/config/options_io.hpp"
 #include "service/options/slam6d/registration_options.hpp"
+#include "slam6d/cloud/octree.hpp"
 #include "slam6d/graph/ceres_loop_closer.hpp"
 #include "tests/support/stops3.hpp"
 
@@ -67,12 +70,50 @@ TrajectoryError ErrorOf(const std::vector<Pose3>& poses, const std::vector<Pose3
   return {.cm = std::sqrt(sum.cm / count), .deg = std::sqrt(sum.deg / count)};
 }
 
+double Quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
 struct LoopOutcome {
   TrajectoryError error;
   double cpu_s = 0.0;
   int dead_reckoned = 0;
   double nees = 0.0;  ///< Mean over the poses.
+  double thickness = 0.0;
 };
+
+/// Standard deviation of points about their plane.
+double ThicknessM(const PointCloud& points, std::span<const std::uint32_t> members) {
+  Eigen::Vector3d mean_m = Eigen::Vector3d::Zero();
+  for (const std::uint32_t i : members) mean_m += points[i] / static_cast<double>(members.size());
+  Eigen::Matrix3d scatter_m2 = Eigen::Matrix3d::Zero();
+  for (const std::uint32_t i : members) {
+    const Eigen::Vector3d offset_m = points[i] - mean_m;
+    scatter_m2 += offset_m * offset_m.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scatter_m2);
+  return std::sqrt(eigen.eigenvalues()(0) / (static_cast<double>(members.size()) - 3.0));
+}
+
+/// The median thickness of what all scans together show, in cubes with enough points to tell, over
+/// the noise of the scanner.
+double ThicknessOfWalls(const Stops3& stops, const std::vector<Pose3>& poses) {
+  constexpr double kCube_m = 0.3;
+  constexpr std::size_t kLeastPoints = 60;
+  PointCloud model;
+  for (std::size_t i = 0; i < poses.size(); ++i) model.Append(poses[i] * stops.scans[i]);
+  const Octree octree(model, kCube_m);
+  std::vector<double> thickness_m;
+  for (std::size_t cube = 0; cube < octree.size(); ++cube) {
+    const std::span<const std::uint32_t> members = octree.points(cube);
+    if (members.size() >= kLeastPoints) thickness_m.push_back(ThicknessM(model, members));
+  }
+  return Quantile(thickness_m, 0.5) / sim::PitchingLaserOptions{}.noise_m;
+}
 
 LoopOutcome Register(const Stops3& stops, const SlamOptions& options) {
   const graph::CeresLoopCloser closer;
@@ -90,6 +131,7 @@ LoopOutcome Register(const Stops3& stops, const SlamOptions& options) {
   static_cast<void>(slam.Refine());
   outcome.cpu_s = ProcessorSeconds() - start_s;
   outcome.error = ErrorOf(slam.T_map_scan(), stops.T_world_scan);
+  outcome.thickness = ThicknessOfWalls(stops, slam.T_map_scan());
   return outcome;
 }
 
@@ -101,23 +143,27 @@ SlamOptions Chain(SlamOptions options) {
 }
 
 void EvaluateLoops(const Arguments& arguments) {
-  std::puts("        odometry   default                            chain");
+  std::puts("        odometry    truth   default                                   chain");
   std::puts(
-      "seed          cm        cm     deg  CPU s  lost  NEES        cm     deg  CPU s  lost  NEES");
+      "seed          cm     thick        cm     deg  CPU s  lost  NEES  thick        cm     deg  "
+      "CPU s  lost  NEES  thick");
   for (std::uint64_t i = 0; i < arguments.count; ++i) {
     const std::uint64_t seed = arguments.first + i;
     const Stops3 stops = LoopInYard(seed);
-    std::printf(
-        "%4d %11.1f", static_cast<int>(seed), ErrorOf(stops.T_odom_scan, stops.T_world_scan).cm);
+    std::printf("%4d %11.1f %9.3f",
+                static_cast<int>(seed),
+                ErrorOf(stops.T_odom_scan, stops.T_world_scan).cm,
+                ThicknessOfWalls(stops, stops.T_world_scan));
     const SlamOptions& slam = arguments.options.slam;
     for (const SlamOptions& options : {slam, Chain(slam)}) {
       const LoopOutcome outcome = Register(stops, options);
-      std::printf(" %9.3f %7.4f %6.2f %5d %5.1f",
+      std::printf(" %9.3f %7.4f %6.2f %5d %5.1f %6.3f",
                   outcome.error.cm,
                   outcome.error.deg,
                   outcome.cpu_s,
                   outcome.dead_reckoned,
-                  outcome.nees);
+                  outcome.nees,
+                  outcome.thickness);
     }
     std::puts("");
     std::fflush(stdout);
@@ -183,14 +229,6 @@ void Count(const ScanPair3& pair,
       step.match.iterations,
       cpu_s);
   std::fflush(stdout);
-}
-
-double Quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
 }
 
 double MeanOf(const std::vector<double>& values) {
