@@ -6,6 +6,8 @@
 #include <deque>
 #include <vector>
 
+#include "slam6d/src/algebra/decompositions.hpp"
+
 namespace slam6d {
 namespace {
 
@@ -16,6 +18,9 @@ constexpr double kMostGuessChi2 = 22.5;
 /// Where planes fail, points are first paired so many times farther off than else: a turn of 15
 /// degrees moves what is 5 m away by more than the usual pair is long, and ICP stops on the way.
 constexpr double kWidePairsFactor = 3.0;
+
+/// Of the variance that the guess has, the pairs leave no more where they tell as much as it does.
+constexpr double kLeastHeldShare = 0.5;
 
 /// One registration, tried from several places.
 class Attempts {
@@ -80,10 +85,20 @@ class Attempts {
   std::vector<RangeImageReference> images_;
 };
 
+/// Whether the pairs tell of every motion at least as much as the guess does.
+bool HoldsPose(const IcpResult& result, const IcpOptions& icp) {
+  Vector6d weight;
+  weight << Eigen::Vector3d::Constant(1.0 / icp.guess_sigma_m),
+      Eigen::Vector3d::Constant(1.0 / icp.guess_sigma_rad);
+  const Matrix6d shares = weight.asDiagonal() * result.covariance * weight.asDiagonal();
+  return EigenvaluesOf(shares)(5) <= kLeastHeldShare;
+}
+
 /// Whether nothing speaks for trying elsewhere: pairs that change to and fro for ever may be those
-/// of a wrong place.
-bool IsSettled(const Registration& registration) {
-  return registration.convinces && registration.icp.status == IcpStatus::kConverged;
+/// of a wrong place, and what they leave open may be held elsewhere.
+bool IsSettled(const Registration& registration, const IcpOptions& icp) {
+  return registration.convinces && registration.icp.status == IcpStatus::kConverged &&
+         HoldsPose(registration.icp, icp);
 }
 
 /// Of two, the one that convinces; if both do, the one that sees more of what the references saw.
@@ -99,9 +114,9 @@ Registration RegisterScan(std::span<const PlacedScan> references,
                           const RegistrationOptions& options) {
   const Attempts attempts(references, cur, options);
   const Registration first = attempts.From(cur.T_map_scan);
-  if (IsSettled(first)) return first;
+  if (IsSettled(first, options.icp)) return first;
   const Registration second = attempts.From(attempts.GuessByOctrees());
-  if (IsSettled(second) || options.icp.metric == IcpMetric::kPointToPoint) {
+  if (IsSettled(second, options.icp) || options.icp.metric == IcpMetric::kPointToPoint) {
     return BetterOf(first, second);
   }
   const Registration third = attempts.ByPoints();
