@@ -17,7 +17,7 @@ struct ClusterEquations {
 struct NormalEquations {
   Matrix6d A = Matrix6d::Zero();
   /// How fast b really changes with the pose: A but for the weights, which give way as residuals
-  /// grow. The pose is as uncertain as this says (the M-estimators of Huber 1964).
+  /// grow. The pose is as uncertain as this says (the sandwich of Huber 1967).
   Matrix6d hessian = Matrix6d::Zero();
   Vector6d b = Vector6d::Zero();
   /// What the errors of the normals alone add to A and b, on average.

@@ -53,8 +53,8 @@ struct Registration {
 /// Registers a scan, which is guessed to be at its pose, with all references at once (Nüchter et
 /// al. 2007, sections 3.2 and 3.3): from the guess; where that does not convince, from where
 /// overlapping octrees put it; then from where points, which find together from farther off, put
-/// it. Where pairs of a pose that convinces never settle, the others are tried as well, and the one
-/// that sees most of what the references saw counts.
+/// it. Where pairs of a pose that convinces never settle, or leave a motion to the guess, the
+/// others are tried as well, and the one that sees most of what the references saw counts.
 ///
 /// Departing from Nüchter et al., ICP comes before the octrees: these cost many times as much.
 Registration RegisterScan(std::span<const PlacedScan> references,
