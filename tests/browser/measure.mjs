@@ -5,8 +5,10 @@
 // Needs build/release/bin/qwsm and build/release/bench/team_load, which plays the robots at 10 Hz.
 //   live    one page in chromium: frames/s, publication to screen
 //   cost    scan to pose without and with four who look on as pages do, in turns
-//   idle    what a page is sent while robots drive, and when they are silent
+//   idle    what a page is sent while robots stand, when they are silent; without a page's choice, while they drive
 import {spawn} from 'node:child_process';
+import {writeFileSync} from 'node:fs';
+import {join} from 'node:path';
 import {fileURLToPath} from 'node:url';
 import {chromium} from 'playwright-core';
 import protocol from '@foxglove/ws-protocol';
@@ -87,6 +89,22 @@ async function measureCost() {
   }
 }
 
+// Robots that stand in a hall and go on scanning: whoever drives them has let go of the stick.
+function standingTeam(folder) {
+  writeFileSync(join(folder, 'still.commands'), '0 0 0\n600 0 0\n');
+  const side = Math.ceil(Math.sqrt(Number(robots)));
+  const wall = (x1, y1, x2, y2) => `    - {from_x_m: ${x1}, from_y_m: ${y1}, to_x_m: ${x2}, to_y_m: ${y2}}\n`;
+  const team = Array.from({length: Number(robots)}, (_, i) => `  - name: robot_${i + 1}
+    start_x_m: ${4 * (i % side)}
+    start_y_m: ${3 * Math.floor(i / side)}
+    laser: {rate_hz: 10, useful_range_m: 30}
+    driver: {kind: recorded, command_log: still.commands}
+`);
+  const far = 4 * side, file = join(folder, 'standing.yaml');
+  writeFileSync(file, `duration_s: 600\nscenery:\n  walls:\n${wall(-3, -3, far, -3)}${wall(far, -3, far, far)}${wall(far, far, -3, far)}${wall(-3, far, -3, -3)}robots:\n${team.join('')}`);
+  return file;
+}
+
 async function measureIdle() {
   await withService(async (programs, port) => {
     const browser = await chromium.launch({executablePath: process.env.QWSM_CHROMIUM ?? '/usr/bin/chromium', args: kBrowserArguments});
@@ -97,13 +115,27 @@ async function measureIdle() {
       await sleep(s);
       return (8 * (await page.evaluate(() => window.qwsm.connection.bytes) - before) / s / 1000).toFixed(1);
     };
-    const driven = drive(programs);
-    await sleep(Number(seconds) / 2);
-    console.log(`idle    while ${robots} robots drive: ${await kilobitsIn(2)} kbit/s`);
-    await driven;
+    const standing = programs.simulate(standingTeam(programs.folder));
+    standing.ended.then(() => { if (standing.said) console.error(standing.said); });
+    await page.waitForFunction((count) => [...window.qwsm.model.robots.values()].filter(({last}) => last).length >= count, Number(robots));
+    await sleep(5);
+    console.log(`idle    ${robots} robots stand and scan at 10 Hz: ${await kilobitsIn(12)} kbit/s`);
+    if (process.env.QWSM_PICTURE) await page.screenshot({path: process.env.QWSM_PICTURE});
+    standing.kill();
+    await standing.ended;
     await sleep(6);
     console.log(`idle    when all are silent: ${await kilobitsIn(12)} kbit/s`);
     await browser.close();
+  });
+  await withService(async (programs, port) => {
+    const looking = new Onlooker(port);
+    const driven = drive(programs);
+    await sleep(Number(seconds) / 2);
+    const before = looking.bytes;
+    await sleep(4);
+    console.log(`idle    while ${robots} robots drive, to one who wants all of it: ${(8 * (looking.bytes - before) / 4000).toFixed(0)} kbit/s`);
+    looking.close();
+    await driven;
   });
 }
 

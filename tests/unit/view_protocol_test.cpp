@@ -29,11 +29,13 @@ std::string Complaint(const std::string& text) {
 
 TEST(ViewProtocol, SubscriptionsAreRead) {
   const ClientMessage message = ParseClientText(
-      R"({"op":"subscribe","subscriptions":[{"id":3,"channelId":4},{"id":5,"channelId":6}]})");
+      R"({"op":"subscribe","subscriptions":[{"id":3,"channelId":4},{"id":5,"channelId":6,"newsOnly":true}]})");
   const auto& subscriptions = std::get<Subscribe>(message).subscriptions;
   ASSERT_EQ(subscriptions.size(), 2U);
   EXPECT_EQ(subscriptions[1].id, 5U);
   EXPECT_EQ(subscriptions[1].channel, 6U);
+  EXPECT_FALSE(subscriptions[0].wants_news_only);
+  EXPECT_TRUE(subscriptions[1].wants_news_only);
 }
 
 TEST(ViewProtocol, WhatIsWrongIsTold) {
@@ -42,6 +44,9 @@ TEST(ViewProtocol, WhatIsWrongIsTold) {
   EXPECT_EQ(Complaint(R"({"op":"subscribe"})"), "'subscriptions' is missing");
   EXPECT_EQ(Complaint(R"({"op":"unsubscribe","subscriptionIds":[-1]})"),
             "an id must be a whole number of 32 bits");
+  EXPECT_EQ(
+      Complaint(R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":2,"newsOnly":3}]})"),
+      "'newsOnly' must be true or false");
   EXPECT_EQ(Complaint(R"({"op":"unadvertise","channelIds":7})"), "'channelIds' must be a list");
   EXPECT_EQ(Complaint(std::string(60'000, '[')), "this is no JSON");
   const ClientMessage other = ParseClientText(R"({"op":"getParameters"})");

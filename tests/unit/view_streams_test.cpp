@@ -54,12 +54,22 @@ TEST(RecentSamples, OfWhatIsOutdatedTheNewestCounts) {
 }
 
 TEST(RecentSamples, LateComersGetAllThatIsKept) {
-  RecentSamples samples({.depth = 3, .for_late_comers = true});
+  RecentSamples samples({.depth = 3, .for_late_comers = ForLateComers::kAll});
   for (std::uint64_t i = 0; i < 5; ++i) samples.Add(SampleAt(0ms, i));
   Cursor cursor = samples.Begin();
   EXPECT_EQ(Read(samples, cursor, 1h), (Numbers{2, 3, 4}));
   Cursor behind = 0;  // Somebody who was not there for long.
   EXPECT_EQ(Read(samples, behind, 1h), (Numbers{2, 3, 4}));
+}
+
+TEST(RecentSamples, LateComersGetTheLastOneWhereItSaysHowThingsAre) {
+  RecentSamples samples({.for_late_comers = ForLateComers::kLast});
+  EXPECT_EQ(samples.Begin(), 0U);
+  for (std::uint64_t i = 0; i < 5; ++i) samples.Add(SampleAt(0ms, i));
+  Cursor cursor = samples.Begin();
+  EXPECT_EQ(Read(samples, cursor, 1h), Numbers{4});
+  Cursor behind = 0;
+  EXPECT_EQ(Read(samples, behind, 1h), Numbers{4});
 }
 
 /// A map of the size and place as told, all free.

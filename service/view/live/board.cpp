@@ -30,7 +30,7 @@ Urgency UrgencyOf(std::string_view type) {
 /// Of what is kept for late comers, as much as its writers keep (docs/dds.md).
 RecencyOptions RecencyOf(const dds::PublishedTopic& topic) {
   if (!topic.is_latched) return {};
-  RecencyOptions options{.depth = 1, .for_late_comers = true};
+  RecencyOptions options{.depth = 1, .for_late_comers = ForLateComers::kAll};
   if (topic.type == "qwsm_msgs/msg/RelevantScan") options.depth = 262'144;
   if (topic.type == "qwsm_msgs/msg/Mark") options.depth = 1024;
   if (topic.type == "tf2_msgs/msg/TFMessage") options.depth = 100;
@@ -64,29 +64,34 @@ void Board::Add(const dds::PublishedTopic& topic) {
   Source source{.topic = topic,
                 .channels = {},
                 .samples = std::make_shared<RecentSamples>(RecencyOf(topic)),
+                .filter = NewsFilterOf(topic.type),
+                .news = nullptr,
                 .tiles = nullptr};
-  Offer(source, InfoOf(topic.name, topic.type), UrgencyOf(topic.type), source.samples);
+  if (source.filter) {
+    source.news =
+        std::make_shared<RecentSamples>(RecencyOptions{.for_late_comers = ForLateComers::kLast});
+  }
+  Offer(source,
+        {.info = InfoOf(topic.name, topic.type),
+         .urgency = UrgencyOf(topic.type),
+         .source = topic.name,
+         .stream = source.samples,
+         .news = source.news});
   if (topic.type == kGridType) {
     source.tiles = std::make_shared<MapTiles>();
     Offer(source,
-          InfoOf(topic.name + std::string(kTilesSuffix), kTileType),
-          Urgency::kMap,
-          source.tiles);
+          {.info = InfoOf(topic.name + std::string(kTilesSuffix), kTileType),
+           .urgency = Urgency::kMap,
+           .source = topic.name,
+           .stream = source.tiles});
   }
   sources_.emplace(topic.name, std::move(source));
 }
 
-void Board::Offer(Source& source,
-                  ChannelInfo info,
-                  Urgency urgency,
-                  std::shared_ptr<const SampleStream> stream) {
-  info.id = ++last_id_;
-  source.channels.push_back(info.id);
-  channels_.emplace(info.id,
-                    Channel{.info = std::move(info),
-                            .urgency = urgency,
-                            .source = source.topic.name,
-                            .stream = std::move(stream)});
+void Board::Offer(Source& source, Channel channel) {
+  channel.info.id = ++last_id_;
+  source.channels.push_back(channel.info.id);
+  channels_.emplace(channel.info.id, std::move(channel));
 }
 
 void Board::Remove(const Source& source) {
@@ -100,6 +105,9 @@ void Board::TakeSamples(const dds::TopicSamples& taken, Clock::time_point now) {
     const Sample sample{
         .owner = raw.owner, .bytes = raw.cdr, .stamp_ns = raw.stamp_ns, .arrived = now};
     source->second.samples->Add(sample);
+    if (source->second.filter && source->second.filter->IsNews(sample)) {
+      source->second.news->Add(sample);
+    }
     if (source->second.tiles) TakeMap(source->second, sample);
   }
 }

@@ -13,6 +13,7 @@
 #include "service/dds/gateway/topic_gateway.hpp"
 #include "service/view/protocol/server_message.hpp"
 #include "service/view/streams/map_tiles.hpp"
+#include "service/view/streams/news.hpp"
 #include "service/view/streams/recent_samples.hpp"
 
 namespace qwsm::view {
@@ -27,6 +28,8 @@ struct Channel {
   Urgency urgency = Urgency::kPose;
   std::string source;  ///< The topic from which its samples are made.
   std::shared_ptr<const SampleStream> stream;
+  /// Of the same samples those that tell something new; null where there is no such choice.
+  std::shared_ptr<const SampleStream> news{};
 };
 
 /// All channels with what they have to send: the topics of the network, and of each drawn map its
@@ -54,15 +57,14 @@ class Board {
     dds::PublishedTopic topic;
     std::vector<std::uint32_t> channels;
     std::shared_ptr<RecentSamples> samples;
-    std::shared_ptr<MapTiles> tiles;  // Null where the topic is no map.
+    std::unique_ptr<NewsFilter> filter;   // Null where all samples are news.
+    std::shared_ptr<RecentSamples> news;  // Null where there is no filter.
+    std::shared_ptr<MapTiles> tiles;      // Null where the topic is no map.
   };
 
   void Add(const dds::PublishedTopic& topic);
   void Remove(const Source& source);
-  void Offer(Source& source,
-             ChannelInfo info,
-             Urgency urgency,
-             std::shared_ptr<const SampleStream> stream);
+  void Offer(Source& source, Channel channel);
   void TakeMap(const Source& source, const Sample& sample);
 
   Warn warn_;

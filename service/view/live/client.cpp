@@ -81,11 +81,13 @@ void Client::Add(const Subscription& subscription) {
     return Tell(StatusLevel::kError,
                 fmt::format("subscription {} is there already", subscription.id));
   }
+  const bool is_choosy = subscription.wants_news_only && channel->second.news != nullptr;
+  const auto& stream = is_choosy ? channel->second.news : channel->second.stream;
   Round& round = rounds_[static_cast<std::size_t>(channel->second.urgency)];
   round.readings.push_back({.subscription = subscription.id,
                             .channel = subscription.channel,
-                            .stream = channel->second.stream,
-                            .cursor = channel->second.stream->Begin()});
+                            .stream = stream,
+                            .cursor = stream->Begin()});
   uplink_.want(channel->second.source);
 }
 

@@ -5,6 +5,7 @@
 const kProtocol = 'foxglove.websocket.v1';
 const kFirstPause_ms = 500;
 const kLongestPause_ms = 4000;
+const kDrift_ms = 0.1;  // Of two clocks, between two times that the service tells.
 
 export class Connection {
   // `handlers`: opened(info), lost(), channels(list), message(channel, view, stamp_ms), status(status).
@@ -18,6 +19,7 @@ export class Connection {
     this.lastId = 0;
     this.pause_ms = kFirstPause_ms;
     this.bytes = 0;
+    this.ahead_ms = -Infinity;  // Of the service's clock before this computer's.
     this.#connect();
   }
 
@@ -56,6 +58,7 @@ export class Connection {
     this.channels.clear();
     this.subscriptions.clear();
     this.publications.clear();
+    this.ahead_ms = -Infinity;
     this.handlers.lost();
     setTimeout(() => this.#connect(), this.pause_ms);
     this.pause_ms = Math.min(2 * this.pause_ms, kLongestPause_ms);
@@ -92,11 +95,22 @@ export class Connection {
   #takeBytes(data) {
     this.bytes += data.byteLength;
     const view = new DataView(data);
-    if (view.getUint8(0) !== 1) return;  // The service's time.
+    if (view.getUint8(0) === 2) return this.#takeTime(Number(view.getBigUint64(1, true)) / 1e6);
     const channel = this.subscriptions.get(view.getUint32(1, true));
     if (!channel) return;
     const stamp_ms = Number(view.getBigUint64(5, true)) / 1e6;
     this.handlers.message(channel, new DataView(data, 13), stamp_ms);
+  }
+
+  // The clock that is least late is right.
+  #takeTime(service_ms) {
+    const ahead_ms = service_ms - Date.now();
+    this.ahead_ms = Math.max(ahead_ms, this.ahead_ms - kDrift_ms);
+  }
+
+  // When something of the service's clock was, on this computer's.
+  toLocal(service_ms) {
+    return Number.isFinite(this.ahead_ms) ? service_ms - this.ahead_ms : Date.now();
   }
 
   #subscribe() {
@@ -107,7 +121,8 @@ export class Connection {
       if (have.has(channel.id) || !this.wanted(channel)) continue;
       const id = ++this.lastId;
       this.subscriptions.set(id, channel);
-      subscriptions.push({id, channelId: channel.id});
+      // What says nothing new need not come: our addition to the protocol, which others pass over.
+      subscriptions.push({id, channelId: channel.id, newsOnly: true});
     }
     const subscriptionIds = [...this.subscriptions].filter(([, channel]) => !this.wanted(channel)).map(([id]) => id);
     for (const id of subscriptionIds) this.subscriptions.delete(id);

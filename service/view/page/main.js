@@ -11,8 +11,6 @@ import {Tools} from './tools.js';
 
 const kPanelPeriod_ms = 250;
 const kMoving_ms = 200;
-const kQuiet_ms = 5000;  // Of robots; then their health is asked for now and then.
-const kHealthPeriod_ms = 4000;
 const kPoseSchema = 'geometry_msgs/msg/PoseWithCovarianceStamped';
 const kMarkSchema = 'qwsm_msgs/msg/Mark';
 const kMarkTopic = '/qwsm/marks';
@@ -35,9 +33,6 @@ const changed = () => { isDirty = true; };
 const unused = new Set(['/tf']);
 const wants = (channel) => {
   if (!decodes(channel.schemaName) || unused.has(channel.topic)) return false;
-  if (channel.schemaName === 'diagnostic_msgs/msg/DiagnosticArray') {
-    return Date.now() - model.reported_ms < kQuiet_ms || Date.now() - model.health_ms > kHealthPeriod_ms;
-  }
   // Of clouds the model, not what each scan added to it.
   if (channel.schemaName === 'sensor_msgs/msg/PointCloud2') return channel.topic.endsWith('/cloud_map');
   if (channel.schemaName === 'qwsm_msgs/msg/RelevantScan') return state.layers.relevant || state.looksBack;
@@ -62,7 +57,7 @@ const connection = new Connection(`ws://${location.host}/ws${token ? `?token=${e
   },
   channels: () => { changed(); },
   message: (channel, bytes, stamp_ms) => {
-    model.take(channel, decode(channel.schemaName, bytes), stamp_ms);
+    model.take(channel, decode(channel.schemaName, bytes), {published_ms: stamp_ms, told_ms: connection.toLocal(stamp_ms)});
     changed();
   },
   status: ({level, message}) => { model.tell(message); if (level > 0) tools.hint(message); },
@@ -200,7 +195,7 @@ function frame() {
     panelDue_ms = now_ms + kPanelPeriod_ms;
     panel.update(now_ms);
     timeLine.update();
-    connection.want(wants);
+    model.placeLateScans();
     isDirty = true;  // Ages go on, also of those who say nothing.
     // Until somebody moves the map, all of it is shown as it grows.
     if (!hasFitted && model.robots.size > 0) { fit(); hasFitted = false; }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
 // The map on its canvas: what stays is drawn once into a picture behind, what moves in every frame.
-import {condition} from './model.js';
+import {condition, kSilent_s} from './model.js';
 
 const kFit_px = 60;
 const kMost_px_per_m = 400;
@@ -263,7 +263,7 @@ export class MapView {
   }
 
   #drawScan(c, robot, now_ms) {
-    if (!robot.points || now_ms - robot.arrived_ms > 2000) return;
+    if (!robot.points || now_ms - robot.arrived_ms > 1000 * kSilent_s) return;
     c.fillStyle = robot.color;
     this.#drawPoints(c, robot.points, Math.max(2, Math.min(4, this.camera.scale * 0.05)));
   }

@@ -6,7 +6,8 @@ const kMostHistory = 20000;  // Reports of a robot: half an hour at 10 Hz.
 const kMostTrail = 4000;
 const kTrailStep_m = 0.05;
 const kRecentScans = 4;
-export const kSilent_s = 2;
+export const kSilent_s = 3;  // A robot that stands is reported every 1.5 s.
+const kLateAnswer_ms = 300;
 const kChunkTiles = 8;  // Tiles of a chunk, along each side: few pictures, each redrawn rarely.
 
 export const Status = {first: 0, matched: 1, extended: 2, deadReckoned: 3};
@@ -62,14 +63,15 @@ class Robot {
   get last() { return this.history.at(-1); }
   get sigma_m() { return this.last ? Math.sqrt(Math.max(0, this.last.cov[0] + this.last.cov[4])) : 0; }
 
-  takeReport(report, now_ms, stamp_ms) {
+  // `told_ms`: when that was published, on this computer's clock; `published_ms`: on the service's.
+  takeReport(report, {told_ms, published_ms}) {
     const {stamp, pose, covariance, status, reason, meanResidual, overlap, scans, dropped, latency} = report;
     if (this.last && stamp < this.last.stamp - 1) this.beginAnew();
     this.history.push({stamp, ...pose, cov: covariance, status, reason, residual_m: meanResidual, overlap, scans, dropped, latency});
     if (this.history.length > kMostHistory) this.history.splice(0, kMostHistory / 10);
     if (status !== Status.deadReckoned) this.lastMatch = stamp;
-    this.arrived_ms = now_ms;
-    this.published_ms = stamp_ms;
+    this.arrived_ms = told_ms;
+    this.published_ms = published_ms;
     this.isFresh = true;
     const end = this.trail.at(-1);
     if (!end || Math.hypot(pose.x - end.x, pose.y - end.y) > kTrailStep_m) this.trail.push({x: pose.x, y: pose.y, stamp});
@@ -181,7 +183,6 @@ export class Model {
     this.service = {};
     this.mapVersion = 0;
     this.reported_ms = 0;
-    this.health_ms = 0;
     this.now = null;  // Stamp of the newest report.
     this.latencies_ms = [];
   }
@@ -210,11 +211,11 @@ export class Model {
     this.events.length = Math.min(this.events.length, 200);
   }
 
-  take(channel, message, stamp_ms) {
+  take(channel, message, times) {
     const robotName = channel.topic.split('/').slice(1, -1).join('/');
     switch (channel.schemaName) {
       case 'qwsm_msgs/msg/RegistrationReport':
-      case 'qwsm_msgs/msg/MatchReport': return this.#takeReport(message, stamp_ms);
+      case 'qwsm_msgs/msg/MatchReport': return this.#takeReport(message, times);
       case 'sensor_msgs/msg/LaserScan': return this.#takeScan(this.robot(robotName), message);
       case 'sensor_msgs/msg/PointCloud2':
         this.clouds.set(channel.topic, message.points);
@@ -228,11 +229,11 @@ export class Model {
     }
   }
 
-  #takeReport(report, stamp_ms) {
+  #takeReport(report, times) {
     const robot = this.robot(report.robot);
     const before = robot.last?.status;
     this.reported_ms = Date.now();
-    robot.takeReport(report, this.reported_ms, stamp_ms);
+    robot.takeReport(report, times);
     if (this.now === null || report.stamp > this.now || report.stamp < this.now - 60) this.now = report.stamp;
     const isLost = report.status === Status.deadReckoned;
     if (before !== undefined && isLost !== (before === Status.deadReckoned)) {
@@ -243,7 +244,7 @@ export class Model {
   }
 
   #takeScan(robot, scan) {
-    robot.scans.push(scan);
+    robot.scans.push({...scan, arrived_ms: Date.now()});
     if (robot.scans.length > kRecentScans) robot.scans.shift();
     this.#placeScan(robot);
   }
@@ -251,9 +252,21 @@ export class Model {
   // A scan is drawn where its own answer says, not where the robot is when it arrives.
   #placeScan(robot) {
     const scan = robot.last && robot.scans.find(({stamp}) => Math.abs(stamp - robot.last.stamp) < 1e-6);
-    if (!scan) return;
+    if (scan) this.#putScan(robot, scan);
+  }
+
+  #putScan(robot, scan) {
     const sensor = this.sensors.get(scan.frame) ?? {x: 0, y: 0, theta: 0};
-    robot.points = scanPoints(scan, compose(robot.last, sensor));
+    robot.points = scanPoints(scan, compose(robot.poseAt(scan.stamp) ?? robot.last, sensor));
+    robot.scans = robot.scans.filter(({stamp}) => stamp > scan.stamp);
+  }
+
+  // The answer of a robot that stands says nothing new, and does not come: the last one holds.
+  placeLateScans() {
+    for (const robot of this.robots.values()) {
+      const scan = robot.scans.at(-1);
+      if (robot.last && scan && Date.now() - scan.arrived_ms > kLateAnswer_ms) this.#putScan(robot, scan);
+    }
   }
 
   #takeTile(topic, tile) {
@@ -278,7 +291,6 @@ export class Model {
   }
 
   #takeHealth({status}) {
-    this.health_ms = Date.now();
     for (const {name, message, values} of status) {
       const what = name.replace(/^qwsm: /, '');
       if (what === 'service') this.service = {...this.service, name: message, ...values};

@@ -20,7 +20,7 @@ function setText(node, text) {
 }
 
 const metres = (m) => m < 0.995 ? `${(100 * m).toFixed(1)} cm` : `${m.toFixed(2)} m`;
-const age = (s) => s === Infinity ? '' : s < 1 ? 'now' : s < 90 ? `${Math.floor(s)} s ago` : `${Math.floor(s / 60)} min ago`;
+const age = (s) => s === Infinity ? '' : s < 2 ? 'now' : s < 90 ? `${Math.floor(s)} s ago` : `${Math.floor(s / 60)} min ago`;
 
 export class Panel {
   // `actions`: select(name), centre(name), follow(name), place(name), editMark(id), showMark(id).

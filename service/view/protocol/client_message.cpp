@@ -55,11 +55,20 @@ std::vector<std::uint32_t> IdsOf(const Json& object, const char* key) {
   return ids;
 }
 
+/// Whether something is there and true.
+bool IsSet(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  if (found == object.end()) return false;
+  if (!found->is_boolean()) throw ProtocolError(fmt::format("'{}' must be true or false", key));
+  return found->get<bool>();
+}
+
 Subscribe ToSubscribe(const Json& message) {
   Subscribe subscribe;
   for (const Json& one : ListOf(message, "subscriptions")) {
-    subscribe.subscriptions.push_back(
-        {.id = ToId(Get(one, "id")), .channel = ToId(Get(one, "channelId"))});
+    subscribe.subscriptions.push_back({.id = ToId(Get(one, "id")),
+                                       .channel = ToId(Get(one, "channelId")),
+                                       .wants_news_only = IsSet(one, "newsOnly")});
   }
   return subscribe;
 }

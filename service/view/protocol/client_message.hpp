@@ -21,6 +21,8 @@ class ProtocolError : public std::runtime_error {
 struct Subscription {
   std::uint32_t id = 0;  ///< Chosen by the client.
   std::uint32_t channel = 0;
+  /// Of messages that say what the last one said, none: our addition to the protocol ("newsOnly").
+  bool wants_news_only = false;
 };
 struct Subscribe {
   std::vector<Subscription> subscriptions;

@@ -13,13 +13,23 @@ void RecentSamples::Add(Sample sample) {
   if (samples_.size() > options_.depth) samples_.pop_front();
 }
 
-Cursor RecentSamples::Begin() const { return options_.for_late_comers ? first() : end_; }
+Cursor RecentSamples::Begin() const {
+  switch (options_.for_late_comers) {
+    case ForLateComers::kNothing:
+      return end_;
+    case ForLateComers::kLast:
+      return samples_.empty() ? end_ : end_ - 1;
+    case ForLateComers::kAll:
+      break;
+  }
+  return first();
+}
 
 std::optional<Sample> RecentSamples::Next(Cursor& cursor, Clock::time_point now) const {
   if (cursor >= end_) return std::nullopt;
   cursor = std::max(cursor, first());
   const auto at = [this](Cursor number) -> const Sample& { return samples_[number - first()]; };
-  if (!options_.for_late_comers) {
+  if (options_.for_late_comers != ForLateComers::kAll) {
     while (cursor + 1 < end_ && now - at(cursor).arrived > options_.outdated) ++cursor;
   }
   return at(cursor++);

@@ -3,17 +3,21 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 
 #include "service/view/streams/sample_stream.hpp"
 
 namespace qwsm::view {
 
+/// What whoever comes late gets of what was before, however old it is.
+enum class ForLateComers : std::uint8_t { kNothing, kLast, kAll };
+
 /// How long samples are worth sending, and to whom.
 struct RecencyOptions {
-  std::size_t depth = 32;        ///< So many are kept.
-  bool for_late_comers = false;  ///< Whoever comes gets all that are kept, however old they are.
-  /// What is older is left out where there is something newer.
+  std::size_t depth = 32;  ///< So many are kept.
+  ForLateComers for_late_comers = ForLateComers::kNothing;
+  /// What is older is left out where there is something newer, unless all are for late comers.
   Clock::duration outdated = std::chrono::milliseconds(100);
 };
 
