@@ -3,10 +3,12 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <filesystem>
 #include <iomanip>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -18,13 +20,16 @@
 #include "service/apps/command.hpp"
 #include "service/apps/network.hpp"
 #include "service/apps/output.hpp"
+#include "service/dds/robot/mark_reader.hpp"
 #include "service/io/rescue/geotiff_file.hpp"
 #include "service/io/rescue/points_of_interest.hpp"
 #include "service/io/rescue/rescue_map.hpp"
 #include "service/pipeline/network/team_listener.hpp"
 #include "service/pipeline/results/map_to_export.hpp"
+#include "service/pipeline/results/marks_list.hpp"
 #include "service/pipeline/run/interruption.hpp"
 #include "service/pipeline/text/messages.hpp"
+#include "service/team/marks/mark_book.hpp"
 
 namespace qwsm::apps {
 namespace {
@@ -102,6 +107,7 @@ void WarnOfMarksOutside(const io::RescueScene& scene, const io::GeoPicture& pict
 /// The map of all that services on the network share.
 pipeline::MapToExport HearMap(const options::ProgramOptions& options) {
   const dds::Participant participant(options.network);
+  const dds::MarkReader marks(participant);
   const pipeline::Interruption interruption;
   std::vector<pipeline::RobotScan> scans;
   for (team::TeamScan& scan :
@@ -111,7 +117,11 @@ pipeline::MapToExport HearMap(const options::ProgramOptions& options) {
   }
   if (scans.empty())
     throw UsageError("no service on the network shares a map: is qwsm serve running?");
-  return pipeline::MapOfScans(scans, "the services' map", options.rendering);
+  pipeline::MapToExport map = pipeline::MapOfScans(scans, "the services' map", options.rendering);
+  team::MarkBook book;
+  for (const team::Mark& mark : marks.Take()) book.Take(mark);
+  map.marks = pipeline::PointsOf(book.marks());
+  return map;
 }
 
 ExitCode RunExport(const ExportArguments& arguments) {
@@ -119,13 +129,15 @@ ExitCode RunExport(const ExportArguments& arguments) {
   if (arguments.live == arguments.source.has_value()) {
     throw UsageError("export needs either a SOURCE or --live");
   }
-  std::vector<io::PointOfInterest> points;
-  if (arguments.points) points = io::ReadPointsOfInterest(*arguments.points);
+  std::vector<io::PointOfInterest> given;
+  if (arguments.points) given = io::ReadPointsOfInterest(*arguments.points);
   const options::ProgramOptions& options = session.options();
   pipeline::MapToExport map = arguments.live
                                   ? HearMap(options)
                                   : pipeline::LoadMapToExport(*arguments.source, options.rendering);
 
+  std::vector<io::PointOfInterest> points = std::move(map.marks);
+  std::ranges::move(given, std::back_inserter(points));
   const fs::path tiff = Beside(arguments.geotiff, ".tif");
   const io::RescueScene scene{.grid = map.grid,
                               .paths = std::move(map.paths),
@@ -176,7 +188,8 @@ Command AddExportCommand(CLI::App& program) {
       ->required()
       ->type_name("NAME");
   parser->add_flag("--live", arguments->live, "the map that services on the network have now");
-  parser->add_option("--pois", arguments->points, "points of interest to be marked")
+  parser
+      ->add_option("--pois", arguments->points, "points of interest, besides what operators marked")
       ->type_name("FILE");
   parser
       ->add_option("--pixels-per-cell",

@@ -21,6 +21,8 @@
 #include "service/io/maps/map_file.hpp"
 #include "service/pipeline/results/answer_bag.hpp"
 #include "service/pipeline/results/corrected_run.hpp"
+#include "service/pipeline/results/journal_marks.hpp"
+#include "service/pipeline/results/marks_list.hpp"
 #include "service/pipeline/results/results_writer.hpp"
 #include "service/pipeline/run/parallel.hpp"
 #include "service/pipeline/simulation/simulator_source.hpp"
@@ -116,7 +118,8 @@ ExitCode MapAll(const MapArguments& arguments,
       {.trajectory = correcting ? "trajectory_live.tum" : "trajectory.tum",
        .pictures = session.has_pictures()});
   pipeline::AnswerBag answers;
-  std::vector<pipeline::StepSink*> sinks{&results};
+  pipeline::JournalMarks marks(arguments.run.logs);
+  std::vector<pipeline::StepSink*> sinks{&results, &marks};
   if (arguments.bag) sinks.push_back(&answers);
   const auto answer = [&](const Observation& observation) {
     return correcting ? correcting->Process(observation) : incremental.Process(observation);
@@ -137,6 +140,9 @@ ExitCode MapAll(const MapArguments& arguments,
   if (arguments.bag) {
     answers.Write(session.folder() / kAnswers, pipeline::RenderOrWarn(map, options.rendering));
   }
+  pipeline::WriteMarks(
+      session.folder().path(),
+      marks.Placed(corrected ? corrected->correction.map_robot : std::vector<UncertainPose2>()));
   if (arguments.save_map) io::SaveMap(*arguments.save_map, map);
   session.Summarize(results, map);
   return Conclude(end);

@@ -8,10 +8,12 @@
 
 #include "service/apps/command.hpp"
 #include "service/apps/serving.hpp"
+#include "service/dds/service/mark_exchange.hpp"
 #include "service/dds/service/service_outbox.hpp"
 #include "service/dds/service/team_inbox.hpp"
 #include "service/dds/service/team_map_outbox.hpp"
 #include "service/options/program_options.hpp"
+#include "service/pipeline/results/marks_list.hpp"
 #include "service/pipeline/team/team_log.hpp"
 #include "service/pipeline/team/team_results.hpp"
 #include "service/pipeline/text/messages.hpp"
@@ -27,7 +29,8 @@ class TeamServer {
   TeamServer(const ServeArguments& arguments,
              const options::ProgramOptions& options,
              const std::optional<pipeline::ResultsFolder>& folder)
-      : participant_(options.network),
+      : folder_(folder),
+        participant_(options.network),
         graph_(participant_, options.network),
         outbox_(participant_, graph_, refusals_),
         map_outbox_(participant_, graph_),
@@ -40,10 +43,15 @@ class TeamServer {
                  Sinks(),
                  arguments.journal),
         inbox_(participant_, arguments.robots, service_, {&outbox_}, refusals_),
-        view_(ShowLive(arguments, options.view, {participant_, graph_, service_.identity()})) {}
+        marks_(participant_, refusals_, JournalForMarks(arguments)),
+        view_(ShowLive(
+            arguments, options.view, {participant_, graph_, service_.identity(), marks_})) {
+    marks_.Start();
+  }
 
   void Run(const pipeline::Interruption& interruption) {
     Serve(Serving{service_, inbox_, results_.get()}, interruption);
+    if (folder_) pipeline::WriteMarks(folder_->path(), marks_.marks());
   }
   team::TeamStatus Status() const { return service_.Status(); }
 
@@ -55,6 +63,7 @@ class TeamServer {
     return sinks;
   }
 
+  std::optional<pipeline::ResultsFolder> folder_;
   dds::Refusals refusals_{[](const std::string& text) { messages::Warn(text); }};
   dds::Participant participant_;
   dds::RosGraph graph_;
@@ -64,6 +73,7 @@ class TeamServer {
   std::unique_ptr<pipeline::TeamResults> results_;
   team::TeamService service_;
   dds::TeamInbox inbox_;
+  dds::MarkExchange marks_;
   std::unique_ptr<view::LiveView> view_;  // Null where nobody wants to look.
 };
 

@@ -44,14 +44,17 @@ std::unique_ptr<view::LiveView> ShowLive(const ServeArguments& arguments,
                                          const Shown& shown) {
   if (!arguments.view) return nullptr;
   view::LiveView::Service service{.name = shown.identity,
-                                  .marks_file = arguments.journal,
+                                  .marks = shown.marks,
                                   .warn = [](const std::string& text) { messages::Warn(text); }};
-  if (!arguments.journal.empty()) service.marks_file += ".marks.json";
   auto view =
       std::make_unique<view::LiveView>(shown.participant, shown.graph, options, std::move(service));
   messages::Info("look at {}", view->url());
   if (!arguments.network.verbosity.quiet) Print("look at {}\n", view->url());
   return view;
+}
+
+team::MarkJournal JournalForMarks(const ServeArguments& arguments) {
+  return {arguments.journal, [](const std::string& text) { messages::Warn(text); }};
 }
 
 void Summarize(const team::TeamStatus& status) {

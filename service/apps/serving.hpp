@@ -17,6 +17,7 @@
 #include "service/pipeline/results/results_folder.hpp"
 #include "service/pipeline/run/interruption.hpp"
 #include "service/pipeline/text/messages.hpp"
+#include "service/team/marks/mark_journal.hpp"
 #include "service/team/sinks/team_status.hpp"
 #include "service/view/live_view.hpp"
 
@@ -48,6 +49,9 @@ Command AddServeCommand(CLI::App& program, const ServeCommand& serve);
 std::optional<pipeline::ResultsFolder> BeginResults(const ServeArguments& arguments,
                                                     const std::string& configuration);
 
+/// Where a service keeps the marks on its map: in its journal, if it has one.
+team::MarkJournal JournalForMarks(const ServeArguments& arguments);
+
 /// Tells on standard output what became of the robots' scans, a line for each robot.
 void Summarize(const team::TeamStatus& status);
 
@@ -56,6 +60,7 @@ struct Shown {
   const dds::Participant& participant;
   const dds::RosGraph& graph;
   std::string identity;  ///< The service's.
+  dds::MarkExchange& marks;
 };
 
 /// Serves the live page and tells where it is, if that is wanted; else null.

@@ -10,13 +10,10 @@
 
 #include "service/dds/gateway/topic_gateway.hpp"
 #include "service/dds/wire/robot_names.hpp"
-#include "service/io/bags/messages/message_reader.hpp"
 #include "service/view/http/access.hpp"
 #include "service/view/http/page_files.hpp"
 #include "service/view/http/web_server.hpp"
 #include "service/view/live/board.hpp"
-#include "service/view/live/mark_store.hpp"
-#include "service/view/protocol/told_mark.hpp"
 
 namespace qwsm::view {
 namespace {
@@ -42,9 +39,9 @@ class LiveView::Parts final : public WebHandler {
         const ViewOptions& options,
         const Service& service)
       : access_(options),
+        marks_(service.marks),
         greeting_(ServerInfoText(service.name, NewSession())),
         board_(service.warn),
-        marks_(service.marks_file, service.warn),
         server_({.address = options.address,
                  .port = options.port,
                  .max_sockets = static_cast<std::size_t>(options.max_clients)},
@@ -54,8 +51,6 @@ class LiveView::Parts final : public WebHandler {
                  {.take_topics = [this](auto topics) { TakeTopics(std::move(topics)); },
                   .take_samples = [this](auto samples) { TakeSamples(std::move(samples)); },
                   .warn = service.warn}) {
-    for (const dds::Mark& mark : marks_.marks()) gateway_.TellMark(mark);
-    Want(dds::kMarksTopic);
     server_.Start();
   }
   ~Parts() override { server_.Stop(); }
@@ -86,45 +81,32 @@ class LiveView::Parts final : public WebHandler {
   void TakeSamples(std::vector<dds::TopicSamples> samples) {
     server_.Post([this, samples = std::move(samples)] {
       const auto now = Clock::now();
-      for (const dds::TopicSamples& topic : samples) {
-        board_.TakeSamples(topic, now);
-        if (topic.topic == dds::kMarksTopic) KeepMarks(topic);
-      }
+      for (const dds::TopicSamples& topic : samples) board_.TakeSamples(topic, now);
     });
   }
   void Want(const std::string& topic) {
     if (wanted_.insert(topic).second) gateway_.Want(topic);
   }
 
-  /// Keeps the marks of all services, so that any of them can tell them again.
-  void KeepMarks(const dds::TopicSamples& samples) {
-    for (const dds::RawSample& sample : samples.samples) {
-      try {
-        marks_.Take(DecodeMark(sample.cdr));
-      } catch (const io::MessageError&) {
-        // Of somebody else: it is not drawn either.
-      }
+  void TellMark(const team::Mark& mark) {
+    try {
+      marks_.Tell(mark);
+    } catch (const dds::MarkError& error) {
+      throw ProtocolError(error.what());
     }
-  }
-  /// Operators' clocks differ: the service's tells which mark of an id is the newest.
-  void TellMark(dds::Mark mark) {
-    if (!marks_.HasRoomFor(mark)) throw ProtocolError("there are too many marks");
-    mark.frame = dds::kMapFrame;
-    mark.stamp = std::chrono::system_clock::now().time_since_epoch();
-    gateway_.TellMark(mark);
   }
 
   Access access_;
+  dds::MarkExchange& marks_;
   std::string greeting_;
   // What follows, but for server and gateway, is used by the server's thread.
   Board board_;
-  MarkStore marks_;
   std::set<std::string> wanted_;
   Uplink uplink_{.want = [this](const std::string& topic) { Want(topic); },
                  .prepare_pose = [this](const std::string& topic) { gateway_.PreparePose(topic); },
                  .tell_pose = [this](const std::string& topic,
                                      const dds::ToldPose& pose) { gateway_.TellPose(topic, pose); },
-                 .tell_mark = [this](const dds::Mark& mark) { TellMark(mark); }};
+                 .tell_mark = [this](const team::Mark& mark) { TellMark(mark); }};
   WebServer server_;
   dds::TopicGateway gateway_;  // Gone when the server has stopped, before the server is gone.
 };

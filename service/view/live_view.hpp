@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
 
+#include "service/dds/service/mark_exchange.hpp"
 #include "service/dds/service/ros_graph.hpp"
 #include "service/view/view_options.hpp"
 
@@ -18,12 +18,12 @@ class LiveView {
   /// What a service says of itself to its view.
   struct Service {
     std::string name;                              ///< For those who look.
-    std::filesystem::path marks_file;              ///< Where marks are kept; empty: nowhere.
+    dds::MarkExchange& marks;                      ///< Told what operators mark.
     std::function<void(const std::string&)> warn;  ///< Told what cannot be shown, in any thread.
   };
 
   /// Begins to serve.
-  /// @param participant and graph outlive this.
+  /// @param participant, graph and the service's marks outlive this.
   /// @throws WebError, dds::DdsError.
   LiveView(const dds::Participant& participant,
            const dds::RosGraph& graph,

@@ -1,13 +1,20 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// team_load TAG [ROBOTS [HZ [SECONDS [SPEED]]]]: simulated robots (16, at 10 Hz, for 60 s) that
-// drive through one office with 361 beams each, on loopback, to a service that was started with
+// team_load TAG [ROBOTS [HZ [SECONDS [SPEED [FILE]]]]]: simulated robots (16, at 10 Hz, for 60 s)
+// that drive through one office with 361 beams each, on loopback, to a service that was started
+// with
 //   qwsm serve --set network.interface=lo --set network.tag=TAG
-// Prints what became of the scans. With SPEED 4 everything happens four times as fast.
+// Prints what became of the scans. With SPEED 4 everything happens four times as fast. Into FILE go
+// the answers, one a line: when it was heard since 1970, time of the match, time from arrival of
+// the scan to its pose, all in milliseconds.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "tests/support/team_traffic.hpp"
 
@@ -27,7 +34,19 @@ void Print(const char* what, const std::vector<std::chrono::nanoseconds>& sorted
               ms(1.0));
 }
 
-int Measure(const char* tag, const test::TeamOptions& options, double speed) {
+void WriteAnswers(const char* path, const std::vector<test::TimedAnswer>& answers) {
+  using Milliseconds = std::chrono::duration<double, std::milli>;
+  std::ofstream file(path);
+  file << std::fixed;
+  for (const test::TimedAnswer& answer : answers) {
+    file << Milliseconds(answer.heard.time_since_epoch()).count() << ' '
+         << Milliseconds(answer.matching).count() << ' ' << Milliseconds(answer.latency).count()
+         << '\n';
+  }
+  if (!file.flush()) throw std::runtime_error(std::string(path) + ": cannot be written");
+}
+
+int Measure(const char* tag, const test::TeamOptions& options, double speed, const char* path) {
   test::TeamTraffic team(options);
   if (!team.Join({.interface = "lo", .tag = tag})) {
     std::fprintf(stderr, "team_load: no service with the tag %s answers\n", tag);
@@ -45,6 +64,7 @@ int Measure(const char* tag, const test::TeamOptions& options, double speed) {
               static_cast<unsigned long long>(result.dropped),
               result.out_of_order);
   if (result.answered == 0) return 1;
+  if (path != nullptr) WriteAnswers(path, result.answers);
   Print("scan arrived to pose", result.latency);
   Print("of which the match took", result.matching);
   std::printf("the sender was late by %.3f ms at worst\n",
@@ -55,8 +75,8 @@ int Measure(const char* tag, const test::TeamOptions& options, double speed) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2 || argc > 6) {
-    std::fputs("usage: team_load TAG [ROBOTS [HZ [SECONDS [SPEED]]]]\n", stderr);
+  if (argc < 2 || argc > 7) {
+    std::fputs("usage: team_load TAG [ROBOTS [HZ [SECONDS [SPEED [FILE]]]]]\n", stderr);
     return 2;
   }
   const auto number = [&](int i, double otherwise) {
@@ -67,7 +87,8 @@ int main(int argc, char** argv) {
                    {.robots = static_cast<int>(number(2, 16)),
                     .rate_hz = number(3, 10.0),
                     .duration_s = number(4, 60.0)},
-                   number(5, 1.0));
+                   number(5, 1.0),
+                   argc > 6 ? argv[6] : nullptr);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "team_load: %s\n", error.what());
     return 1;

@@ -54,7 +54,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     }
     case 2: {
-      const auto mark = Parsed<qwsm::io::MessageError>([&] { return DecodeMark(bytes); });
+      const auto mark = Parsed<qwsm::io::MessageError>([&] { return DecodeToldMark(bytes); });
       Expect(!mark || ObjectionTo(*mark).empty());
       break;
     }

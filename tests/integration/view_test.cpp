@@ -9,10 +9,12 @@
 #include <chrono>
 #include <cstring>
 #include <iostream>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "service/dds/entities/writer.hpp"
+#include "service/dds/service/mark_exchange.hpp"
 #include "tests/support/robot_in_room.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/viewed_service.hpp"
@@ -170,12 +172,14 @@ TEST_F(View, MarksOutliveTheService) {
   // Stamp, frame, id, kind, text, author; x and y; not removed.
   std::string mark("\1\1\0\0\0\0\1\0\0", 9);
   mark += std::string(8, '\0') + std::string("\4\0\0\0map\0\3\0\0\0m1\0\0\7\0\0\0victim\0\0", 28);
-  mark += std::string("\5\0\0\0Anna\0\0\0\0\2\0\0\0o\0\0\0\0\0\0\0", 24);
+  mark += std::string("\5\0\0\0Anna\0\0\0\0\2\0\0\0o\0\0\0", 20);
   const std::vector<double> place{2.0, 3.0};
   mark.append(reinterpret_cast<const char*>(place.data()), 2 * sizeof(double));
   mark += std::string(1, '\0');
+  RobotInRoom robot(network_);
   {
     ViewedService service(network_, journal);
+    ASSERT_FALSE(robot.DriveUntilAnswered(8).empty());
     Onlooker onlooker(service.port());
     ASSERT_TRUE(onlooker.Subscribe("/qwsm/marks", 1));
     onlooker.client().SendFrame(WebClient::kText, advertise);
@@ -186,12 +190,58 @@ TEST_F(View, MarksOutliveTheService) {
     usleep(200'000);
     service.daemon().End(SIGKILL);
   }
+  const std::string listed = ",\"Anna\",2.000,3.000,0.000,1,T,victim";
+  const std::filesystem::path database = folder.path() / "team.db";
+  const Outcome exported =
+      RunProgram({"export", database, "--geotiff", folder.path() / "of_journal"});
+  EXPECT_EQ(exported.exit_code, 0) << exported.errors;
+  const std::string list = ReadFile(folder.path() / "of_journal_pois.csv");
+  EXPECT_NE(list.find(listed), std::string::npos) << list;
+  const Outcome mapped = RunProgram({"map", database, "--output", folder.path() / "mapped"});
+  EXPECT_EQ(mapped.exit_code, 0) << mapped.errors;
+  EXPECT_NE(ReadFile(folder.path() / "mapped" / "marks.csv").find("\"Anna\""), std::string::npos);
+
   ViewedService service(network_, journal);
   Onlooker onlooker(service.port());
   ASSERT_TRUE(onlooker.Subscribe("/qwsm/marks", 1));
   const auto kept = onlooker.Sample(1);
   ASSERT_TRUE(kept);
   EXPECT_NE(kept->find("Anna"), std::string::npos);
+  EXPECT_NE(kept->find("robot1"), std::string::npos);  // Whose scan it stands on.
+  const Outcome heard = network_.Run({"export", "--live", "--geotiff", folder.path() / "live"});
+  EXPECT_EQ(heard.exit_code, 0) << heard.errors;
+  EXPECT_NE(ReadFile(folder.path() / "live_pois.csv").find(listed), std::string::npos);
+}
+
+TEST_F(View, AMarkMovesWithTheScanItStandsOn) {
+  const dds::Participant participant({.interface = "lo", .tag = network_.tag()});
+  dds::Refusals refusals([](const std::string& text) { ADD_FAILURE() << text; });
+  const auto exchange_of = [&] {
+    return std::make_unique<dds::MarkExchange>(
+        participant, refusals, team::MarkJournal({}, [](const std::string&) {}));
+  };
+  auto first = exchange_of();
+  const auto second = exchange_of();
+  first->Start();
+  second->Start();
+  first->Place(std::vector<team::ScanPlace>{
+      {.robot = "robot1", .stamp = 5s, .T_map_robot = {1.0, 1.0, 0.0}}});
+  first->Tell({.id = "m1", .kind = "victim", .p_map_m = {2.0, 3.0}});
+  first->Place(std::vector<team::ScanPlace>{
+      {.robot = "robot1", .stamp = 5s, .T_map_robot = {1.5, 1.0, 0.0}}});
+  const auto heard_x = [&]() -> double {
+    const std::vector<team::Mark> marks = second->marks();
+    return marks.empty() ? 0.0 : marks.front().p_map_m.x();
+  };
+  for (int i = 0; i < 200 && heard_x() != 2.5; ++i) usleep(20'000);
+  EXPECT_EQ(heard_x(), 2.5);
+  EXPECT_THROW(first->Tell({.id = "m2", .kind = "nonsense"}), dds::MarkError);
+  // Whoever comes when its maker is gone hears it of the other.
+  first.reset();
+  const auto late = exchange_of();
+  late->Start();
+  for (int i = 0; i < 200 && late->marks().empty(); ++i) usleep(20'000);
+  EXPECT_EQ(late->marks().size(), 1U);
 }
 
 }  // namespace

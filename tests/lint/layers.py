@@ -31,7 +31,7 @@ MAY_USE = {
     "service/graph": {"slam6d"},
     "service/dds": {"qwsm", "slam6d", "idl", "service/team"},
     "service/team": {"qwsm", "slam6d", "service/io"},
-    "service/view": {"qwsm", "service/io", "service/dds"},
+    "service/view": {"qwsm", "service/io", "service/dds", "service/team"},
     "service/options": LIBRARIES | BORDER | {"service/team", "service/view"},
     "service/pipeline": LIBRARIES | BORDER | {"service/options", "service/team", "service/view"},
     "service/apps": LIBRARIES | BORDER | {

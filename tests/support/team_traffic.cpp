@@ -121,6 +121,9 @@ bool TeamTraffic::Hear(std::chrono::nanoseconds timeout, TrafficResult& result) 
     robot.counted = report.scans;
     robot.dropped = report.dropped;
     ++result.answered;
+    result.answers.push_back({.heard = std::chrono::system_clock::now(),
+                              .matching = report.duration,
+                              .latency = report.latency});
     result.matching.push_back(report.duration);
     result.latency.push_back(report.latency);
   }

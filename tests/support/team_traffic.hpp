@@ -22,6 +22,13 @@ struct TeamOptions {
   double duration_s = 60.0;
 };
 
+/// What a service's answer to a scan took.
+struct TimedAnswer {
+  std::chrono::system_clock::time_point heard;
+  std::chrono::nanoseconds matching{};
+  std::chrono::nanoseconds latency{};  ///< From arrival to pose.
+};
+
 /// What a service made of the scans that were sent to it.
 struct TrafficResult {
   std::size_t sent = 0;
@@ -29,7 +36,8 @@ struct TrafficResult {
   std::uint64_t counted = 0;     ///< Scans that reached the service, by its own count.
   std::uint64_t dropped = 0;     ///< Of these, by its own count.
   std::size_t out_of_order = 0;  ///< Answers to an older scan than the one before of that robot.
-  std::chrono::nanoseconds latest{};  ///< By how much the sender itself was late, at worst.
+  std::chrono::nanoseconds latest{};   ///< By how much the sender itself was late, at worst.
+  std::vector<TimedAnswer> answers{};  ///< As they were heard.
   std::vector<std::chrono::nanoseconds> matching{};  ///< Per answer, sorted.
   std::vector<std::chrono::nanoseconds> latency{};   ///< From arrival to pose, sorted.
 };

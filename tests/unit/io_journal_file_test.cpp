@@ -10,6 +10,7 @@
 
 #include "qwsm/logs/log_reader.hpp"
 #include "service/io/journal/journal_file.hpp"
+#include "service/io/journal/mark_table.hpp"
 #include "service/io/journal/scan_codec.hpp"
 #include "service/io/journal/sqlite_database.hpp"
 #include "tests/support/program.hpp"
@@ -193,6 +194,7 @@ TEST_F(JournalFileTest, ReadingEndsAndKeepsWhatIsGoodWhicheverByteIsFlipped) {
 TEST_F(JournalFileTest, GoesOnBehindDamageInANewFileAndKeepsTheDamagedOne) {
   Write(200);
   const std::filesystem::path copy = Copy();
+  KeepMarks(copy, std::vector<KeptMark>{{.id = "a", .contents = "a mark"}});
   {  // A page of entries that says it was a page of the index.
     std::fstream stream(copy, std::ios::in | std::ios::out | std::ios::binary);
     stream.seekp(static_cast<std::streamoff>(std::filesystem::file_size(copy) / 4096 / 2 * 4096));
@@ -213,6 +215,8 @@ TEST_F(JournalFileTest, GoesOnBehindDamageInANewFileAndKeepsTheDamagedOne) {
   EXPECT_TRUE(journal.damaged_copy().empty());
   EXPECT_EQ(journal.damaged(), 0U);
   EXPECT_EQ(ExpectSoundReading(copy, kept + 1), kept + 1);
+  std::size_t damaged_marks = 0;
+  EXPECT_EQ(ReadMarks(copy, damaged_marks), std::vector<std::string>{"a mark"});
 }
 
 TEST_F(JournalFileTest, IsMendedWhileSomebodyReadsIt) {

@@ -4,16 +4,12 @@
 // What clients say, and who of them is let in.
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <variant>
 
 #include "service/view/http/access.hpp"
-#include "service/view/live/mark_store.hpp"
 #include "service/view/protocol/client_message.hpp"
 #include "service/view/protocol/server_message.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace qwsm::view {
 namespace {
@@ -63,33 +59,6 @@ TEST(ViewProtocol, BytesAreLittleEndian) {
 
 TEST(ViewProtocol, NamesThatAreNoUtf8AreTold) {
   EXPECT_NE(StatusText(StatusLevel::kInfo, "\xff").find("\xef\xbf\xbd"), std::string::npos);
-}
-
-dds::Mark MarkOf(const std::string& id, std::int64_t stamp_ns, const std::string& text) {
-  return {.stamp = Timestamp(stamp_ns), .id = id, .kind = "victim", .text = text};
-}
-
-TEST(MarkStore, OfOneIdTheNewestIsKept) {
-  const test::TemporaryFolder folder;
-  const std::filesystem::path file = folder.path() / "marks.json";
-  MarkStore store(file, [](const std::string& text) { ADD_FAILURE() << text; });
-  store.Take(MarkOf("a", 2, "newer"));
-  store.Take(MarkOf("a", 1, "older"));
-  store.Take(MarkOf("b", 1, "\xff other"));
-  const MarkStore again(file, [](const std::string& text) { ADD_FAILURE() << text; });
-  ASSERT_EQ(again.marks().size(), 2U);
-  EXPECT_EQ(again.marks().front().text, "newer");
-}
-
-TEST(MarkStore, SetsADamagedFileAside) {
-  const test::TemporaryFolder folder;
-  const std::filesystem::path file = folder.path() / "marks.json";
-  std::ofstream(file) << R"([{"id":"a")";
-  std::string told;
-  const MarkStore store(file, [&](const std::string& text) { told = text; });
-  EXPECT_TRUE(store.marks().empty());
-  EXPECT_NE(told.find("marks.json"), std::string::npos);
-  EXPECT_TRUE(std::filesystem::exists(folder.path() / "marks.json.damaged"));
 }
 
 int StatusOf(const ViewOptions& options, const WebRequest& request) {

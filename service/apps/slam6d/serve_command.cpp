@@ -9,6 +9,8 @@
 #include "service/apps/serving.hpp"
 #include "service/apps/slam6d/commands.hpp"
 #include "service/dds/service/cloud_map_outbox.hpp"
+#include "service/dds/service/cloud_mark_places.hpp"
+#include "service/dds/service/mark_exchange.hpp"
 #include "service/dds/service/service_inbox.hpp"
 #include "service/dds/service/service_outbox.hpp"
 #include "service/options/slam6d/program_options.hpp"
@@ -34,6 +36,8 @@ class CloudServer {
         graph_(participant_, options.network),
         outbox_(participant_, graph_, refusals_),
         map_outbox_(participant_, graph_),
+        marks_(participant_, refusals_, qwsm::apps::JournalForMarks(arguments)),
+        mark_places_(marks_),
         results_(folder ? std::make_unique<pipeline::CloudResults>(*folder, options) : nullptr),
         closer_(graph::MakeLoopCloser(options.loop_error)),
         service_(
@@ -45,7 +49,9 @@ class CloudServer {
                {&map_outbox_, &outbox_},
                refusals_),
         view_(qwsm::apps::ShowLive(
-            arguments, options.view, {participant_, graph_, service_.identity()})) {}
+            arguments, options.view, {participant_, graph_, service_.identity(), marks_})) {
+    marks_.Start();
+  }
 
   void Run(const qwsm::pipeline::Interruption& interruption) {
     qwsm::apps::Serve(qwsm::apps::Serving{service_, inbox_, results_.get()}, interruption);
@@ -55,7 +61,7 @@ class CloudServer {
  private:
   // Files before topics: who hears of an answer finds it kept.
   std::vector<CloudSink*> Sinks() {
-    std::vector<CloudSink*> sinks{&log_, &outbox_, &map_outbox_};
+    std::vector<CloudSink*> sinks{&log_, &outbox_, &map_outbox_, &mark_places_};
     if (results_) sinks.insert(sinks.begin(), results_.get());
     return sinks;
   }
@@ -66,6 +72,8 @@ class CloudServer {
   qwsm::pipeline::TeamLog<CloudSink> log_;
   qwsm::dds::ServiceOutbox<CloudSink> outbox_;
   qwsm::dds::CloudMapOutbox map_outbox_;
+  qwsm::dds::MarkExchange marks_;
+  qwsm::dds::CloudMarkPlaces mark_places_;
   std::unique_ptr<pipeline::CloudResults> results_;
   std::unique_ptr<LoopCloser> closer_;
   qwsm::team::CloudService service_;

@@ -25,8 +25,7 @@ TopicGateway::TopicGateway(const Participant& participant, const RosGraph& graph
       listener_(std::move(listener)),
       wait_set_(participant),
       publications_(participant),
-      poses_(participant),
-      marks_(participant, kMarksTopic, Profile::kMarks) {
+      poses_(participant) {
   wait_set_.Add(publications_.handle());
   thread_ = std::jthread([this](const std::stop_token& stop) { Run(stop); });
 }
@@ -49,10 +48,6 @@ void TopicGateway::PreparePose(const std::string& topic) {
 
 void TopicGateway::TellPose(const std::string& topic, const ToldPose& pose) {
   Do([this, topic, pose] { poses_.Tell(topic, pose); });
-}
-
-void TopicGateway::TellMark(const Mark& mark) {
-  Do([this, mark] { marks_.Write(ToWire(mark)); });
 }
 
 void TopicGateway::Run(const std::stop_token& stop) {

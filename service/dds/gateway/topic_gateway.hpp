@@ -13,7 +13,6 @@
 
 #include "service/dds/entities/publications.hpp"
 #include "service/dds/entities/wait_set.hpp"
-#include "service/dds/gateway/mark.hpp"
 #include "service/dds/gateway/pose_teller.hpp"
 #include "service/dds/gateway/published_topic.hpp"
 #include "service/dds/gateway/raw_reader.hpp"
@@ -50,8 +49,6 @@ class TopicGateway {
   /// Makes the topic by which a robot will be told where it is. Any thread may call.
   void PreparePose(const std::string& topic);
   void TellPose(const std::string& topic, const ToldPose& pose);
-  /// Publishes a mark on the map. Any thread may call.
-  void TellMark(const Mark& mark);
 
  private:
   struct Topic {
@@ -76,7 +73,6 @@ class TopicGateway {
   WaitSet wait_set_;
   Publications publications_;
   PoseTeller poses_;
-  Writer<wire::Mark> marks_;
   std::map<std::string, Topic> topics_;
   std::set<std::string> wanted_;
   std::map<std::string, RawReader> readers_;

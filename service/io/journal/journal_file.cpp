@@ -10,12 +10,12 @@
 #include "service/io/files/atomic_file.hpp"
 #include "service/io/files/file_lock.hpp"
 #include "service/io/journal/journal_table.hpp"
+#include "service/io/journal/mark_table.hpp"
 #include "service/io/journal/sqlite_database.hpp"
 
 namespace qwsm::io {
 namespace {
 
-constexpr std::int64_t kApplicationId = 0x5157534D;  // "QWSM".
 constexpr std::int64_t kVersion = 1;
 
 [[noreturn]] void ThrowDamaged(const std::filesystem::path& file, const std::string& why) {
@@ -40,7 +40,7 @@ constexpr std::int64_t kVersion = 1;
 }
 
 void CheckFormat(SqliteDatabase& database, const std::filesystem::path& file) {
-  if (database.Number("PRAGMA application_id") != kApplicationId) {
+  if (database.Number("PRAGMA application_id") != kJournalApplicationId) {
     throw JournalError(file.string() + ": is an SQLite database, but no journal of qwsm");
   }
   const std::int64_t version = database.Number("PRAGMA user_version");
@@ -78,7 +78,7 @@ void Begin(SqliteDatabase& database, std::string_view kind, std::string_view ide
     SetMeta(database, "kind", kind);
     SetMeta(database, "identity", identity);
     database.Execute(fmt::format(
-        "PRAGMA application_id = {}; PRAGMA user_version = {}", kApplicationId, kVersion));
+        "PRAGMA application_id = {}; PRAGMA user_version = {}", kJournalApplicationId, kVersion));
   }
   database.Execute("COMMIT");
 }
@@ -174,14 +174,16 @@ JournalFile JournalFile::Mended(JournalFile damaged, std::string_view kind) {
   const std::string identity = damaged.identity();
   std::filesystem::remove(mended);  // Of an earlier attempt that was cut short.
   RemoveLogOf(mended);
+  std::size_t lost_marks = 0;
   {
     const JournalFile copy = OpenToWrite(mended, kind, identity);
     copy.state_->Wait(true);
     copy.state_->database.Execute("BEGIN");
     while (const auto entry = damaged.Next()) copy.state_->table.Insert(*entry);
     copy.state_->database.Execute("COMMIT");
+    MarkTable(copy.state_->database).Put(MarkTable(damaged.state_->database).All(lost_marks));
   }
-  const std::size_t lost = damaged.damaged();
+  const std::size_t lost = damaged.damaged() + lost_marks;
   damaged.state_->database.Execute("PRAGMA wal_checkpoint(TRUNCATE)");
   damaged.state_.reset();
   const std::filesystem::path kept = NameForDamaged(file);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -15,6 +16,9 @@
 
 namespace qwsm::io {
 
+/// By which SQLite's tools, and we, know a journal: "QWSM".
+inline constexpr std::int64_t kJournalApplicationId = 0x5157534D;
+
 /// Tells of a file that is no journal that can be used. The text names it and says why, and how to
 /// mend it: foreign, newer, damaged, or in use.
 class JournalError : public std::runtime_error {
@@ -26,7 +30,8 @@ class JournalError : public std::runtime_error {
 ///
 /// An SQLite database with a write-ahead log, every entry a transaction. Tables:
 ///   meta(key, value): kind, the kind of contents, and identity, whose journal it is;
-///   scan: the entries, see JournalTable.
+///   scan: the entries, see JournalTable;
+///   mark: marks on the map, if there are any, see MarkTable.
 /// PRAGMA application_id is "QWSM", user_version is 1.
 ///
 /// Of a damaged file what is good is given, and what is lost is counted.

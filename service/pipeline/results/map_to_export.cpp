@@ -16,6 +16,8 @@
 #include "service/io/maps/map_file.hpp"
 #include "service/io/maps/ros_map_file.hpp"
 #include "service/io/trajectories/trajectory_file.hpp"
+#include "service/pipeline/results/journal_marks.hpp"
+#include "service/pipeline/results/marks_list.hpp"
 #include "service/pipeline/results/results_writer.hpp"
 #include "service/pipeline/text/messages.hpp"
 
@@ -50,6 +52,7 @@ MapToExport LoadResults(const fs::path& folder) {
   }
   std::ranges::sort(folders);
   for (const fs::path& one : folders) AddPath(one / "trajectory.tum", map);
+  if (fs::exists(folder / kMarksFile)) map.marks = io::ReadPointsOfInterest(folder / kMarksFile);
   return map;
 }
 
@@ -58,6 +61,15 @@ MapToExport LoadSavedMap(const fs::path& file, const OccupancyGridOptions& rende
   std::vector<RobotScan> scans;
   for (const RelevantScan& scan : saved.scans()) scans.push_back({.robot = {}, .relevant = scan});
   return MapOfScans(scans, file.string(), rendering);
+}
+
+/// The marks of a journal where its scans are.
+std::vector<team::Mark> MarksOfJournal(const fs::path& file) {
+  const MarksOnScans kept = ReadMarksOnScans(file);
+  team::MarkBook book;
+  for (const team::Mark& mark : kept.marks) book.Take(mark);
+  book.Place(kept.scans);
+  return book.marks();
 }
 
 MapToExport LoadJournal(const fs::path& file, const OccupancyGridOptions& rendering) {
@@ -73,7 +85,9 @@ MapToExport LoadJournal(const fs::path& file, const OccupancyGridOptions& render
   for (const io::LogFault& fault : journal.report().faults) {
     messages::Warn("{}: {} ({} times)", file.string(), fault.what, fault.count);
   }
-  return MapOfScans(scans, file.string(), rendering);
+  MapToExport map = MapOfScans(scans, file.string(), rendering);
+  map.marks = PointsOf(MarksOfJournal(file));
+  return map;
 }
 
 bool BeginsWith(const fs::path& file, std::string_view magic) {

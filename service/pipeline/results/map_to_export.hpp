@@ -11,14 +11,16 @@
 #include "qwsm/mapping/occupancy_grid.hpp"
 #include "qwsm/mapping/relevant_scan.hpp"
 #include "qwsm/sensor/laser_scan.hpp"
+#include "service/io/rescue/points_of_interest.hpp"
 
 namespace qwsm::pipeline {
 
 /// A map, and how the robots went through it; all of it is in the frame `map`.
 struct MapToExport {
   OccupancyGrid grid;
-  std::vector<std::vector<Pose2>> paths;  ///< Path of each robot, from its start.
-  std::optional<Timestamp> start;         ///< Stamp of the first pose, where it is known.
+  std::vector<std::vector<Pose2>> paths;     ///< Path of each robot, from its start.
+  std::optional<Timestamp> start;            ///< Stamp of the first pose, where it is known.
+  std::vector<io::PointOfInterest> marks{};  ///< What operators marked.
 };
 
 /// A relevant scan, and who took it.
@@ -36,8 +38,9 @@ MapToExport MapOfScans(const std::vector<RobotScan>& scans,
 
 /// Reads a map wherever one was left: in the folder of results of `map`, `localize` or `serve`, as
 /// the YAML file of ROS's map_server, in the journal of a service, or saved by `map --save-map`.
-/// Paths out of journals and saved maps go through the relevant scans. Entries of a journal that
-/// are damaged are warned of and left out.
+/// Marks are in journals, and in folders that `serve` or `map` of a journal left. Paths out of
+/// journals and saved maps go through the relevant scans. Entries of a journal that are damaged are
+/// warned of and left out.
 /// @param rendering for what is not rendered yet.
 /// @throws std::runtime_error naming the file, what is wrong and what would be right.
 MapToExport LoadMapToExport(const std::filesystem::path& source,

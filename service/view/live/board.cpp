@@ -32,7 +32,7 @@ RecencyOptions RecencyOf(const dds::PublishedTopic& topic) {
   if (!topic.is_latched) return {};
   RecencyOptions options{.depth = 1, .for_late_comers = ForLateComers::kAll};
   if (topic.type == "qwsm_msgs/msg/RelevantScan") options.depth = 262'144;
-  if (topic.type == "qwsm_msgs/msg/Mark") options.depth = 1024;
+  if (topic.type == "qwsm_msgs/msg/Mark") options.depth = 4096;  // Of several services.
   if (topic.type == "tf2_msgs/msg/TFMessage") options.depth = 100;
   return options;
 }

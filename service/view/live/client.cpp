@@ -60,7 +60,7 @@ void Client::Publish(const ClientData& data) {
   if (topic == publications_.end()) {
     throw ProtocolError(fmt::format("channel {} was not advertised", data.channel));
   }
-  if (topic->second == dds::kMarksTopic) return uplink_.tell_mark(DecodeMark(data.cdr));
+  if (topic->second == dds::kMarksTopic) return uplink_.tell_mark(DecodeToldMark(data.cdr));
   uplink_.tell_pose(topic->second, DecodeToldPose(data.cdr));
 }
 

@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 
+#include "service/team/marks/mark.hpp"
 #include "service/view/live/board.hpp"
 #include "service/view/protocol/client_message.hpp"
 
@@ -23,7 +24,8 @@ struct Uplink {
   std::function<void(const std::string& topic)> want;
   std::function<void(const std::string& topic)> prepare_pose;
   std::function<void(const std::string& topic, const dds::ToldPose&)> tell_pose;
-  std::function<void(const dds::Mark&)> tell_mark;
+  /// @throws ProtocolError where the mark cannot be taken.
+  std::function<void(const team::Mark&)> tell_mark;
 };
 
 /// A message to a client.

@@ -45,6 +45,7 @@ export class CdrWriter {
   uint8(value) { this.#add(1, (view) => view.setUint8(0, value)); }
   int32(value) { this.#add(4, (view) => view.setInt32(0, value, true)); }
   uint32(value) { this.#add(4, (view) => view.setUint32(0, value, true)); }
+  uint64(value) { this.#add(8, (view) => view.setBigUint64(0, BigInt(value), true)); }
   float64(value) { this.#add(8, (view) => view.setFloat64(0, value, true)); }
   string(text) {
     const bytes = new TextEncoder().encode(text);

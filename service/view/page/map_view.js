@@ -334,9 +334,7 @@ export class MapView {
   }
 
   #drawMarks(c) {
-    let number = 0;
     for (const mark of this.model.marks.values()) {
-      ++number;
       if (mark.removed) continue;
       const kind = kMarkKinds[mark.kind] ?? kMarkKinds.note;
       const [px, py] = this.camera.toScreen(mark.x, mark.y);
@@ -354,7 +352,7 @@ export class MapView {
       c.font = `700 ${Math.round(r)}px system-ui, "DejaVu Sans", sans-serif`;
       c.textAlign = 'center';
       c.textBaseline = 'middle';
-      c.fillText(mark.number ?? number, px, py + 1);
+      c.fillText(mark.number || '', px, py + 1);
       if (mark.text) {
         c.font = '600 12px system-ui, "DejaVu Sans", sans-serif';
         c.lineWidth = 3;

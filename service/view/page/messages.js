@@ -87,7 +87,7 @@ const readers = {
   }),
   'qwsm_msgs/msg/Mark': (r) => ({
     ...header(r), id: r.string(), kind: r.string(), text: r.string(), author: r.string(),
-    x: r.float64(), y: r.float64(), removed: r.uint8() !== 0,
+    x: r.float64(), y: r.float64(), removed: r.uint8() !== 0, number: r.uint32(), revision: r.uint64(),
   }),
 };
 
@@ -121,5 +121,14 @@ export function encodeMark(mark) {
   w.float64(mark.x);
   w.float64(mark.y);
   w.uint8(mark.removed ? 1 : 0);
+  // Number and anchor are the service's to give.
+  w.uint32(0);
+  w.uint64(0);
+  w.uint8(0);
+  w.string('');
+  w.int32(0);
+  w.uint32(0);
+  w.float64(0);
+  w.float64(0);
   return w.bytes;
 }

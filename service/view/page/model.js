@@ -287,7 +287,10 @@ export class Model {
 
   #takeMark(mark) {
     const known = this.marks.get(mark.id);
-    if (!known || mark.stamp > known.stamp) this.marks.set(mark.id, mark);
+    const isNews = !known || mark.stamp > known.stamp || (mark.stamp === known.stamp && mark.revision > known.revision);
+    if (!isNews) return;
+    this.marks.set(mark.id, mark);
+    ++this.mapVersion;
   }
 
   #takeHealth({status}) {

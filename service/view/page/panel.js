@@ -126,15 +126,15 @@ export class Panel {
   }
 
   #updateMarks() {
-    const marks = [...this.model.marks.values()];
+    const marks = [...this.model.marks.values()].sort((a, b) => a.number - b.number);
     const key = JSON.stringify(marks);
     if (key === this.marksKey) return;
     this.marksKey = key;
     $('marks-section').hidden = !marks.some(({removed}) => !removed);
-    $('marks').replaceChildren(...marks.flatMap((mark, i) => {
+    $('marks').replaceChildren(...marks.flatMap((mark) => {
       if (mark.removed) return [];
       const {word} = kMarkKinds[mark.kind] ?? kMarkKinds.note;
-      const button = element('button', {className: 'mark', type: 'button', textContent: `${i + 1} · ${word}${mark.text ? ': ' + mark.text : ''}`});
+      const button = element('button', {className: 'mark', type: 'button', textContent: `${mark.number} · ${word}${mark.text ? ': ' + mark.text : ''}`});
       button.onclick = () => this.actions.showMark(mark.id);
       return [element('li', {}, button)];
     }));

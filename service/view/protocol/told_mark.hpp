@@ -4,15 +4,13 @@
 
 #include <string_view>
 
-#include "service/dds/gateway/mark.hpp"
+#include "service/team/marks/mark.hpp"
 
 namespace qwsm::view {
 
-/// Unpacks qwsm_msgs/Mark. @throws io::MessageError where the bytes are none, or no mark that could
-/// be drawn.
-dds::Mark DecodeMark(std::string_view cdr);
-
-/// What is wrong with a mark; empty where it can be drawn and kept.
-std::string_view ObjectionTo(const dds::Mark& mark);
+/// Unpacks what a client says with qwsm_msgs/Mark, as far as that is the client's to say: number
+/// and anchor are left to the service. @throws io::MessageError where the bytes are none, or no
+/// mark that could be drawn.
+team::Mark DecodeToldMark(std::string_view cdr);
 
 }  // namespace qwsm::view

@@ -91,7 +91,9 @@ constexpr std::array kDefinitions{
           "qwsm_msgs/MovedRobot[] robots\nqwsm_msgs/MovedScan[] scans\n"},
     Entry{"qwsm_msgs/Mark",
           "std_msgs/Header header\nstring id\nstring kind\nstring text\nstring author\n"
-          "float64 x\nfloat64 y\nbool removed\n"},
+          "float64 x\nfloat64 y\nbool removed\nuint32 number\nuint64 revision\nbool anchored\n"
+          "string anchor_robot\nbuiltin_interfaces/Time anchor_stamp\nfloat64 anchor_x\n"
+          "float64 anchor_y\n"},
 };
 
 // As rosidl computes them since Iron.

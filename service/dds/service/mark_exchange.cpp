@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/dds/service/mark_exchange.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include "service/dds/wire/mark_conversion.hpp"
+#include "service/dds/wire/planar.hpp"
+#include "service/dds/wire/robot_names.hpp"
+#include "service/dds/wire/scan_conversion.hpp"
+
+namespace qwsm::dds {
+
+MarkExchange::MarkExchange(const Participant& participant,
+                           Refusals& refusals,
+                           team::MarkJournal journal)
+    : refusals_(refusals),
+      map_frame_(kMapFrame),
+      wait_set_(participant),
+      reader_(participant, kMarksTopic, Profile::kMarks),
+      scans_(participant, kSharedScansTopic, Profile::kSharedScansIn),
+      writer_(participant, kMarksTopic, Profile::kMarks),
+      journal_(std::move(journal)) {
+  wait_set_.Add(reader_.handle());
+  wait_set_.Add(scans_.handle());
+}
+
+MarkExchange::~MarkExchange() {
+  if (!thread_.joinable()) return;
+  thread_.request_stop();
+  wait_set_.Wake();
+  thread_.join();
+}
+
+void MarkExchange::Start() {
+  for (const team::Mark& mark : journal_.Load()) {
+    if (book_.Take(mark)) writer_.Write(ToWire(mark, map_frame_));
+  }
+  thread_ = std::jthread([this](const std::stop_token& stop) { Work(stop); });
+}
+
+void MarkExchange::Tell(team::Mark mark) {
+  mark.stamp = std::chrono::system_clock::now().time_since_epoch();
+  mark.revision = 0;
+  const std::lock_guard lock(mutex_);
+  mark = book_.Completed(std::move(mark));
+  if (const auto objection = team::ObjectionTo(mark); !objection.empty()) {
+    throw MarkError(std::string(objection));
+  }
+  if (!book_.HasRoomFor(mark)) throw MarkError("there are too many marks");
+  if (book_.Take(mark)) TellAndKeep({mark});
+}
+
+void MarkExchange::Place(std::span<const team::ScanPlace> places) {
+  const std::lock_guard lock(mutex_);
+  TellAndKeep(book_.Place(places));
+}
+
+std::vector<team::Mark> MarkExchange::marks() const {
+  const std::lock_guard lock(mutex_);
+  return book_.marks();
+}
+
+/// @pre the mutex is held.
+void MarkExchange::TellAndKeep(const std::vector<team::Mark>& marks) {
+  if (marks.empty()) return;
+  for (const team::Mark& mark : marks) writer_.Write(ToWire(mark, map_frame_));
+  // The writer keeps the last samples for late comers: among these must be one of every mark.
+  told_ += marks.size();
+  if (told_ + book_.marks().size() > team::MarkBook::kMostMarks) {
+    for (const team::Mark& mark : book_.marks()) writer_.Write(ToWire(mark, map_frame_));
+    told_ = 0;
+  }
+  unkept_.insert(unkept_.end(), marks.begin(), marks.end());
+  wait_set_.Wake();
+}
+
+void MarkExchange::Work(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    wait_set_.Wait(std::chrono::seconds(1));
+    HearScans();
+    HearMarks();
+    Keep();
+  }
+}
+
+// What this service has told comes back, too, and is no news.
+void MarkExchange::HearMarks() {
+  std::vector<team::Mark> news;
+  const std::lock_guard lock(mutex_);
+  reader_.TakeAll([&](const wire::Mark& sample) {
+    const std::string_view objection = ObjectionTo(sample);
+    if (!objection.empty()) return refusals_.Add(kMarksTopic, objection);
+    const team::Mark mark = FromWire(sample);
+    if (book_.Take(mark)) news.push_back(mark);
+  });
+  TellAndKeep(news);
+}
+
+void MarkExchange::HearScans() {
+  std::vector<team::ScanPlace> places;
+  scans_.TakeAll([&](const wire::RelevantScan& sample) {
+    // Refused samples are told by whoever makes a map of them.
+    if (!ObjectionTo(sample).empty()) return;
+    places.push_back({.robot = sample.robot,
+                      .stamp = *FromWire(sample.header.stamp),
+                      .T_map_robot = FromWire(sample.pose)});
+  });
+  if (!places.empty()) Place(places);
+}
+
+void MarkExchange::Keep() {
+  std::vector<team::Mark> marks;
+  {
+    const std::lock_guard lock(mutex_);
+    marks.swap(unkept_);
+  }
+  if (!marks.empty()) journal_.Keep(marks);
+}
+
+}  // namespace qwsm::dds

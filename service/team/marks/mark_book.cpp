@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/team/marks/mark_book.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace qwsm::team {
+namespace {
+
+// Below, nobody sees that a mark has moved.
+constexpr double kLeastMove_m = 1e-3;
+
+using ScanName = std::pair<std::string, Timestamp>;
+
+}  // namespace
+
+bool MarkBook::HasRoomFor(const Mark& mark) const {
+  return marks_.size() < kMostMarks || marks_.contains(mark.id);
+}
+
+bool MarkBook::Take(const Mark& mark) {
+  if (!HasRoomFor(mark)) return false;
+  const auto [known, is_new] = marks_.try_emplace(mark.id, mark);
+  if (!is_new && !Supersedes(mark, known->second)) return false;
+  known->second = mark;
+  return true;
+}
+
+Mark MarkBook::Completed(Mark mark) const {
+  const auto known = marks_.find(mark.id);
+  if (known != marks_.end()) mark.number = known->second.number;
+  if (mark.number == 0) {
+    for (const auto& [id, other] : marks_) mark.number = std::max(mark.number, other.number);
+    ++mark.number;
+  }
+  mark.anchor.reset();
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const auto& [robot, scans] : places_) {
+    for (const auto& [stamp, T_map_robot] : scans) {
+      const double distance_m = (T_map_robot.translation_m() - mark.p_map_m).norm();
+      if (distance_m >= nearest_m) continue;
+      nearest_m = distance_m;
+      mark.anchor = {
+          .robot = robot, .stamp = stamp, .p_robot_m = T_map_robot.Inverse() * mark.p_map_m};
+    }
+  }
+  return mark;
+}
+
+// Who hears a mark does not move it, only who learns of a scan: services that do not agree on where
+// a scan is would else go on for ever.
+std::vector<Mark> MarkBook::Place(std::span<const ScanPlace> places) {
+  std::map<ScanName, Pose2> news;
+  for (const ScanPlace& place : places) {
+    news.insert_or_assign({place.robot, place.stamp}, place.T_map_robot);
+    places_[place.robot][place.stamp] = place.T_map_robot;
+  }
+  std::vector<Mark> moved;
+  for (auto& [id, mark] : marks_) {
+    if (!mark.anchor) continue;
+    const auto scan = news.find({mark.anchor->robot, mark.anchor->stamp});
+    if (scan == news.end()) continue;
+    const Eigen::Vector2d p_map_m = scan->second * mark.anchor->p_robot_m;
+    if ((p_map_m - mark.p_map_m).norm() < kLeastMove_m) continue;
+    mark.p_map_m = p_map_m;
+    ++mark.revision;
+    moved.push_back(mark);
+  }
+  return moved;
+}
+
+std::vector<Mark> MarkBook::marks() const {
+  std::vector<Mark> marks;
+  for (const auto& [id, mark] : marks_) marks.push_back(mark);
+  return marks;
+}
+
+}  // namespace qwsm::team
