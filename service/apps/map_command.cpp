@@ -12,6 +12,7 @@
 
 #include "service/apps/command.hpp"
 #include "service/apps/messages.hpp"
+#include "service/apps/page.hpp"
 #include "service/apps/run_session.hpp"
 #include "service/apps/saved_map.hpp"
 #include "service/apps/scenario_arguments.hpp"
@@ -19,6 +20,7 @@
 #include "service/config/suggestion.hpp"
 #include "service/io/files/atomic_file.hpp"
 #include "service/io/maps/map_file.hpp"
+#include "service/pipeline/live/live_run.hpp"
 #include "service/pipeline/results/answer_bag.hpp"
 #include "service/pipeline/results/corrected_run.hpp"
 #include "service/pipeline/results/journal_marks.hpp"
@@ -36,6 +38,7 @@ struct MapArguments {
   std::optional<std::filesystem::path> save_map;
   std::optional<std::filesystem::path> continued;  ///< Map to go on with.
   bool bag = false;                                ///< Whether the answers are left as a bag, too.
+  bool view = false;                               ///< Whether it is shown in a browser.
   ScenarioArguments simulated;                     ///< Instead of logs, if it names a scenario.
   std::optional<std::string> robot;
 
@@ -61,6 +64,10 @@ void CheckSource(const MapArguments& arguments) {
   if (arguments.continued && arguments.bag) {
     throw UsageError(
         "--bag does not go with --continue: where the robot starts is found out later");
+  }
+  if (arguments.continued && arguments.view) {
+    throw UsageError(
+        "--view does not go with --continue: where the robot starts is found out later");
   }
   const ScenarioArguments& simulated = arguments.simulated;
   if (!arguments.is_simulated() && (simulated.seed || simulated.duration_s)) {
@@ -106,6 +113,20 @@ bool Corrects(const options::ProgramOptions& options) {
   return options.graph.enabled && options.mapper.matcher == MatcherKind::kQWsm;
 }
 
+/// The page of the run; null where nobody wants to look.
+std::unique_ptr<pipeline::LiveRun> ShowLive(const MapArguments& arguments,
+                                            const options::ProgramOptions& options) {
+  if (!arguments.view) return nullptr;
+  const std::string name = arguments.is_simulated()
+                               ? arguments.simulated.scenario
+                               : arguments.run.logs.front().filename().string();
+  auto live = std::make_unique<pipeline::LiveRun>(options, "qwsm map " + name);
+  TellPage(live->url(), !arguments.run.verbosity.quiet && !arguments.run.verbosity.json);
+  return live;
+}
+
+constexpr const char* kAtEnd = "the log is at its end";
+
 ExitCode MapAll(const MapArguments& arguments,
                 const options::ProgramOptions& options,
                 pipeline::ScanSource& source,
@@ -120,6 +141,8 @@ ExitCode MapAll(const MapArguments& arguments,
   pipeline::AnswerBag answers;
   pipeline::JournalMarks marks(arguments.run.logs);
   std::vector<pipeline::StepSink*> sinks{&results, &marks};
+  const std::unique_ptr<pipeline::LiveRun> live = ShowLive(arguments, options);
+  if (live) sinks.push_back(live.get());
   if (arguments.bag) sinks.push_back(&answers);
   const auto answer = [&](const Observation& observation) {
     return correcting ? correcting->Process(observation) : incremental.Process(observation);
@@ -144,7 +167,12 @@ ExitCode MapAll(const MapArguments& arguments,
       session.folder().path(),
       marks.Placed(corrected ? corrected->correction.map_robot : std::vector<UncertainPose2>()));
   if (arguments.save_map) io::SaveMap(*arguments.save_map, map);
+  if (live) live->Finish(map, corrected ? "the log is at its end, the map corrected" : kAtEnd);
   session.Summarize(results, map);
+  if (live && end.end == pipeline::ReplayEnd::kExhausted) {
+    KeepPage(
+        [&live](const pipeline::Interruption& interruption) { live->StayUntil(interruption); });
+  }
   return Conclude(end);
 }
 
@@ -223,6 +251,7 @@ Command AddMapCommand(CLI::App& program) {
       "  qwsm map intel.log.gz                            results in results/latest\n"
       "  qwsm map intel.log --output intel                results in intel/\n"
       "  qwsm map intel.log --matcher wsm                 the incremental baseline\n"
+      "  qwsm map intel.log --view                        seen at http://localhost:8765/\n"
       "  qwsm map intel.log --save-map intel.qwsm         to localize in later\n"
       "  qwsm map later.log --continue intel.qwsm --save-map both.qwsm\n"
       "  qwsm map intel.log --set graph.enabled=false     nothing is corrected\n"
@@ -244,6 +273,7 @@ Command AddMapCommand(CLI::App& program) {
           "go on with a map that was saved, or a map.yaml of ROS, wherever in it the robot "
           "starts; nothing is corrected in the end")
       ->type_name("MAP");
+  AddViewFlag(*parser, arguments->view);
   parser->add_flag("--bag", arguments->bag, "poses, /tf and map as answers.mcap, too, for ROS 2");
   parser
       ->add_option("--sim",

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "service/apps/output.hpp"
+#include "service/apps/page.hpp"
 #include "service/io/files/atomic_file.hpp"
 
 namespace qwsm::apps {
@@ -23,7 +24,7 @@ Command AddServeCommand(CLI::App& program, const ServeCommand& serve) {
   parser->add_flag("--force", arguments->force, "write into a folder that holds other things");
   parser->add_option("--journal", arguments->journal, "where the map's scans are kept for restarts")
       ->type_name("FILE");
-  parser->add_flag("--view", arguments->view, "show it all in a browser: see the address it tells");
+  AddViewFlag(*parser, arguments->view);
   AddNetworkArguments(*parser, arguments->network, "messages as JSON, one object a line");
   return {.parser = parser, .run = [arguments, run = serve.run] { return run(*arguments); }};
 }
@@ -48,8 +49,7 @@ std::unique_ptr<view::LiveView> ShowLive(const ServeArguments& arguments,
                                   .warn = [](const std::string& text) { messages::Warn(text); }};
   auto view =
       std::make_unique<view::LiveView>(shown.participant, shown.graph, options, std::move(service));
-  messages::Info("look at {}", view->url());
-  if (!arguments.network.verbosity.quiet) Print("look at {}\n", view->url());
+  TellPage(view->url(), !arguments.network.verbosity.quiet);
   return view;
 }
 

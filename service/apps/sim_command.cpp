@@ -12,10 +12,12 @@
 #include "service/apps/messages.hpp"
 #include "service/apps/number_arguments.hpp"
 #include "service/apps/output.hpp"
+#include "service/apps/page.hpp"
 #include "service/apps/scenario_arguments.hpp"
 #include "service/apps/version.hpp"
 #include "service/config/options_io.hpp"
 #include "service/dds/entities/middleware_messages.hpp"
+#include "service/dds/service/mark_exchange.hpp"
 #include "service/io/files/atomic_file.hpp"
 #include "service/pipeline/network/network_robot.hpp"
 #include "service/pipeline/results/results_folder.hpp"
@@ -23,6 +25,7 @@
 #include "service/pipeline/simulation/simulation_report.hpp"
 #include "service/pipeline/simulation/simulation_run.hpp"
 #include "service/pipeline/text/messages.hpp"
+#include "service/view/live_view.hpp"
 
 namespace qwsm::apps {
 namespace {
@@ -35,10 +38,14 @@ struct SimArguments {
   std::optional<fs::path> output;
   std::optional<double> real_time_factor;
   std::vector<std::string> network;  ///< `key=value` of dds::NetworkOptions.
+  std::vector<std::string> page;     ///< `key=value` of view::ViewOptions.
   bool dds = false;
+  bool view = false;
   bool wait_for_answers = false;
   Verbosity verbosity;
   bool force = false;
+
+  bool is_on_network() const { return dds || view; }
 };
 
 SimulatedLogs OpenLogs(const sim::Simulation& simulation, const ResultsFolder& folder) {
@@ -50,16 +57,38 @@ SimulatedLogs OpenLogs(const sim::Simulation& simulation, const ResultsFolder& f
   return logs;
 }
 
+void Warn(const std::string& text) { messages::Warn(text); }
+
+/// What happens on the network, in a browser.
+struct Page {
+  Page(const dds::Participant& participant,
+       const dds::NetworkOptions& network,
+       const view::ViewOptions& options,
+       const std::string& name)
+      : graph(participant, network),
+        marks(participant, refusals, team::MarkJournal({}, Warn)),
+        view(participant, graph, options, {.name = name, .marks = marks, .warn = Warn}) {
+    marks.Start();
+  }
+
+  dds::RosGraph graph;
+  dds::Refusals refusals{Warn};
+  dds::MarkExchange marks;
+  view::LiveView view;
+};
+
 /// All robots of a simulation on the network.
 class NetworkTeam {
  public:
   NetworkTeam(const SimArguments& arguments, sim::Simulation& simulation)
-      : messages_([](const std::string& text) { messages::Warn(text); }),
-        participant_(config::LoadOptions<dds::NetworkOptions>(
-            {.file = std::nullopt, .settings = arguments.network})) {
+      : messages_(Warn),
+        network_(config::LoadOptions<dds::NetworkOptions>(
+            {.file = std::nullopt, .settings = arguments.network})),
+        participant_(network_) {
+    if (arguments.view) ShowLive(arguments);
     const auto pace = arguments.wait_for_answers ? NetworkPace::kAnswers : NetworkPace::kFree;
     for (std::size_t i = 0; i < simulation.robots().size(); ++i) {
-      robots_.push_back(std::make_unique<NetworkRobot>(participant_, simulation, i, pace));
+      robots_.push_back(std::make_unique<NetworkRobot>(participant_, simulation, i, pace, arguments.view));
     }
     if (arguments.wait_for_answers) WaitForService();
   }
@@ -81,13 +110,27 @@ class NetworkTeam {
     }
   }
 
+  void ShowLive(const SimArguments& arguments) {
+    page_ = std::make_unique<Page>(
+        participant_,
+        network_,
+        config::LoadOptions<view::ViewOptions>({.file = std::nullopt, .settings = arguments.page}),
+        "qwsm sim " + arguments.scenario.scenario);
+    TellPage(page_->view.url(), !arguments.verbosity.quiet && !arguments.verbosity.json);
+  }
+
   dds::MiddlewareMessages messages_;
+  dds::NetworkOptions network_;
   dds::Participant participant_;
+  std::unique_ptr<Page> page_;  // Null where nobody wants to look.
   std::vector<std::unique_ptr<NetworkRobot>> robots_;
 };
 
 ExitCode RunSim(const SimArguments& arguments) {
   StartMessages(arguments.verbosity);
+  if (!arguments.network.empty() && !arguments.is_on_network()) {
+    throw UsageError("--network needs --dds or --view: without, nothing is published");
+  }
   const sim::ScenarioOptions scenario = LoadScenario(arguments.scenario);
   sim::Simulation simulation(scenario);
   const ResultsFolder folder = arguments.output ? ResultsFolder(*arguments.output, arguments.force)
@@ -102,10 +145,10 @@ ExitCode RunSim(const SimArguments& arguments) {
   Pacer pacer(arguments.real_time_factor.value_or(1.0));
   std::vector<ReadingSink*> sinks{&progress};
   for (const auto& log : logs) sinks.push_back(log.get());
-  const bool is_live = arguments.dds && !arguments.wait_for_answers;
+  const bool is_live = arguments.is_on_network() && !arguments.wait_for_answers;
   if (arguments.real_time_factor || is_live) sinks.push_back(&pacer);
   std::optional<NetworkTeam> team;
-  if (arguments.dds) team.emplace(arguments, simulation).AddTo(sinks);
+  if (arguments.is_on_network()) team.emplace(arguments, simulation).AddTo(sinks);
   const Interruption interruption;
   const bool is_complete =
       RunSimulation(simulation, sinks, [&] { return interruption.requested(); });
@@ -139,7 +182,14 @@ void AddNetworkSettings(CLI::App& parser, SimArguments& arguments) {
       ->needs(dds)
       ->group("Network");
   parser.add_option("--network", arguments.network, "domain, interface or tag; may be repeated")
-      ->needs(dds)
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false)
+      ->group("Network");
+  CLI::Option* view = AddViewFlag(parser, arguments.view);
+  view->group("Network");
+  parser
+      .add_option("--page", arguments.page, "port, address or token of the page; may be repeated")
+      ->needs(view)
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false)
       ->group("Network");
@@ -156,6 +206,7 @@ Command AddSimCommand(CLI::App& program) {
       "  qwsm sim my.yaml --duration 60               one's own, for a minute\n"
       "  qwsm sim office --set layout.office.persons=0\n"
       "  qwsm sim team --dds                          live on the network, in real time\n"
+      "  qwsm sim team --view                         and seen at http://localhost:8765/\n"
       "  qwsm sim park --dds --wait-for-answers       as fast as 'qwsm serve' can map it");
   parser
       ->add_option("SCENARIO",

@@ -164,6 +164,63 @@ TEST_F(View, ASlowLineHasThePosesWhileTheMapIsOnItsWay) {
   EXPECT_LT(ages_s[ages_s.size() / 2], 0.2);
 }
 
+TEST_F(View, ShowsALogThatIsMapped) {
+  const TemporaryFolder folder;
+  ViewedService mapping({"map",
+                         "--sim",
+                         "office",
+                         "--duration",
+                         "900",
+                         "--view",
+                         "--verbose",
+                         "--set",
+                         "view.port=0",
+                         "--output",
+                         folder.path() / "run"});
+  Onlooker onlooker(mapping.port());
+  ASSERT_TRUE(onlooker.Subscribe("/match_report", 1));
+  ASSERT_TRUE(onlooker.Subscribe("/map_tiles", 2));
+  EXPECT_TRUE(onlooker.Sample(1));
+  EXPECT_TRUE(onlooker.Sample(2));
+  mapping.daemon().End();
+}
+
+TEST_F(View, ShowingALogChangesNothingOfItsPath) {
+  const TemporaryFolder folder;
+  const auto map = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{
+        "map", "--sim", "office", "--duration", "30", "--quiet", "--output", folder.path() / name};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(RunProgram(arguments).exit_code, 0);
+    return ReadFile(folder.path() / name / "trajectory.tum");
+  };
+  const std::string path = map("unseen", {});
+  EXPECT_FALSE(path.empty());
+  EXPECT_EQ(map("seen", {"--view", "--set", "view.port=0"}), path);
+}
+
+TEST_F(View, ShowsASimulatorThatNobodyAnswers) {
+  const TemporaryFolder folder;
+  std::vector<std::string> arguments{"sim",
+                                     "team",
+                                     "--view",
+                                     "--verbose",
+                                     "--page",
+                                     "port=0",
+                                     "--output",
+                                     folder.path() / "drive"};
+  for (const std::string& setting : {std::string("interface=lo"), "tag=" + network_.tag()}) {
+    arguments.insert(arguments.end(), {"--network", setting});
+  }
+  ViewedService simulator(arguments);
+  Onlooker onlooker(simulator.port());
+  ASSERT_TRUE(onlooker.Subscribe("/robot_1/ground_truth", 1));
+  ASSERT_TRUE(onlooker.Subscribe("/robot_1/scan", 2));
+  EXPECT_TRUE(onlooker.Sample(1));
+  EXPECT_TRUE(onlooker.Sample(2));
+  simulator.daemon().End();
+}
+
 TEST_F(View, MarksOutliveTheService) {
   const TemporaryFolder folder;
   const std::vector<std::string> journal{"--journal", folder.path() / "team.db"};

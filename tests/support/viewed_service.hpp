@@ -15,11 +15,13 @@
 
 namespace qwsm::test {
 
-/// A service with a page.
+/// A service, or another program, with a page.
 class ViewedService {
  public:
   explicit ViewedService(const PrivateNetwork& network, std::vector<std::string> more = {})
-      : service_(network.JoinService(With(std::move(more)))) {
+      : ViewedService(network.JoinService(With(std::move(more)))) {}
+  /// @param arguments of a program that tells its messages.
+  explicit ViewedService(std::vector<std::string> arguments) : service_(std::move(arguments)) {
     if (!service_.WaitUntilItSays("look at http://localhost:")) {
       throw std::runtime_error(service_.ErrorsSoFar());
     }

@@ -27,10 +27,12 @@ const std::string& NameOf(const sim::Simulation& simulation, std::size_t robot) 
 NetworkRobot::NetworkRobot(const dds::Participant& participant,
                            sim::Simulation& simulation,
                            std::size_t robot,
-                           NetworkPace pace)
+                           NetworkPace pace,
+                           bool is_watched)
     : simulation_(simulation),
       robot_(robot),
       pace_(pace),
+      is_watched_(is_watched),
       has_begun_(simulation.robots().size() == 1),
       reports_(participant, {NameOf(simulation, robot)}),
       commands_(participant, dds::RobotNames(NameOf(simulation, robot))),
@@ -77,8 +79,9 @@ bool NetworkRobot::HasBegun(const sim::Reading& reading) {
     has_begun_ = true;
     return false;
   }
-  if (publisher_.has_listener()) ++scans_held_back_;
-  has_begun_ = scans_held_back_ > kMaxScansHeldBack;
+  // A service listens to odometry, too; a page does not.
+  if (!publisher_.has_listener()) return is_watched_;
+  has_begun_ = ++scans_held_back_ > kMaxScansHeldBack;
   return has_begun_;
 }
 

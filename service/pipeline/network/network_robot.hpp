@@ -24,10 +24,12 @@ class NetworkRobot final : public ReadingSink {
  public:
   /// Publishes one robot.
   /// @param robot index in the simulation, which outlives this, as does the participant.
+  /// @param is_watched whether scans are of use where no service listens: for a page.
   NetworkRobot(const dds::Participant& participant,
                sim::Simulation& simulation,
                std::size_t robot,
-               NetworkPace pace);
+               NetworkPace pace,
+               bool is_watched = false);
 
   /// Waits until somebody listens. @returns false where nobody listens in time.
   bool WaitForListener(std::chrono::nanoseconds timeout);
@@ -45,6 +47,7 @@ class NetworkRobot final : public ReadingSink {
   sim::Simulation& simulation_;
   std::size_t robot_;
   NetworkPace pace_;
+  bool is_watched_;
   bool has_begun_;
   int scans_held_back_ = 0;
   dds::MatchReportReader reports_;

@@ -19,6 +19,9 @@ constexpr int kInterruptedExitCode = 130;
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
+// Set before the handler is.
+std::string_view answer_to_person;
+
 // Only what may be called inside a signal handler.
 void Say(std::string_view text) {
   for (const std::string_view part :
@@ -34,13 +37,14 @@ extern "C" void HandleSignal(int number) {
   }
   // Ctrl-C comes from a person; SIGTERM from a program, which may read what else is said as JSON.
   if (number == SIGTERM) return;
-  Say("interrupted: finishing this scan and writing the results; again to quit at once\n");
+  Say(answer_to_person);
 }
 
 }  // namespace
 
-Interruption::Interruption() {
+Interruption::Interruption(std::string_view answer) {
   interrupted = false;
+  answer_to_person = answer;
   struct sigaction action {};
   action.sa_handler = HandleSignal;
   action.sa_flags = SA_RESTART;  // What is being written is written whole.

@@ -4,6 +4,8 @@
 
 #include <signal.h>
 
+#include <string_view>
+
 namespace qwsm::pipeline {
 
 /// While an object of this class lives, the first Ctrl-C (SIGINT, or SIGTERM) is only noted, so
@@ -11,7 +13,11 @@ namespace qwsm::pipeline {
 /// 130.
 class Interruption {
  public:
-  Interruption();
+  static constexpr std::string_view kFinishing =
+      "interrupted: finishing this scan and writing the results; again to quit at once\n";
+
+  /// @param answer is said to whoever presses Ctrl-C; a literal.
+  explicit Interruption(std::string_view answer = kFinishing);
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
   ~Interruption();

@@ -35,6 +35,7 @@ const wants = (channel) => {
   if (!decodes(channel.schemaName) || unused.has(channel.topic)) return false;
   // Of clouds the model, not what each scan added to it.
   if (channel.schemaName === 'sensor_msgs/msg/PointCloud2') return channel.topic.endsWith('/cloud_map');
+  if (channel.schemaName === 'nav_msgs/msg/Odometry') return channel.topic.endsWith('/ground_truth') && model.needsTruth(channel.topic);
   if (channel.schemaName === 'qwsm_msgs/msg/RelevantScan') return state.layers.relevant || state.looksBack;
   return true;
 };
@@ -196,6 +197,7 @@ function frame() {
     panel.update(now_ms);
     timeLine.update();
     model.placeLateScans();
+    connection.want(wants);
     isDirty = true;  // Ages go on, also of those who say nothing.
     // Until somebody moves the map, all of it is shown as it grows.
     if (!hasFitted && model.robots.size > 0) { fit(); hasFitted = false; }

@@ -79,6 +79,13 @@ const readers = {
     const [angleMin, , angleIncrement, , , rangeMin, rangeMax] = Array.from({length: 7}, () => r.float32());
     return {...head, angleMin, angleIncrement, rangeMin, rangeMax, ranges: r.float32s()};
   },
+  'nav_msgs/msg/Odometry': (r) => {
+    const head = header(r);
+    r.string();  // The robot's frame.
+    const [x, y] = r.float64s(3);
+    const [, , qz, qw] = r.float64s(4);
+    return {...head, pose: {x, y, theta: yawOf(qz, qw)}};
+  },
   'tf2_msgs/msg/TFMessage': (r) => r.list(transform),
   'diagnostic_msgs/msg/DiagnosticArray': (r) => ({
     ...header(r),

@@ -10,7 +10,8 @@ export const kSilent_s = 3;  // A robot that stands is reported every 1.5 s.
 const kLateAnswer_ms = 300;
 const kChunkTiles = 8;  // Tiles of a chunk, along each side: few pictures, each redrawn rarely.
 
-export const Status = {first: 0, matched: 1, extended: 2, deadReckoned: 3};
+// What a match report says; and of a simulated robot that nobody answers, that it is where it is.
+export const Status = {first: 0, matched: 1, extended: 2, deadReckoned: 3, simulated: 4};
 
 // Okabe and Ito's colours, which the colour-blind tell apart; robots are numbered all the same.
 const kColors = ['#0072b2', '#e69f00', '#009e73', '#cc79a7', '#56b4e9', '#d55e00', '#f0e442', '#8c8c8c'];
@@ -216,6 +217,7 @@ export class Model {
     switch (channel.schemaName) {
       case 'qwsm_msgs/msg/RegistrationReport':
       case 'qwsm_msgs/msg/MatchReport': return this.#takeReport(message, times);
+      case 'nav_msgs/msg/Odometry': return this.#takeTruth(this.robot(robotName), message, times);
       case 'sensor_msgs/msg/LaserScan': return this.#takeScan(this.robot(robotName), message);
       case 'sensor_msgs/msg/PointCloud2':
         this.clouds.set(channel.topic, message.points);
@@ -231,6 +233,7 @@ export class Model {
 
   #takeReport(report, times) {
     const robot = this.robot(report.robot);
+    if (robot.last?.status === Status.simulated) robot.beginAnew();  // The simulator's frame is another one.
     const before = robot.last?.status;
     this.reported_ms = Date.now();
     robot.takeReport(report, times);
@@ -240,6 +243,20 @@ export class Model {
       this.tell(`${report.robot || 'robot'} ${isLost ? `dead reckons: ${report.reason}` : 'is matched again'}`, report.stamp);
     }
     if (report.loops?.length > 0) this.tell(`${report.robot || 'robot'} closed a loop`, report.stamp);
+    this.#placeScan(robot);
+  }
+
+  // Whether nothing but a simulator tells where a robot is.
+  needsTruth(topic) {
+    const last = this.robots.get(topic.split('/').slice(1, -1).join('/'))?.last;
+    return !last || last.status === Status.simulated;
+  }
+
+  #takeTruth(robot, {stamp, pose}, times) {
+    if (robot.last && robot.last.status !== Status.simulated) return;
+    this.reported_ms = Date.now();
+    if (this.now === null || stamp > this.now) this.now = stamp;
+    robot.takeReport({stamp, pose, covariance: new Float64Array(9), status: Status.simulated, reason: 'as simulated', overlap: 1}, times);
     this.#placeScan(robot);
   }
 
@@ -344,11 +361,13 @@ export function condition(robot, now_ms) {
   if (robot.health === 'unplaced') return {level: 3, text: 'lost: searching for its place on the map', age_s};
   if (robot.health === 'lost') return {level: 2, text: age_s < Infinity ? `gone for ${ago(age_s)}; this is where it was last` : 'gone', age_s};
   if (!robot.last) return {level: robot.health === 'expected' ? 1 : 2, text: robot.health === 'expected' ? 'expected, not heard of yet' : 'no pose yet', age_s};
+  if (robot.health?.includes('at its end')) return {level: 0, text: robot.health, age_s};
   if (age_s > kSilent_s) return {level: 2, text: `silent for ${ago(age_s)}`, age_s};
   if (robot.last.status === Status.deadReckoned) {
     const since_s = robot.lastMatch === null ? 0 : robot.last.stamp - robot.lastMatch;
     return {level: since_s > 3 ? 2 : 1, text: `dead reckoning for ${ago(since_s)}`, age_s};
   }
+  if (robot.last.status === Status.simulated) return {level: 0, text: 'simulated; no service answers it', age_s};
   if (robot.health === 'answered by another service') return {level: 0, text: 'matched, by another service', age_s};
   return {level: 0, text: robot.last.status === Status.extended ? 'matched, exploring' : 'matched', age_s};
 }

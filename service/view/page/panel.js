@@ -3,7 +3,7 @@
 // The list of robots, the chosen one's figures, marks, and what the service tells.
 import {drawChart} from './chart.js';
 import {inkOn, kMarkKinds} from './map_view.js';
-import {condition} from './model.js';
+import {condition, Status} from './model.js';
 
 const kChart_s = 120;
 const kChartPoints = 240;
@@ -56,7 +56,7 @@ export class Panel {
     row.button.dataset.level = how.level;
     row.button.setAttribute('aria-pressed', String(this.state.selected === robot.name));
     setText(row.age, age(how.age_s));
-    const quality = robot.last && how.level === 0 ? ` · ±${metres(robot.sigma_m)} · ${Math.round(100 * robot.last.overlap)} % agree` : '';
+    const quality = robot.last && how.level === 0 && robot.last.status !== Status.simulated ? ` · ±${metres(robot.sigma_m)} · ${Math.round(100 * robot.last.overlap)} % agree` : '';
     setText(row.state, (how.level > 0 ? '▲ ' : '') + how.text + quality);
     const list = $('robots');
     if (list.children[place] !== row.item) list.insertBefore(row.item, list.children[place] ?? null);
