@@ -26,8 +26,8 @@ export class Programs {
     this.processes = [];
   }
 
-  start(args) {
-    const child = spawn(join(kPrograms, 'qwsm'), args, {stdio: ['ignore', 'pipe', 'pipe']});
+  start(args, program = join(kPrograms, 'qwsm')) {
+    const child = spawn(program, args, {stdio: ['ignore', 'pipe', 'pipe']});
     child.said = '';
     for (const stream of [child.stdout, child.stderr]) stream.on('data', (data) => { child.said += data; });
     child.ended = new Promise((resolve) => child.on('exit', resolve));
@@ -51,9 +51,18 @@ export class Programs {
     return kTick_ms * (Number(fields[11]) + Number(fields[12]));
   }
 
+  memory_kB(child) {
+    return Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${child.pid}/status`, 'utf8'))[1]);
+  }
+
   simulate(scenario, more = []) {
     return this.start(['sim', scenario, '--dds', '--quiet', '--output', join(this.folder, 'drive'), '--force',
       '--network', 'interface=lo', '--network', `tag=${this.tag}`, ...more]);
+  }
+
+  // Somebody who publishes a map of 100 x 100 m at 5 cm.
+  publishLargeMap() {
+    return this.start([this.tag], join(kPrograms, '..', 'tests', 'browser', 'large_map'));
   }
 
   async stop() {

@@ -16,6 +16,9 @@ namespace {
 // What is not ours could be without bound: who publishes more topics is no team but an attack.
 constexpr std::size_t kMostTopics = 2048;
 constexpr int kNicenessOfGateway = 5;
+// Samples are looked for so often, and wake nobody when they come: the moment a scan arrives belongs
+// to whoever matches it.
+constexpr std::chrono::milliseconds kLookPeriod{20};
 
 }  // namespace
 
@@ -54,7 +57,7 @@ void TopicGateway::Run(const std::stop_token& stop) {
   // Who looks on gives way to who matches; on Linux the niceness is a thread's own.
   setpriority(PRIO_PROCESS, 0, kNicenessOfGateway);
   while (!stop.stop_requested()) {
-    wait_set_.Wait(std::chrono::seconds(1));
+    wait_set_.Wait(readers_.empty() ? std::chrono::seconds(1) : kLookPeriod);
     DoTasks();
     NoteTopics();
     PassOnSamples();
@@ -117,10 +120,7 @@ bool TopicGateway::Forget(const Guid& writer) {
   if (topic == topics_.end()) return false;
   topic->second.writers.erase(writer);
   if (!topic->second.writers.empty()) return false;
-  if (const auto reader = readers_.find(topic->first); reader != readers_.end()) {
-    wait_set_.Remove(reader->second.handle());
-    readers_.erase(reader);
-  }
+  readers_.erase(topic->first);
   topics_.erase(topic);
   return true;
 }
@@ -129,9 +129,8 @@ void TopicGateway::Listen(const std::string& topic) {
   const auto found = topics_.find(topic);
   if (found == topics_.end() || readers_.contains(topic)) return;
   const auto& [told, type, writers] = found->second;
-  const auto reader = readers_.try_emplace(
+  readers_.try_emplace(
       topic, participant_, *type->descriptor, topic, type->ReaderProfile(told.is_latched));
-  wait_set_.Add(reader.first->second.handle());
   graph_.Announce();
 }
 

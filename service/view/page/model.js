@@ -140,7 +140,7 @@ class Chunk {
 
 class GridMap {
   constructor() { this.clear(); }
-  clear() { this.chunks = new Map(); this.generation = null; }
+  clear() { this.chunks = new Map(); this.tiles = new Set(); this.generation = null; }
   take(tile) {
     if (this.generation !== null && tile.generation < this.generation) return;
     if (tile.generation !== this.generation) this.clear();
@@ -149,6 +149,7 @@ class GridMap {
     const column = Math.round(tile.x / side_m), row = Math.round(tile.y / side_m);
     const chunkColumn = Math.floor(column / kChunkTiles), chunkRow = Math.floor(row / kChunkTiles);
     const key = `${chunkColumn},${chunkRow}`;
+    this.tiles.add(`${column},${row}`);
     let chunk = this.chunks.get(key);
     if (!chunk) {
       chunk = new Chunk(kChunkTiles * tile.width);
