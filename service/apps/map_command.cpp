@@ -145,7 +145,13 @@ ExitCode MapAll(const MapArguments& arguments,
   if (live) sinks.push_back(live.get());
   if (arguments.bag) sinks.push_back(&answers);
   const auto answer = [&](const Observation& observation) {
-    return correcting ? correcting->Process(observation) : incremental.Process(observation);
+    if (!correcting) return incremental.Process(observation);
+    const std::size_t epochs = correcting->epochs().size();
+    MappingStep step = correcting->Process(observation);
+    if (live && correcting->epochs().size() > epochs) {
+      live->Correct(correcting->epochs().back(), correcting->mapper().map());
+    }
+    return step;
   };
   const pipeline::ReplayResult end = session.Run("map", source, answer, sinks);
   results.SetTitle(session.Title("map", end));
@@ -167,6 +173,7 @@ ExitCode MapAll(const MapArguments& arguments,
       session.folder().path(),
       marks.Placed(corrected ? corrected->correction.map_robot : std::vector<UncertainPose2>()));
   if (arguments.save_map) io::SaveMap(*arguments.save_map, map);
+  if (live && corrected) live->Correct({.map_node = corrected->correction.map_node}, map);
   if (live) live->Finish(map, corrected ? "the log is at its end, the map corrected" : kAtEnd);
   session.Summarize(results, map);
   if (live && end.end == pipeline::ReplayEnd::kExhausted) {

@@ -12,6 +12,7 @@
 #include "service/dds/service/service_outbox.hpp"
 #include "service/dds/service/team_inbox.hpp"
 #include "service/dds/service/team_map_outbox.hpp"
+#include "service/dds/service/team_mark_places.hpp"
 #include "service/options/program_options.hpp"
 #include "service/pipeline/results/marks_list.hpp"
 #include "service/pipeline/team/team_log.hpp"
@@ -34,6 +35,8 @@ class TeamServer {
         graph_(participant_, options.network),
         outbox_(participant_, graph_, refusals_),
         map_outbox_(participant_, graph_),
+        marks_(participant_, refusals_, JournalForMarks(arguments)),
+        mark_places_(marks_),
         results_(folder ? std::make_unique<pipeline::TeamResults>(*folder, options.rendering)
                         : nullptr),
         service_({.team = options.team,
@@ -43,7 +46,6 @@ class TeamServer {
                  Sinks(),
                  arguments.journal),
         inbox_(participant_, arguments.robots, service_, {&outbox_}, refusals_),
-        marks_(participant_, refusals_, JournalForMarks(arguments)),
         view_(ShowLive(
             arguments, options.view, {participant_, graph_, service_.identity(), marks_})) {
     marks_.Start();
@@ -58,7 +60,7 @@ class TeamServer {
  private:
   // Files before topics: who hears of an answer finds it on disk.
   std::vector<team::TeamSink*> Sinks() {
-    std::vector<team::TeamSink*> sinks{&log_, &outbox_, &map_outbox_};
+    std::vector<team::TeamSink*> sinks{&log_, &outbox_, &map_outbox_, &mark_places_};
     if (results_) sinks.insert(sinks.begin(), results_.get());
     return sinks;
   }
@@ -70,10 +72,11 @@ class TeamServer {
   pipeline::TeamLog<team::TeamSink> log_;
   dds::ServiceOutbox<team::TeamSink> outbox_;
   dds::TeamMapOutbox map_outbox_;
+  dds::MarkExchange marks_;
+  dds::TeamMarkPlaces mark_places_;
   std::unique_ptr<pipeline::TeamResults> results_;
   team::TeamService service_;
   dds::TeamInbox inbox_;
-  dds::MarkExchange marks_;
   std::unique_ptr<view::LiveView> view_;  // Null where nobody wants to look.
 };
 

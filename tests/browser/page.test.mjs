@@ -125,6 +125,25 @@ test('what is seen is drawn at once', async (t) => {
   assert.ok(latencies.length > 30 && frames > 9);
 });
 
+test('a correction of the map takes along what lies on it, and is shown before and after', async () => {
+  const {before, after, text} = await inPage(() => {
+    const {model} = window.qwsm;
+    const robot = model.robots.get('robot_2');
+    const {x, y} = robot.trail[0];
+    const moved = {origin: 'test', robot: 'robot_2', number: 1, before: {x, y, theta: 0}, pose: {x: x + 2, y, theta: 0}};
+    const last = model.epochs.get('');
+    model.take({topic: '/map_epoch', schemaName: 'qwsm_msgs/msg/MapEpoch'},
+      {stamp: model.now, origin: 'test', mapOf: '', number: (last?.number ?? 0) + 1, robots: [], scans: [moved]}, {published_ms: Infinity, told_ms: Date.now()});
+    return {before: x, after: robot.trail[0].x, text: model.events[0].text};
+  });
+  assert.ok(Math.abs(after - before - 2) < 1e-9);
+  assert.equal(text, 'the map was corrected: 1 of 1 scans moved, by 2.0 m at most');
+  await page.locator('.events button').first().click();
+  assert.ok(await inPage(() => window.qwsm.state.shownEvent?.moves.length === 1));
+  await page.locator('.events button').first().click();
+  assert.equal(await inPage(() => window.qwsm.state.shownEvent), null);
+});
+
 test('whoever comes late sees the whole map within a second', async (t) => {
   const kTiles = 32 * 32;
   const publisher = programs.publishLargeMap();

@@ -15,6 +15,8 @@
 
 #include "service/dds/entities/writer.hpp"
 #include "service/dds/service/mark_exchange.hpp"
+#include "service/dds/wire/robot_names.hpp"
+#include "service/dds/wire/scan_conversion.hpp"
 #include "tests/support/drawn_map.hpp"
 #include "tests/support/robot_in_room.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -145,9 +147,7 @@ TEST_F(View, ShowsALogThatIsMapped) {
   const TemporaryFolder folder;
   ViewedService mapping({"map",
                          "--sim",
-                         "office",
-                         "--duration",
-                         "900",
+                         "campus",
                          "--view",
                          "--verbose",
                          "--set",
@@ -269,6 +269,29 @@ TEST_F(View, AMarkMovesWithTheScanItStandsOn) {
   };
   for (int i = 0; i < 200 && heard_x() != 2.5; ++i) usleep(20'000);
   EXPECT_EQ(heard_x(), 2.5);
+
+  // A correction of the map names the scan as the services tell it.
+  const dds::Writer<dds::wire::RelevantScan> scans(
+      participant, dds::kSharedScansTopic, dds::Profile::kSharedScans);
+  const team::ScanKey key{.service = "base", .robot = "robot1", .sequence = 3};
+  const std::string frame = "map";
+  const auto tell_scan = [&](const Pose2& T_map_robot) {
+    scans.Write(
+        dds::ToWire(team::TeamScan{.key = key,
+                                   .scan = {.stamp = 5s, .geometry = {}, .ranges_m = {1.0F}},
+                                   .map_robot = {.T_a_b = T_map_robot},
+                                   .T_odom_robot = {}},
+                    frame));
+  };
+  tell_scan({1.75, 1.0, 0.0});
+  for (int i = 0; i < 200 && heard_x() != 2.75; ++i) usleep(20'000);
+  EXPECT_EQ(heard_x(), 2.75);
+  team::TeamEpoch epoch;
+  epoch.scans.push_back(
+      {.key = key, .T_map_robot_before = {}, .map_robot = {.T_a_b = {2.0, 1.0, 0.0}}});
+  first->Follow(epoch);
+  for (int i = 0; i < 200 && heard_x() != 3.0; ++i) usleep(20'000);
+  EXPECT_EQ(heard_x(), 3.0);
   EXPECT_THROW(first->Tell({.id = "m2", .kind = "nonsense"}), dds::MarkError);
   // Whoever comes when its maker is gone hears it of the other.
   first.reset();

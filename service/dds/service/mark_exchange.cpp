@@ -98,16 +98,37 @@ void MarkExchange::HearMarks() {
   TellAndKeep(news);
 }
 
+// What is told of a scan may be older than the last correction.
 void MarkExchange::HearScans() {
   std::vector<team::ScanPlace> places;
+  const std::lock_guard lock(mutex_);
   scans_.TakeAll([&](const wire::RelevantScan& sample) {
     // Refused samples are told by whoever makes a map of them.
     if (!ObjectionTo(sample).empty()) return;
-    places.push_back({.robot = sample.robot,
-                      .stamp = *FromWire(sample.header.stamp),
-                      .T_map_robot = FromWire(sample.pose)});
+    const Timestamp stamp = *FromWire(sample.header.stamp);
+    const team::ScanKey key{
+        .service = sample.origin, .robot = sample.robot, .sequence = sample.sequence_number};
+    stamps_[key] = stamp;
+    const auto corrected = corrected_.find(key);
+    places.push_back(
+        {.robot = key.robot,
+         .stamp = stamp,
+         .T_map_robot = corrected == corrected_.end() ? FromWire(sample.pose) : corrected->second});
   });
-  if (!places.empty()) Place(places);
+  TellAndKeep(book_.Place(places));
+}
+
+void MarkExchange::Follow(const team::TeamEpoch& epoch) {
+  std::vector<team::ScanPlace> places;
+  const std::lock_guard lock(mutex_);
+  for (const team::MovedScan& scan : epoch.scans) {
+    corrected_[scan.key] = scan.map_robot.T_a_b;
+    const auto stamp = stamps_.find(scan.key);
+    if (stamp == stamps_.end()) continue;
+    places.push_back(
+        {.robot = scan.key.robot, .stamp = stamp->second, .T_map_robot = scan.map_robot.T_a_b});
+  }
+  TellAndKeep(book_.Place(places));
 }
 
 void MarkExchange::Keep() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <mutex>
 #include <span>
 #include <stdexcept>
@@ -16,6 +17,7 @@
 #include "service/dds/wire/refusals.hpp"
 #include "service/team/marks/mark_book.hpp"
 #include "service/team/marks/mark_journal.hpp"
+#include "service/team/scans/team_epoch.hpp"
 
 namespace qwsm::dds {
 
@@ -49,6 +51,8 @@ class MarkExchange {
   void Tell(team::Mark mark);
   /// Learns where scans are, and moves the marks on them. See team::MarkBook::Place().
   void Place(std::span<const team::ScanPlace> places);
+  /// Moves the marks with the scans of a correction of the map.
+  void Follow(const team::TeamEpoch& epoch);
   std::vector<team::Mark> marks() const;
 
  private:
@@ -68,6 +72,8 @@ class MarkExchange {
 
   mutable std::mutex mutex_;  // Guards what follows.
   team::MarkBook book_;
+  std::map<team::ScanKey, Timestamp> stamps_;  // Of all scans that were heard of.
+  std::map<team::ScanKey, Pose2> corrected_;   // Poses of scans by the last correction.
   std::vector<team::Mark> unkept_;
   std::size_t told_ = 0;  // Since all were told.
 

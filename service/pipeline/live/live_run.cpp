@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -63,6 +64,10 @@ class LiveRun::Topics {
   void Show(const Observation& observation) { robot_.Publish(observation); }
   void Show(const team::TeamScan& scan) { maps_.TakeRelevantScan(scan); }
   void Show(const team::MapPicture& map) { maps_.TakeMap(map); }
+  void Show(const team::TeamEpoch& epoch) {
+    maps_.TakeEpoch(epoch);
+    marks_.Follow(epoch);
+  }
   void Show(const std::vector<dds::Health>& health) const {
     health_.Write(
         dds::HealthSample(health, std::chrono::system_clock::now().time_since_epoch()).sample());
@@ -106,7 +111,7 @@ void LiveRun::Take(const TimedStep& timed) {
   ShowHealth();
   if (!has_new_cells_) return;
   has_new_cells_ = false;
-  ShowMap(painter_);
+  ShowMap();
 }
 
 void LiveRun::ShowAnswer(const TimedStep& timed, Clock::time_point now) {
@@ -123,18 +128,37 @@ void LiveRun::ShowAnswer(const TimedStep& timed, Clock::time_point now) {
 
 void LiveRun::ShowRelevant(const TimedStep& timed) {
   const MappingStep& step = timed.step;
-  topics_->Show(
-      team::TeamScan{.key = {.service = name_, .robot = kOnlyRobot, .sequence = relevant_},
-                     .scan = step.relevant_scan,
-                     .map_robot = step.map_robot,
-                     .T_odom_robot = timed.T_odom_robot});
+  topics_->Show(team::TeamScan{.key = KeyOf(relevant_.size()),
+                               .scan = step.relevant_scan,
+                               .map_robot = step.map_robot,
+                               .T_odom_robot = timed.T_odom_robot});
   painter_.Add({.scan = step.relevant_scan, .map_robot = step.map_robot});
-  ++relevant_;
+  relevant_.push_back(step.map_robot.T_a_b);
   has_new_cells_ = true;
 }
 
-void LiveRun::ShowMap(const OccupancyPainter& painter) const {
-  const OccupancyGridResult drawn = painter.Grid();
+team::ScanKey LiveRun::KeyOf(std::uint64_t relevant) const {
+  return {.service = name_, .robot = kOnlyRobot, .sequence = relevant};
+}
+
+void LiveRun::Correct(const MapEpoch& epoch, const ScanMap& map) {
+  team::TeamEpoch told{.rank = {.number = ++epochs_, .service = name_},
+                       .robot = {},
+                       .stamp = epoch.stamp,
+                       .scans = {}};
+  for (std::size_t i = 0; i < std::min(relevant_.size(), epoch.map_node.size()); ++i) {
+    told.scans.push_back(
+        {.key = KeyOf(i), .T_map_robot_before = relevant_[i], .map_robot = epoch.map_node[i]});
+    relevant_[i] = epoch.map_node[i].T_a_b;
+  }
+  topics_->Show(told);
+  painter_ = OccupancyPainter(rendering_);
+  for (const RelevantScan& scan : map.scans()) painter_.Add(scan);
+  has_new_cells_ = true;
+}
+
+void LiveRun::ShowMap() const {
+  const OccupancyGridResult drawn = painter_.Grid();
   if (drawn.status != RenderStatus::kRendered) return;
   topics_->Show(team::MapPicture{.robot = kOnlyRobot, .stamp = newest_, .grid = drawn.grid});
 }
@@ -149,9 +173,9 @@ void LiveRun::ShowHealth() const {
 
 void LiveRun::Finish(const ScanMap& map, const std::string& end) {
   state_ = end;
-  OccupancyPainter painter(rendering_);
-  for (const RelevantScan& scan : map.scans()) painter.Add(scan);
-  ShowMap(painter);
+  painter_ = OccupancyPainter(rendering_);
+  for (const RelevantScan& scan : map.scans()) painter_.Add(scan);
+  ShowMap();
   ShowHealth();
 }
 

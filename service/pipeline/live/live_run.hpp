@@ -6,12 +6,15 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "qwsm/correction/self_correcting_mapper.hpp"
 #include "qwsm/mapping/occupancy_painter.hpp"
 #include "qwsm/mapping/scan_map.hpp"
 #include "service/options/program_options.hpp"
 #include "service/pipeline/run/interruption.hpp"
 #include "service/pipeline/run/step_sink.hpp"
+#include "service/team/scans/scan_key.hpp"
 
 namespace qwsm::pipeline {
 
@@ -28,6 +31,8 @@ class LiveRun final : public StepSink {
   std::string url() const;
 
   void Take(const TimedStep& timed) override;
+  /// Shows a correction of the map. @param map with what was corrected.
+  void Correct(const MapEpoch& epoch, const ScanMap& map);
   /// Shows that the run is over. @param map with all that was corrected in the end.
   /// @param end in words.
   void Finish(const ScanMap& map, const std::string& end);
@@ -38,9 +43,10 @@ class LiveRun final : public StepSink {
   using Clock = std::chrono::steady_clock;
   class Topics;
 
+  team::ScanKey KeyOf(std::uint64_t relevant) const;
   void ShowAnswer(const TimedStep& timed, Clock::time_point now);
   void ShowRelevant(const TimedStep& timed);
-  void ShowMap(const OccupancyPainter& painter) const;
+  void ShowMap() const;
   void ShowHealth() const;
 
   std::string name_;
@@ -50,7 +56,8 @@ class LiveRun final : public StepSink {
   bool has_new_cells_ = false;
   std::string state_ = "mapping";
   std::uint64_t scans_ = 0;
-  std::uint64_t relevant_ = 0;
+  std::uint64_t epochs_ = 0;
+  std::vector<Pose2> relevant_;  // T_map_robot of relevant scans, as they were told last.
   Timestamp newest_{};
   StepStatus status_ = StepStatus::kFirst;
   Clock::time_point answer_shown_{};

@@ -14,14 +14,14 @@ const kMoving_ms = 200;
 const kPoseSchema = 'geometry_msgs/msg/PoseWithCovarianceStamped';
 const kMarkSchema = 'qwsm_msgs/msg/Mark';
 const kMarkTopic = '/qwsm/marks';
-const kLayers = {occupancy: 'Map', scans: 'Scans of now', trails: 'Trails', uncertainty: 'Uncertainty', relevant: 'Relevant scans', marks: 'Marks', grid: 'Grid'};
+const kLayers = {occupancy: 'Map', scans: 'Scans of now', trails: 'Trails', loops: 'Loops', uncertainty: 'Uncertainty', relevant: 'Relevant scans', marks: 'Marks', grid: 'Grid'};
 const $ = (id) => document.getElementById(id);
 
 const prefersDark = matchMedia('(prefers-color-scheme: dark)').matches;
 const state = {
-  tool: 'look', selected: null, followed: null, shownStamp: null, looksBack: false,
+  tool: 'look', selected: null, shownEvent: null, followed: null, shownStamp: null, looksBack: false,
   theme: localStorage.getItem('theme') ?? (prefersDark ? 'dark' : 'light'),
-  layers: {occupancy: true, scans: true, trails: true, uncertainty: true, relevant: false, marks: true, grid: true},
+  layers: {occupancy: true, scans: true, trails: true, loops: true, uncertainty: true, relevant: false, marks: true, grid: true},
 };
 const model = new Model();
 const view = new MapView($('map'), model, state);
@@ -80,6 +80,16 @@ function fit() {
   changed();
 }
 
+// Models in space are looked at from above or from a side.
+const kSides = ['above', 'south', 'east', 'north', 'west'];
+function lookFrom(side) {
+  if (view.camera.from === side) return;
+  view.camera.look(side);
+  $('side').querySelector('span').textContent = side[0].toUpperCase() + side.slice(1);
+  fit();
+}
+const nextSide = () => { if (model.clouds.size > 0) lookFrom(kSides[(kSides.indexOf(view.camera.from) + 1) % kSides.length]); };
+
 const topicOf = (robot, part) => robot ? `/${robot}/${part}` : `/${part}`;
 
 const actions = {
@@ -91,7 +101,8 @@ const actions = {
   },
   centre: (name) => {
     const {last} = model.robots.get(name);
-    Object.assign(view.camera, {x: last.x, y: last.y, scale: Math.max(view.camera.scale, 50)});
+    const [x, y] = view.camera.project(last.x, last.y, last.z ?? 0);
+    Object.assign(view.camera, {x, y, scale: Math.max(view.camera.scale, 50)});
     hasFitted = true;
     changed();
   },
@@ -109,9 +120,16 @@ const actions = {
   editMark: (id) => editMark(model.marks.get(id), false),
   showMark: (id) => {
     const {x, y} = model.marks.get(id);
+    lookFrom('above');
     Object.assign(view.camera, {x, y, scale: Math.max(view.camera.scale, 50)});
     changed();
   },
+  showEvent: (event) => {
+    state.shownEvent = state.shownEvent === event ? null : event;
+    panel.update(Date.now());
+    changed();
+  },
+  lookFrom,
   lookBack: () => {
     state.looksBack = true;
     connection.want(wants);
@@ -171,8 +189,9 @@ for (const [layer, word] of Object.entries(kLayers)) {
 $('fit').onclick = fit;
 $('theme').onclick = otherTheme;
 $('layers-button').onclick = toggleLayers;
+$('side').onclick = nextSide;
 
-const keys = {v: () => tools.choose('look'), m: () => tools.choose('measure'), p: () => tools.choose('start'), 1: () => tools.choose('victim'), 2: () => tools.choose('hazard'), 3: () => tools.choose('note'), f: fit, l: toggleLayers, t: otherTheme, End: () => timeLine.live(), Escape: () => tools.choose('look')};
+const keys = {v: () => tools.choose('look'), m: () => tools.choose('measure'), p: () => tools.choose('start'), 1: () => tools.choose('victim'), 2: () => tools.choose('hazard'), 3: () => tools.choose('note'), f: fit, l: toggleLayers, s: nextSide, t: otherTheme, End: () => timeLine.live(), Escape: () => tools.choose('look')};
 addEventListener('keydown', (event) => {
   const isTyping = event.target.matches('input, dialog *') || event.ctrlKey || event.metaKey || event.altKey;
   if (!isTyping) keys[event.key]?.();
@@ -197,6 +216,7 @@ function frame() {
     panel.update(now_ms);
     timeLine.update();
     model.placeLateScans();
+    $('side').hidden = model.clouds.size === 0;
     connection.want(wants);
     isDirty = true;  // Ages go on, also of those who say nothing.
     // Until somebody moves the map, all of it is shown as it grows.
@@ -206,7 +226,10 @@ function frame() {
   if (!isDirty && now_ms - model.reported_ms > kMoving_ms) return;
   isDirty = false;
   const followed = model.robots.get(state.followed)?.last;
-  if (followed) Object.assign(view.camera, {x: followed.x, y: followed.y});
+  if (followed) {
+    const [x, y] = view.camera.project(followed.x, followed.y, followed.z ?? 0);
+    Object.assign(view.camera, {x, y});
+  }
   view.draw(now_ms);
   drawScale();
 }

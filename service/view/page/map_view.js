@@ -11,8 +11,8 @@ const kBackgroundPeriod_ms = 400;
 const kGlide_ms = 60;  // In which a robot's picture comes to where the robot is.
 
 export const kThemes = {
-  light: {ground: '#dfe5ec', unknownDot: '#b9c4d0', palette: [[0, 0, 0, 0], [255, 255, 255, 255], [0, 40, 120, 255]], ink: '#16202c', paper: '#ffffff', point: '#00284f'},
-  dark: {ground: '#10151c', unknownDot: '#2a3541', palette: [[0, 0, 0, 0], [36, 46, 58, 255], [196, 222, 247, 255]], ink: '#eef4fa', paper: '#10151c', point: '#cfe6ff'},
+  light: {ground: '#dfe5ec', unknownDot: '#b9c4d0', palette: [[0, 0, 0, 0], [255, 255, 255, 255], [0, 40, 120, 255]], ink: '#16202c', paper: '#ffffff', point: '#00284f', moved: '#a3195b'},
+  dark: {ground: '#10151c', unknownDot: '#2a3541', palette: [[0, 0, 0, 0], [36, 46, 58, 255], [196, 222, 247, 255]], ink: '#eef4fa', paper: '#10151c', point: '#cfe6ff', moved: '#ff9ecb'},
 };
 
 export const kMarkKinds = {
@@ -44,13 +44,14 @@ function heightRange(points) {
   return {low, high: Math.max(high, low + 0.1)};
 }
 
-function boxOf(points) {
+function boxOf(points, camera) {
   const box = {left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity};
   for (let i = 0; i < points.length; i += 3) {
-    box.left = Math.min(box.left, points[i]);
-    box.right = Math.max(box.right, points[i]);
-    box.bottom = Math.min(box.bottom, points[i + 1]);
-    box.top = Math.max(box.top, points[i + 1]);
+    const [right, up] = camera.project(points[i], points[i + 1], points[i + 2]);
+    box.left = Math.min(box.left, right);
+    box.right = Math.max(box.right, right);
+    box.bottom = Math.min(box.bottom, up);
+    box.top = Math.max(box.top, up);
   }
   return box;
 }
@@ -71,8 +72,19 @@ function glide(robot, pose, now_ms) {
 }
 
 export class Camera {
-  constructor() { this.x = 0; this.y = 0; this.scale = 40; this.width = 1; this.height = 1; }
-  toScreen(x, y) { return [this.width / 2 + (x - this.x) * this.scale, this.height / 2 - (y - this.y) * this.scale]; }
+  constructor() { this.x = 0; this.y = 0; this.scale = 40; this.width = 1; this.height = 1; this.look('above'); }
+  // From above, or from a side: then what is up on the screen is up.
+  look(from) {
+    this.from = from;
+    [this.rightX, this.rightY] = {above: [1, 0], south: [1, 0], east: [0, 1], north: [-1, 0], west: [0, -1]}[from];
+  }
+  // Right and up on the plane that is looked at, m.
+  project(x, y, z) { return this.from === 'above' ? [x, y] : [this.rightX * x + this.rightY * y, z]; }
+  toScreen(x, y, z = 0) {
+    const [right, up] = this.project(x, y, z);
+    return this.planeToScreen(right, up);
+  }
+  planeToScreen(x, y) { return [this.width / 2 + (x - this.x) * this.scale, this.height / 2 - (y - this.y) * this.scale]; }
   toMap(px, py) { return [this.x + (px - this.width / 2) / this.scale, this.y - (py - this.height / 2) / this.scale]; }
   zoom(factor, px = this.width / 2, py = this.height / 2) {
     const [x, y] = this.toMap(px, py);
@@ -88,7 +100,7 @@ export class Camera {
     this.x = (left + right) / 2 + (margins.right - margins.left) / 2 / this.scale;
     this.y = (bottom + top) / 2 - (margins.bottom - margins.top) / 2 / this.scale;
   }
-  get key() { return `${this.x},${this.y},${this.scale},${this.width},${this.height}`; }
+  get key() { return `${this.from},${this.x},${this.y},${this.scale},${this.width},${this.height}`; }
 }
 
 export class MapView {
@@ -119,8 +131,13 @@ export class MapView {
 
   bounds() {
     const boxes = [...this.model.maps.values()].map((map) => map.bounds).filter(Boolean);
-    for (const points of this.model.clouds.values()) boxes.push(boxOf(points));
-    for (const {last} of this.model.robots.values()) if (last) boxes.push({left: last.x - 3, right: last.x + 3, bottom: last.y - 3, top: last.y + 3});
+    if (this.camera.from !== 'above') boxes.length = 0;
+    for (const points of this.model.clouds.values()) boxes.push(boxOf(points, this.camera));
+    for (const {last} of this.model.robots.values()) {
+      if (!last) continue;
+      const [right, up] = this.camera.project(last.x, last.y, last.z ?? 0);
+      boxes.push({left: right - 3, right: right + 3, bottom: up - 3, top: up + 3});
+    }
     if (boxes.length === 0) return null;
     return {left: Math.min(...boxes.map((b) => b.left)), right: Math.max(...boxes.map((b) => b.right)), bottom: Math.min(...boxes.map((b) => b.bottom)), top: Math.max(...boxes.map((b) => b.top))};
   }
@@ -133,7 +150,7 @@ export class MapView {
     c.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     const isLive = this.state.shownStamp === null;
     const robots = [...this.model.robots.values()];
-    if (isLive && this.state.layers.scans) for (const robot of robots) this.#drawScan(c, robot, now_ms);
+    if (isLive && this.state.layers.scans && this.camera.from === 'above') for (const robot of robots) this.#drawScan(c, robot, now_ms);
     if (this.state.layers.marks) this.#drawMarks(c);
     for (const robot of robots) {
       const pose = isLive ? robot.last : robot.poseAt(this.state.shownStamp);
@@ -157,7 +174,7 @@ export class MapView {
 
   #drawBehind(now_ms) {
     const {layers, shownStamp} = this.state;
-    const view = [this.camera.key, this.state.theme, JSON.stringify(layers), shownStamp].join();
+    const view = [this.camera.key, this.state.theme, JSON.stringify(layers), shownStamp, this.state.shownEvent?.at_ms].join();
     const content = [this.model.mapVersion, [...this.model.robots.values()].map((r) => r.trail.length)].join();
     const isDue = content !== this.contentKey && now_ms - this.behindAt > kBackgroundPeriod_ms;
     if (view === this.backgroundKey && !isDue) return;
@@ -168,11 +185,14 @@ export class MapView {
     c.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     c.fillStyle = this.theme.ground;
     c.fillRect(0, 0, this.camera.width, this.camera.height);
-    if (shownStamp === null && layers.occupancy) this.#drawMaps(c);
+    const isFromAbove = this.camera.from === 'above';
+    if (isFromAbove && shownStamp === null && layers.occupancy) this.#drawMaps(c);
     if (layers.occupancy) for (const points of this.model.clouds.values()) this.#drawCloud(c, points);
     if (layers.grid) this.#drawGrid(c);
-    if (shownStamp !== null || layers.relevant) this.#drawRelevant(c);
+    if (isFromAbove && (shownStamp !== null || layers.relevant)) this.#drawRelevant(c);
     if (layers.trails) for (const robot of this.model.robots.values()) this.#drawTrail(c, robot);
+    if (layers.loops) for (const {loops} of this.model.robots.values()) this.#drawLoops(c, loops);
+    if (this.state.shownEvent?.moves) this.#drawMoves(c, this.state.shownEvent.moves);
   }
 
   #drawMaps(c) {
@@ -187,15 +207,18 @@ export class MapView {
     }
   }
 
-  // A cloud from above, coloured by height: dark blue is low, yellow is high.
+  // A cloud, coloured by height: dark blue is low, yellow is high. From above the highest point is seen,
+  // from a side any: walls are thin.
   #drawCloud(c, points) {
-    const {x, y, scale, width, height} = this.camera;
+    const {x, y, scale, width, height, from, rightX, rightY} = this.camera;
+    const isFromAbove = from === 'above';
     const image = new ImageData(Math.max(1, Math.round(width)), Math.max(1, Math.round(height)));
     const pixels = new Uint32Array(image.data.buffer);
     const heights = new Float32Array(pixels.length).fill(-Infinity);
     const range = heightRange(points);
     for (let i = 0; i < points.length; i += 3) {
-      const px = Math.round(width / 2 + (points[i] - x) * scale), py = Math.round(height / 2 - (points[i + 1] - y) * scale);
+      const right = isFromAbove ? points[i] : rightX * points[i] + rightY * points[i + 1], up = isFromAbove ? points[i + 1] : points[i + 2];
+      const px = Math.round(width / 2 + (right - x) * scale), py = Math.round(height / 2 - (up - y) * scale);
       if (px < 0 || py < 0 || px >= image.width || py >= image.height) continue;
       const at = py * image.width + px;
       if (points[i + 2] <= heights[at]) continue;
@@ -209,13 +232,44 @@ export class MapView {
     c.drawImage(layer, 0, 0, width, height);
   }
 
+  #drawLoops(c, loops) {
+    c.strokeStyle = this.theme.moved;
+    c.lineWidth = 1.5;
+    for (const [from, to] of loops) {
+      if (to.stamp > (this.state.shownStamp ?? Infinity)) continue;
+      c.beginPath();
+      c.moveTo(...this.camera.toScreen(from.x, from.y, from.z));
+      c.lineTo(...this.camera.toScreen(to.x, to.y, to.z));
+      c.stroke();
+    }
+  }
+
+  // Where scans were taken before a correction of the map, and where it has put them.
+  #drawMoves(c, moves) {
+    c.strokeStyle = this.theme.moved;
+    c.fillStyle = this.theme.moved;
+    c.lineWidth = 1.5;
+    const size = Math.max(1.2, Math.min(3.5, 0.15 * this.camera.scale));
+    for (const {before, pose} of moves) {
+      const [bx, by] = this.camera.toScreen(before.x, before.y), [ax, ay] = this.camera.toScreen(pose.x, pose.y);
+      c.beginPath();
+      c.arc(bx, by, size, 0, 2 * Math.PI);
+      c.moveTo(bx, by);
+      c.lineTo(ax, ay);
+      c.stroke();
+      c.beginPath();
+      c.arc(ax, ay, 0.7 * size, 0, 2 * Math.PI);
+      c.fill();
+    }
+  }
+
   #drawGrid(c) {
     const step = [0.5, 1, 2, 5, 10, 20, 50, 100].find((m) => m * this.camera.scale > 42) ?? 200;
     const [left, top] = this.camera.toMap(0, 0), [right, bottom] = this.camera.toMap(this.camera.width, this.camera.height);
     c.fillStyle = this.theme.unknownDot;
     for (let x = Math.ceil(left / step) * step; x < right; x += step) {
       for (let y = Math.ceil(bottom / step) * step; y < top; y += step) {
-        const [px, py] = this.camera.toScreen(x, y);
+        const [px, py] = this.camera.planeToScreen(x, y);
         c.fillRect(px - 0.75, py - 0.75, 1.5, 1.5);
       }
     }
@@ -245,9 +299,9 @@ export class MapView {
     let last = null;
     const begin = robot.trail[0]?.stamp ?? Infinity;
     const before = robot.relevant.filter(({stamp}) => stamp < begin);
-    for (const {x, y, stamp} of [...before, ...robot.trail]) {
+    for (const {x, y, z, stamp} of [...before, ...robot.trail]) {
       if (stamp > until) break;
-      const [px, py] = this.camera.toScreen(x, y);
+      const [px, py] = this.camera.toScreen(x, y, z);
       if (last && Math.abs(px - last[0]) + Math.abs(py - last[1]) < 2) continue;
       if (last) c.lineTo(px, py); else c.moveTo(px, py);
       last = [px, py];
@@ -269,16 +323,18 @@ export class MapView {
   }
 
   #drawRobot(c, robot, pose, {level, text}) {
-    const [px, py] = this.camera.toScreen(pose.x, pose.y);
-    if (this.state.layers.uncertainty && pose.cov) this.#drawEllipse(c, robot, pose.cov, px, py);
+    const [px, py] = this.camera.toScreen(pose.x, pose.y, pose.z);
+    if (this.state.layers.uncertainty && pose.cov && this.camera.from === 'above') this.#drawEllipse(c, robot, pose.cov, px, py);
     const radius = Math.max(11, Math.min(26, 0.3 * this.camera.scale));
     const isSelected = this.state.selected === robot.name;
     c.save();
     c.translate(px, py);
-    c.rotate(-pose.theta);
     c.beginPath();
-    c.moveTo(radius * 1.75, 0);
-    c.arc(0, 0, radius, 0.62, -0.62);
+    if (this.camera.from === 'above') {
+      c.rotate(-pose.theta);
+      c.moveTo(radius * 1.75, 0);
+      c.arc(0, 0, radius, 0.62, -0.62);
+    } else c.arc(0, 0, radius, 0, 2 * Math.PI);
     c.closePath();
     c.lineWidth = isSelected ? 6 : 3.5;
     c.strokeStyle = this.theme.ink;

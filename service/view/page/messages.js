@@ -79,6 +79,11 @@ const readers = {
     const [angleMin, , angleIncrement, , , rangeMin, rangeMax] = Array.from({length: 7}, () => r.float32());
     return {...head, angleMin, angleIncrement, rangeMin, rangeMax, ranges: r.float32s()};
   },
+  'qwsm_msgs/msg/MapEpoch': (r) => ({
+    ...header(r), origin: r.string(), mapOf: r.string(), number: r.uint64(),
+    robots: r.list(() => ({robot: r.string(), correction: pose2(r)})),
+    scans: r.list(() => ({origin: r.string(), robot: r.string(), number: r.uint64(), before: pose2(r), pose: pose2(r), covariance: r.float64s(9)})),
+  }),
   'nav_msgs/msg/Odometry': (r) => {
     const head = header(r);
     r.string();  // The robot's frame.

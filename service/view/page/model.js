@@ -21,6 +21,24 @@ export function compose(a, b) {
   return {x: a.x + c * b.x - s * b.y, y: a.y + s * b.x + c * b.y, theta: a.theta + b.theta};
 }
 
+export function inverse(a) {
+  const c = Math.cos(a.theta), s = Math.sin(a.theta);
+  return {x: -c * a.x - s * a.y, y: s * a.x - c * a.y, theta: -a.theta};
+}
+
+// A point, or a pose, where a motion takes it.
+function move(motion, thing) {
+  const {x, y, theta} = compose(motion, {x: thing.x, y: thing.y, theta: thing.theta ?? 0});
+  return thing.theta === undefined ? {...thing, x, y} : {...thing, x, y, theta};
+}
+
+function movePoints(motion, points) {
+  const c = Math.cos(motion.theta), s = Math.sin(motion.theta);
+  return points.map((_, i) => i % 2 === 0 ? motion.x + c * points[i] - s * points[i + 1] : motion.y + s * points[i - 1] + c * points[i]);
+}
+
+const scanKey = ({origin, robot, number}) => `${origin}/${robot}/${number}`;
+
 // End points of a scan's beams, in the frame of the pose's parent, as x, y, x, y...
 export function scanPoints(scan, sensor) {
   const points = [];
@@ -54,6 +72,7 @@ class Robot {
     this.isSecond = Math.floor(place / kColors.length) % 2 === 1;
     this.history = [];
     this.trail = [];
+    this.loops = [];  // Pairs of entries of the history that were recognised as near each other.
     this.relevant = [];  // Its relevant scans, by their stamps.
     this.scans = [];  // Recent ones that wait for their pose.
     this.points = null;  // Of the scan of now, on the map.
@@ -68,17 +87,32 @@ class Robot {
   takeReport(report, {told_ms, published_ms}) {
     const {stamp, pose, covariance, status, reason, meanResidual, overlap, scans, dropped, latency} = report;
     if (this.last && stamp < this.last.stamp - 1) this.beginAnew();
-    this.history.push({stamp, ...pose, cov: covariance, status, reason, residual_m: meanResidual, overlap, scans, dropped, latency});
+    this.history.push({stamp, published_ms, ...pose, cov: covariance, status, reason, residual_m: meanResidual, overlap, scans, dropped, latency});
     if (this.history.length > kMostHistory) this.history.splice(0, kMostHistory / 10);
     if (status !== Status.deadReckoned) this.lastMatch = stamp;
     this.arrived_ms = told_ms;
     this.published_ms = published_ms;
     this.isFresh = true;
     const end = this.trail.at(-1);
-    if (!end || Math.hypot(pose.x - end.x, pose.y - end.y) > kTrailStep_m) this.trail.push({x: pose.x, y: pose.y, stamp});
+    if (!end || Math.hypot(pose.x - end.x, pose.y - end.y) > kTrailStep_m) this.trail.push({x: pose.x, y: pose.y, z: pose.z, stamp, published_ms});
     if (this.trail.length > kMostTrail) this.trail = this.trail.filter((_, i) => i % 2 === 0 || i > kMostTrail / 2);
   }
-  beginAnew() { this.history = []; this.trail = []; this.lastMatch = null; }
+  // Where it was told to be before the map was corrected goes with the scan that was taken next to it.
+  follow(scans, published_ms) {
+    const motions = scans.map(({before, pose}) => ({x: before.x, y: before.y, motion: compose(pose, inverse(before))}));
+    const moved = (thing) => {
+      if (thing.published_ms >= published_ms) return thing;
+      let nearest = null, least = Infinity;
+      for (const motion of motions) {
+        const distance = (motion.x - thing.x) ** 2 + (motion.y - thing.y) ** 2;
+        if (distance < least) { least = distance; nearest = motion; }
+      }
+      return move(nearest.motion, thing);
+    };
+    this.trail = this.trail.map(moved);
+    this.history = this.history.map(moved);
+  }
+  beginAnew() { this.history = []; this.trail = []; this.loops = []; this.lastMatch = null; }
 
   // What is known of it until a stamp, from its relevant scans of before this page was opened on.
   pathUntil(stamp) {
@@ -181,6 +215,7 @@ export class Model {
     this.sensors = new Map();  // Poses on the robot, by frame.
     this.relevant = new Map();  // By origin, robot and number.
     this.marks = new Map();
+    this.epochs = new Map();  // The last correction of each map, by whose map it is.
     this.events = [];
     this.service = {};
     this.mapVersion = 0;
@@ -195,6 +230,7 @@ export class Model {
     this.clouds.clear();
     this.sensors.clear();
     this.relevant.clear();
+    this.epochs.clear();
     for (const robot of this.robots.values()) robot.relevant = [];
     this.marks.clear();
     ++this.mapVersion;
@@ -208,8 +244,9 @@ export class Model {
     return this.robots.get(name);
   }
 
-  tell(text, stamp = this.now) {
-    this.events.unshift({text, stamp, at_ms: Date.now()});
+  // `more`: what can be shown of it.
+  tell(text, stamp = this.now, more = {}) {
+    this.events.unshift({text, stamp, at_ms: Date.now(), ...more});
     this.events.length = Math.min(this.events.length, 200);
   }
 
@@ -226,6 +263,7 @@ export class Model {
         return;
       case 'qwsm_msgs/msg/MapTile': return this.#takeTile(channel.topic, message);
       case 'qwsm_msgs/msg/RelevantScan': return this.#takeRelevant(message);
+      case 'qwsm_msgs/msg/MapEpoch': return this.#takeEpoch(message, times);
       case 'qwsm_msgs/msg/Mark': return this.#takeMark(message);
       case 'tf2_msgs/msg/TFMessage': return message.forEach((t) => this.sensors.set(t.child, t));
       case 'diagnostic_msgs/msg/DiagnosticArray': return this.#takeHealth(message);
@@ -244,6 +282,10 @@ export class Model {
       this.tell(`${report.robot || 'robot'} ${isLost ? `dead reckons: ${report.reason}` : 'is matched again'}`, report.stamp);
     }
     if (report.loops?.length > 0) this.tell(`${report.robot || 'robot'} closed a loop`, report.stamp);
+    for (const scan of report.loops ?? []) {
+      const other = robot.history.find(({scans}) => scans === scan + 1);
+      if (other) robot.loops.push([other, robot.last]);
+    }
     this.#placeScan(robot);
   }
 
@@ -294,12 +336,36 @@ export class Model {
   }
 
   #takeRelevant(scan) {
-    const key = `${scan.origin}/${scan.robot}/${scan.number}`;
+    const key = scanKey(scan);
     if (this.relevant.has(key)) return;
-    const points = scanPoints(scan, compose(scan.pose, scan.laser));
-    const kept = {stamp: scan.stamp, ...scan.pose, cov: scan.covariance, points};
+    // What is told of it may be older than a correction.
+    const pose = [...this.epochs.values()].map(({poses}) => poses.get(key)).find(Boolean) ?? scan.pose;
+    const points = scanPoints(scan, compose(pose, scan.laser));
+    const kept = {stamp: scan.stamp, ...pose, cov: scan.covariance, points};
     this.relevant.set(key, kept);
     this.robot(scan.robot).takeRelevant(kept);
+    ++this.mapVersion;
+  }
+
+  // A correction of the map: what lies on it goes along.
+  #takeEpoch(epoch, {published_ms, told_ms}) {
+    const known = this.epochs.get(epoch.mapOf);
+    const isNews = !known || epoch.number > known.number || (epoch.number === known.number && epoch.origin > known.origin);
+    if (!isNews) return;
+    const poses = new Map(epoch.scans.map((scan) => [scanKey(scan), scan.pose]));
+    this.epochs.set(epoch.mapOf, {number: epoch.number, origin: epoch.origin, poses});
+    for (const [key, pose] of poses) {
+      const kept = this.relevant.get(key);
+      if (kept) Object.assign(kept, pose, {points: movePoints(compose(pose, inverse(kept)), kept.points)});
+    }
+    for (const robot of this.robots.values()) {
+      const scans = epoch.scans.filter((scan) => scan.robot === robot.name);
+      if (scans.length > 0) robot.follow(scans, published_ms);
+    }
+    const moves_m = epoch.scans.map(({before, pose}) => Math.hypot(pose.x - before.x, pose.y - before.y));
+    const most_m = Math.max(0, ...moves_m);
+    this.tell(`the map was corrected: ${moves_m.filter((m) => m > 0.01).length} of ${moves_m.length} scans moved, by ${most_m < 1 ? `${(100 * most_m).toFixed(0)} cm` : `${most_m.toFixed(1)} m`} at most`,
+      epoch.stamp || this.now, {at_ms: told_ms, moves: epoch.scans.map(({before, pose}) => ({before, pose}))});
     ++this.mapVersion;
   }
 

@@ -23,7 +23,8 @@ const metres = (m) => m < 0.995 ? `${(100 * m).toFixed(1)} cm` : `${m.toFixed(2)
 const age = (s) => s === Infinity ? '' : s < 2 ? 'now' : s < 90 ? `${Math.floor(s)} s ago` : `${Math.floor(s / 60)} min ago`;
 
 export class Panel {
-  // `actions`: select(name), centre(name), follow(name), place(name), editMark(id), showMark(id).
+  // `actions`: select(name), centre(name), follow(name), place(name), editMark(id), showMark(id),
+  // showEvent(event).
   constructor(model, state, actions) {
     this.model = model;
     this.state = state;
@@ -140,6 +141,16 @@ export class Panel {
     }));
   }
 
+  #makeEvent(event) {
+    const item = element('li', {}, element('time', {textContent: new Date(event.at_ms).toLocaleTimeString()}), event.text);
+    if (!event.moves) return item;
+    const button = element('button', {className: 'plain', type: 'button', textContent: 'before and after'});
+    button.setAttribute('aria-pressed', String(this.state.shownEvent === event));
+    button.onclick = () => this.actions.showEvent(event);
+    item.append(' ', button);
+    return item;
+  }
+
   #updateService() {
     const {name, map_scans: scans, map_points: points, robots, journal, refused, uptime_s: uptime} = this.model.service;
     const facts = {'Name': name, 'Robots': robots, 'Map': scans && `${scans} scans, ${points} points`, 'Journal': journal, 'Refused': refused === undefined ? undefined : `${refused} samples`, 'Up for': uptime && `${Math.floor(uptime / 60)} min ${uptime % 60} s`};
@@ -149,8 +160,9 @@ export class Panel {
       $('service').replaceChildren(...Object.entries(facts).flatMap(([what, text]) => text === undefined ? [] : [element('dt', {textContent: what}), element('dd', {textContent: text})]));
     }
     const newest = this.model.events[0];
-    if (newest === this.newestEvent) return;
+    if (newest === this.newestEvent && this.state.shownEvent === this.shownEvent) return;
     this.newestEvent = newest;
-    $('events').replaceChildren(...this.model.events.slice(0, 60).map(({text, at_ms}) => element('li', {}, element('time', {textContent: new Date(at_ms).toLocaleTimeString()}), text)));
+    this.shownEvent = this.state.shownEvent;
+    $('events').replaceChildren(...this.model.events.slice(0, 60).map((event) => this.#makeEvent(event)));
   }
 }

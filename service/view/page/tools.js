@@ -36,6 +36,7 @@ export class Tools {
       if (only === null) return this.hint('Choose the robot first: on the map or in the list');
       this.actions.select(only);
     }
+    if (tool !== 'look' && tool !== 'measure') this.actions.lookFrom('above');  // Places are of the map.
     this.state.tool = tool;
     if (tool !== 'look') this.actions.stopFollowing();  // The map must not move under the hand.
     for (const button of document.querySelectorAll('[data-tool]')) button.setAttribute('aria-pressed', String(button.dataset.tool === tool));
@@ -87,7 +88,7 @@ export class Tools {
     const degrees = Math.atan2(to[1] - from[1], to[0] - from[0]) * 180 / Math.PI;
     const text = isMeasure ? `${length_m.toFixed(2)} m` : `${degrees.toFixed(0)}°`;
     this.view.overlay = (c, camera, theme) => {
-      const [ax, ay] = camera.toScreen(...from), [bx, by] = camera.toScreen(...to);
+      const [ax, ay] = camera.planeToScreen(...from), [bx, by] = camera.planeToScreen(...to);
       c.lineWidth = 6; c.strokeStyle = theme.paper;
       c.beginPath(); c.moveTo(ax, ay); c.lineTo(bx, by); c.stroke();
       c.lineWidth = 3; c.strokeStyle = isMeasure ? '#d55e00' : '#ffc800';
@@ -130,7 +131,7 @@ export class Tools {
   }
 
   #pick(px, py) {
-    const near = ({x, y}) => { const [sx, sy] = this.view.camera.toScreen(x, y); return Math.hypot(sx - px, sy - py); };
+    const near = ({x, y, z}) => { const [sx, sy] = this.view.camera.toScreen(x, y, z); return Math.hypot(sx - px, sy - py); };
     const mark = [...this.model.marks.values()].find((m) => !m.removed && near(m) < kNear_px / 1.5);
     if (mark) return this.actions.editMark(mark.id);
     const robots = [...this.model.robots.values()].filter(({last}) => last && near(last) < kNear_px);
