@@ -46,6 +46,7 @@ struct ExportArguments {
   std::string mission;
   std::optional<std::string> start;
   int px_per_cell = 1;
+  double searched_m = 0.0;  ///< How far victims are found from a robot; 0: nothing was searched.
   NetworkArguments network;
 };
 
@@ -143,7 +144,8 @@ ExitCode RunExport(const ExportArguments& arguments) {
                               .paths = std::move(map.paths),
                               .points = std::move(points),
                               .name = tiff.filename().string(),
-                              .px_per_cell = arguments.px_per_cell};
+                              .px_per_cell = arguments.px_per_cell,
+                              .searched_m = arguments.searched_m};
   const io::GeoPicture picture = io::DrawRescueMap(scene);
   WarnOfMarksOutside(scene, picture);
   io::WriteGeoTiff(tiff, picture);
@@ -161,6 +163,24 @@ ExitCode RunExport(const ExportArguments& arguments) {
   return ExitCode::kDone;
 }
 
+void AddTitleArguments(CLI::App& parser, ExportArguments& arguments) {
+  constexpr const char* kTitle = "What the list of points of interest begins with";
+  parser.add_option("--team", arguments.team, "name of the team")->type_name("TEXT")->group(kTitle);
+  parser.add_option("--country", arguments.country, "of the team")
+      ->type_name("TEXT")
+      ->group(kTitle);
+  parser.add_option("--mission", arguments.mission, "name of the mission")
+      ->type_name("TEXT")
+      ->group(kTitle);
+  parser
+      .add_option("--start",
+                  arguments.start,
+                  "day and time of its start, '2026-07-04 10:15:00'; else of the first scan, UTC")
+      ->check(DayAndTimeOfDay())
+      ->type_name("TIME")
+      ->group(kTitle);
+}
+
 }  // namespace
 
 Command AddExportCommand(CLI::App& program) {
@@ -173,6 +193,7 @@ Command AddExportCommand(CLI::App& program) {
       "  qwsm export team.journal --geotiff rescue                of a service, running or not\n"
       "  qwsm export --live --geotiff rescue                      of services on the network\n"
       "  qwsm export site.qwsm --geotiff site --set rendering.cell_m=0.02\n"
+      "  qwsm export results/latest --geotiff rescue --searched 1.5   and what was searched\n"
       "marks.csv is a table with commas: its first line names the columns, of which x, y (metres)\n"
       "and type (victim, hazard, else an object) are needed; id, time, text, z, robot, mode are "
       "not.");
@@ -198,23 +219,13 @@ Command AddExportCommand(CLI::App& program) {
       ->check(CLI::Range(1, 10))
       ->capture_default_str()
       ->type_name("N");
-  constexpr const char* kTitle = "What the list of points of interest begins with";
-  parser->add_option("--team", arguments->team, "name of the team")
-      ->type_name("TEXT")
-      ->group(kTitle);
-  parser->add_option("--country", arguments->country, "of the team")
-      ->type_name("TEXT")
-      ->group(kTitle);
-  parser->add_option("--mission", arguments->mission, "name of the mission")
-      ->type_name("TEXT")
-      ->group(kTitle);
   parser
-      ->add_option("--start",
-                   arguments->start,
-                   "day and time of its start, '2026-07-04 10:15:00'; else of the first scan, UTC")
-      ->check(DayAndTimeOfDay())
-      ->type_name("TIME")
-      ->group(kTitle);
+      ->add_option("--searched",
+                   arguments->searched_m,
+                   "metres from a robot's path in which victims would have been found, drawn green")
+      ->check(CLI::Range(0.0, 100.0))
+      ->type_name("METRES");
+  AddTitleArguments(*parser, *arguments);
   AddNetworkArguments(*parser, arguments->network, "");
   return {.parser = parser, .run = [arguments] { return RunExport(*arguments); }};
 }

@@ -67,6 +67,15 @@ class RescueMap : public ::testing::Test {
                           .name = "floor.tif",
                           .px_per_cell = px_per_cell});
   }
+  GeoPicture DrawSearched(double searched_m) const {
+    std::vector<Pose2> path;
+    for (int i = 0; i < 20; ++i) path.push_back({0.1 * i, 0.0, 0.0});
+    return DrawRescueMap({.grid = grid_,
+                          .paths = {path, {{5.5, 2.0, 0.0}}},
+                          .points = {},
+                          .name = "floor.tif",
+                          .searched_m = searched_m});
+  }
   static std::uint32_t At(const GeoPicture& picture, double x_m, double y_m) {
     const Eigen::Vector2d px = picture.ToPixel({x_m, y_m});
     const auto row = static_cast<std::size_t>(px.y());
@@ -76,6 +85,17 @@ class RescueMap : public ::testing::Test {
 
   OccupancyGrid grid_ = Floor();
 };
+
+TEST_F(RescueMap, WhatWasSearchedIsGreenAndGreenerTheOftener) {
+  grid_.cells[grid_.Index(150, 105)] =
+      CellState::kOccupied;  // At (5.5, 2.25): what is behind is hidden.
+  const GeoPicture picture = DrawSearched(1.0);
+  EXPECT_EQ(At(picture, 1.02, 0.42), 0x82E682U);
+  EXPECT_EQ(At(picture, 6.02, 2.02), 0xB4E6B4U);
+  EXPECT_EQ(At(picture, 5.52, 2.52), kFree);
+  EXPECT_EQ(At(picture, 4.22, -1.22), kFree);
+  EXPECT_EQ(At(DrawSearched(0.0), 1.02, 0.42), kFree);
+}
 
 TEST_F(RescueMap, HasThreeMetresAtTheTopLeftAndOneAtTheBottomRight) {
   const GeoPicture picture = Draw(1);

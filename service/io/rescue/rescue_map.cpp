@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "service/io/pictures/covariance_ellipse.hpp"
+#include "service/io/rescue/searched_area.hpp"
 
 namespace qwsm::io {
 namespace {
@@ -71,15 +72,18 @@ long SquareOf(double coordinate_m, double side_m) {
 /// Draws the cells and where they lie.
 class CellPainter {
  public:
-  CellPainter(const OccupancyGrid& grid, int px_per_cell) : grid_(grid), px_per_cell_(px_per_cell) {
+  explicit CellPainter(const RescueScene& scene)
+      : grid_(scene.grid), px_per_cell_(scene.px_per_cell) {
+    const OccupancyGrid& grid = scene.grid;
     const KnownCells known = FindKnownCells(grid);
     const int more_top_left = CellsIn(kMarginTopLeft_m, grid.cell_m);
     const int more_bottom_right = CellsIn(kMarginBottomRight_m, grid.cell_m);
     first_ = {known.low.x() - more_top_left, known.low.y() - more_bottom_right};
     count_ = known.high - known.low + more_top_left + more_bottom_right;
-    if (count_.cast<double>().prod() * px_per_cell * px_per_cell > kMostPixels) {
+    if (count_.cast<double>().prod() * px_per_cell_ * px_per_cell_ > kMostPixels) {
       throw std::runtime_error("the map has too many pixels: take fewer pixels per cell");
     }
+    if (scene.searched_m > 0.0) looks_ = LooksAtCells(grid, scene.paths, scene.searched_m);
   }
 
   GeoPicture Paint() const {
@@ -136,12 +140,23 @@ class CellPainter {
           pixels.push_back(ToPixel(kObstacle));
           break;
         case CellState::kFree:
-          pixels.push_back(ToPixel(row.is_line || column.is_line ? kExploredGrid : kFreeFloor));
+          pixels.push_back(ToPixel(row.is_line || column.is_line
+                                       ? kExploredGrid
+                                       : FloorColor(LooksAt(column.cell, row.cell))));
           break;
         case CellState::kUnknown:
           pixels.push_back(ToPixel(is_dark ? kChequerDark : kChequerLight));
       }
     }
+  }
+
+  /// @pre the cell is one of the grid.
+  int LooksAt(int x, int y) const { return looks_.empty() ? 0 : looks_[grid_.Index(x, y)]; }
+  /// The more often a place was searched, the greener it is.
+  static Color FloorColor(int looks) {
+    if (looks == 0) return kFreeFloor;
+    const int red_and_blue = 180 - 50 * (looks - 1) / (kMostLooks - 1);
+    return FromBytes(red_and_blue, 230, red_and_blue);
   }
 
   CellState StateAt(int x, int y) const {
@@ -151,7 +166,8 @@ class CellPainter {
 
   const OccupancyGrid& grid_;
   int px_per_cell_;
-  Eigen::Array2i first_;  // The lower left cell of the picture.
+  std::vector<std::uint8_t> looks_;  // From LooksAtCells(); empty where nothing was searched.
+  Eigen::Array2i first_;             // The lower left cell of the picture.
   Eigen::Array2i count_;
 };
 
@@ -269,7 +285,7 @@ class MarkPainter {
 }  // namespace
 
 GeoPicture DrawRescueMap(const RescueScene& scene) {
-  GeoPicture picture = CellPainter(scene.grid, scene.px_per_cell).Paint();
+  GeoPicture picture = CellPainter(scene).Paint();
   MarkPainter(picture, scene).Paint();
   return picture;
 }

@@ -21,6 +21,8 @@ struct RescueScene {
   std::vector<PointOfInterest> points;
   std::string name;  ///< Name of the file, which stands in it.
   int px_per_cell = 1;
+  /// How far victims are found from a robot; what was in sight within that is drawn as searched.
+  double searched_m = 0.0;
 };
 
 /// A picture of a map, and where it lies.
