@@ -49,7 +49,8 @@ Interruption::Interruption(std::string_view answer) {
   action.sa_handler = HandleSignal;
   action.sa_flags = SA_RESTART;  // What is being written is written whole.
   sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, &old_interrupt_);
+  sigaction(SIGINT, nullptr, &old_interrupt_);
+  if (old_interrupt_.sa_handler != SIG_IGN) sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, &old_terminate_);
 }
 

@@ -10,7 +10,8 @@ namespace qwsm::pipeline {
 
 /// While an object of this class lives, the first Ctrl-C (SIGINT, or SIGTERM) is only noted, so
 /// that what was begun can be finished and written; the second one quits at once with exit code
-/// 130.
+/// 130. A program that was started to ignore Ctrl-C, as a shell's script starts those behind it,
+/// goes on to do so.
 class Interruption {
  public:
   static constexpr std::string_view kFinishing =

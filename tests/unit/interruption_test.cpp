@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/run/interruption.hpp"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+
+namespace qwsm::pipeline {
+namespace {
+
+TEST(Interruption, CtrlCIsNoted) {
+  const Interruption interruption("noted\n");
+  EXPECT_FALSE(interruption.requested());
+  raise(SIGINT);
+  EXPECT_TRUE(interruption.requested());
+}
+
+TEST(Interruption, WhoeverIsToIgnoreCtrlCStillEndsWhenTold) {
+  ASSERT_NE(signal(SIGINT, SIG_IGN), SIG_ERR);
+  {
+    const Interruption interruption;
+    raise(SIGINT);
+    EXPECT_FALSE(interruption.requested());
+    raise(SIGTERM);
+    EXPECT_TRUE(interruption.requested());
+  }
+  EXPECT_EQ(signal(SIGINT, SIG_DFL), SIG_IGN);
+}
+
+}  // namespace
+}  // namespace qwsm::pipeline
