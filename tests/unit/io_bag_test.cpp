@@ -7,87 +7,14 @@
 #include <functional>
 #include <numbers>
 
-#include "qwsm/logs/log_reader.hpp"
 #include "service/io/bags/containers/chunk_cache.hpp"
 #include "service/io/bags/containers/chunk_codec.hpp"
-#include "tests/support/bag_maker.hpp"
-#include "tests/support/log_text.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/bag_drive.hpp"
 
 namespace qwsm::io {
 namespace {
 
 using namespace std::chrono_literals;
-using test::LogContent;
-using test::MadeMessage;
-using test::Ros;
-
-const Pose2 kMounting{0.2, -0.1, 0.5};
-
-Timestamp At(int scan) { return 1000s + scan * 100ms; }
-Pose2 OdometryAt(int scan) { return {0.1 * scan, -0.05 * scan, 0.01 * scan}; }
-std::vector<float> RangesAt(int scan) {
-  return {1.0F + 0.5F * static_cast<float>(scan), 2.0F, 3.0F};
-}
-
-/// Four scans with odometry; where the laser sits comes last.
-std::vector<MadeMessage> Drive(Ros ros) {
-  std::vector<MadeMessage> drive;
-  for (int i = 0; i < 4; ++i) {
-    drive.push_back(test::OdometryMessageOf(ros, "/odom", At(i), "base_link", OdometryAt(i)));
-    drive.push_back(test::ScanMessage(ros, "/scan", At(i), "laser", RangesAt(i)));
-  }
-  drive.push_back(
-      test::TransformMessageOf(ros, "/tf_static", 0s, "base_link", "laser", Spatial(kMounting)));
-  return drive;
-}
-
-class Bag : public testing::Test {
- protected:
-  LogContent Read(const std::string& name, const LogOptions& options = {}) {
-    LogOptions telling = options;
-    telling.on_fault = [this](const std::string& fault) { told_ += fault + "\n"; };
-    return test::ReadAll(*OpenLog(folder_.path() / name, telling));
-  }
-  LogContent ReadRos1(const std::vector<MadeMessage>& messages,
-                      std::string_view compression = "none",
-                      const LogOptions& options = {}) {
-    test::WriteBytes(folder_.path() / "t.bag", test::Ros1BagOf(messages, compression));
-    return Read("t.bag", options);
-  }
-  LogContent ReadMcap(const std::vector<MadeMessage>& messages,
-                      std::string_view compression = "zstd",
-                      const LogOptions& options = {}) {
-    test::WriteBytes(folder_.path() / "t.mcap", test::McapOf(messages, compression));
-    return Read("t.mcap", options);
-  }
-  std::string FailureOf(const std::function<void()>& action) {
-    try {
-      action();
-    } catch (const LogError& error) {
-      return error.what();
-    }
-    return "";
-  }
-
-  void ExpectDrive(const LogContent& log) {
-    ASSERT_EQ(log.scans.size(), 4U);
-    for (int i = 0; i < 4; ++i) {
-      const ScanReading& reading = log.scans[static_cast<std::size_t>(i)];
-      EXPECT_EQ(reading.scan.stamp, At(i));
-      EXPECT_EQ(reading.T_odom_robot, OdometryAt(i));
-      EXPECT_EQ(reading.scan.ranges_m, RangesAt(i));
-      EXPECT_EQ(reading.scan.geometry.T_robot_laser, kMounting);
-      EXPECT_EQ(reading.scan.geometry.first_bearing_rad, -1.0F);
-    }
-    EXPECT_EQ(log.odometry.size(), 4U);
-    EXPECT_EQ(log.report.lines, 9U);
-    EXPECT_TRUE(log.report.faults.empty());
-  }
-
-  test::TemporaryFolder folder_;
-  std::string told_;
-};
 
 TEST_F(Bag, OfRos1IsReadWhateverItsChunks) {
   for (const char* compression : {"none", "bz2", "lz4", "unchunked"}) {
@@ -113,7 +40,7 @@ TEST_F(Bag, OfSqliteIsReadInAllSchemasAndWithPackedMessages) {
   for (const int schema : {1, 2, 3, 4}) {
     for (const bool packs : {false, true}) {
       SCOPED_TRACE(schema);
-      const std::string name = "s" + std::to_string(schema) + (packs ? "p.db3" : ".db3");
+      const std::string name = std::to_string(schema) + (packs ? "p.db3" : ".db3");
       test::WriteDb3(folder_.path() / name, Drive(Ros::k2), schema, packs);
       ExpectDrive(Read(name));
     }
@@ -254,103 +181,6 @@ TEST_F(Bag, SaysThatNothingTellsWhereTheLaserSits) {
   EXPECT_NE(told_.find("nothing says where the laser 'laser' of /scan sits on 'base_link'"),
             std::string::npos)
       << told_;
-}
-
-TEST_F(Bag, ReadsAllLasersOrThoseThatAreAskedFor) {
-  std::vector<MadeMessage> drive = Drive(Ros::k2);
-  drive.push_back(test::ScanMessage(Ros::k2, "/scan_filtered", At(1), "laser", RangesAt(1)));
-  drive.push_back(test::ScanMessage(Ros::k2, "/rear/scan", At(1) + 10ms, "rear", RangesAt(2)));
-  drive.push_back(test::TransformMessageOf(
-      Ros::k2, "/tf_static", 0s, "base_link", "rear", Spatial({-0.2, 0, std::numbers::pi})));
-  const LogContent both = ReadMcap(drive);
-  ASSERT_EQ(both.scans.size(), 5U);
-  EXPECT_EQ(both.report.other_scans, 1U) << "the filtered one is the same laser's";
-  EXPECT_EQ(both.scans[1].laser, "front");
-  EXPECT_EQ(both.scans[2].laser, "rear");
-  EXPECT_EQ(both.scans[2].scan.geometry.T_robot_laser.x_m, -0.2);
-  EXPECT_NEAR(both.scans[2].T_odom_robot->x_m, 0.11, 1e-9) << "the odometry of its own moment";
-
-  LogOptions options;
-  options.scan_topics = {"/scan"};
-  EXPECT_EQ(ReadMcap(drive, "zstd", options).scans.size(), 4U);
-  options.scan_topics = {"/front"};
-  EXPECT_NE(FailureOf([&] {
-              ReadMcap(drive, "zstd", options);
-            }).find("no scans on '/front'; it has them on /rear/scan, /scan, /scan_filtered"),
-            std::string::npos);
-}
-
-TEST_F(Bag, ReadsTheRobotThatIsAskedFor) {
-  std::vector<MadeMessage> team;
-  for (const std::string robot : {"/robot1", "/robot2"}) {
-    for (MadeMessage message : Drive(Ros::k2)) {
-      if (message.topic == "/scan" || message.topic == "/odom") {
-        message.topic = robot + message.topic;
-      }
-      team.push_back(message);
-    }
-  }
-  EXPECT_NE(FailureOf([&] {
-              ReadMcap(team);
-            }).find("several robots: /robot1, /robot2; choose one with --robot"),
-            std::string::npos);
-  LogOptions options;
-  options.robot = "robot2";
-  EXPECT_EQ(ReadMcap(team, "zstd", options).scans.size(), 4U);
-  options.robot = "robot3";
-  EXPECT_NE(FailureOf([&] { ReadMcap(team, "zstd", options); }).find("robot 'robot3'"),
-            std::string::npos);
-}
-
-TEST_F(Bag, NamesTheRobotsWhereItIsNotSaidWhoseScansAreMeant) {
-  std::vector<MadeMessage> team = Drive(Ros::k2);
-  for (const std::string robot : {"/robot1", "/robot2"}) {
-    for (MadeMessage message : Drive(Ros::k2)) {
-      message.topic = robot + message.topic;
-      team.push_back(message);
-    }
-  }
-  team.push_back(test::ScanMessage(Ros::k2, "/robot2/scan", At(9), "laser", RangesAt(0)));
-  try {
-    ReadMcap(team);
-    FAIL() << "it was not asked whose scans are meant";
-  } catch (const SeveralRobotsError& several) {
-    EXPECT_EQ(several.robots(), (std::vector<std::string>{"robot2", "robot1"}));
-  }
-}
-
-TEST_F(Bag, TellsRobotsApartThatShareOneTf) {
-  std::vector<MadeMessage> team;
-  for (const std::string robot : {"robot1", "robot2"}) {
-    for (int i = 0; i < 4; ++i) {
-      const double speed_m = robot == "robot1" ? 0.1 : 0.2;
-      team.push_back(test::TransformMessageOf(Ros::k2,
-                                              "/tf",
-                                              At(i),
-                                              robot + "/odom",
-                                              robot + "/base_link",
-                                              Spatial({speed_m * i, 0.0, 0.0})));
-      for (const std::string laser : {"front", "rear"}) {
-        team.push_back(test::ScanMessage(
-            Ros::k2, "/" + robot + "/" + laser + "/scan", At(i), robot + "/" + laser, RangesAt(i)));
-      }
-    }
-    for (const std::string laser : {"front", "rear"}) {
-      team.push_back(test::TransformMessageOf(Ros::k2,
-                                              "/tf_static",
-                                              0s,
-                                              robot + "/base_link",
-                                              robot + "/" + laser,
-                                              Spatial(kMounting)));
-    }
-  }
-  EXPECT_THROW(ReadMcap(team), SeveralRobotsError);
-  LogOptions options;
-  options.robot = "robot2";
-  options.scan_topics = {"/robot2/front/scan"};
-  const LogContent log = ReadMcap(team, "zstd", options);
-  ASSERT_EQ(log.scans.size(), 4U);
-  EXPECT_EQ(log.scans[3].T_odom_robot, (Pose2{0.2 * 3, 0.0, 0.0}));
 }
 
 TEST_F(Bag, TellsWhichMessagesAreNotNeeded) {
