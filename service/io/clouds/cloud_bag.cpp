@@ -153,7 +153,7 @@ void CloudBag::MountOn(const std::string& robot_frame, const TransformTree& tree
 }
 
 CloudBag::Cloud CloudBag::Read(std::size_t number) {
-  const CloudPlace& place = places_[number];
+  const MessagePlace& place = places_[number];
   MessageSource& messages = contents_.files[place.file].messages();
   const Encoding encoding = messages.topics()[place.topic].encoding;
   Cloud cloud{.stamp = place.stamp, .points = {}, .T_odom_sensor = {}};

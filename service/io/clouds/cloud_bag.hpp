@@ -69,7 +69,7 @@ class CloudBag {
   CloudContents contents_;
   std::string topic_;
   std::string frame_;  ///< The sensor's.
-  std::vector<CloudPlace> places_;
+  std::vector<qwsm::io::MessagePlace> places_;
   std::optional<PoseTrack3> odometry_;
   Pose3 T_robot_sensor_;
   std::string buffer_;

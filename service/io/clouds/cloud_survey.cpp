@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "service/io/bags/assembly/bag_survey.hpp"
 #include "service/io/bags/messages/point_cloud_message.hpp"
 
 namespace slam6d::io {
@@ -80,7 +79,7 @@ class CloudSurveyor {
 
 void PutInOrder(CloudContents& contents) {
   for (auto& [topic, clouds] : contents.clouds) {
-    std::ranges::stable_sort(clouds.places, {}, &CloudPlace::stamp);
+    std::ranges::stable_sort(clouds.places, {}, &MessagePlace::stamp);
   }
   for (auto& [topic, odometry] : contents.odometry) odometry.track.Sort();
   for (auto& [name_space, tracks] : contents.tracks) {

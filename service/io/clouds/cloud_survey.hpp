@@ -2,32 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
-#include "service/io/bags/assembly/bag_faults.hpp"
-#include "service/io/bags/assembly/transform_tree.hpp"
-#include "service/io/bags/containers/bag_files.hpp"
+#include "service/io/bags/assembly/bag_survey.hpp"
 #include "service/io/clouds/pose_track3.hpp"
 
 namespace slam6d::io {
 
-/// Where a cloud stands, and when it was measured.
-struct CloudPlace {
-  qwsm::Timestamp stamp{};
-  std::uint64_t sequence = 0;  ///< Number of the message in the bag, counted from 1.
-  qwsm::io::MessageAddress address;
-  std::uint32_t file = 0;
-  std::uint32_t topic = 0;  ///< Index among the file's topics.
-};
-
 /// A topic of clouds.
 struct CloudTopic {
   std::string frame;
-  std::vector<CloudPlace> places;  ///< In the order of their stamps.
+  std::vector<qwsm::io::MessagePlace> places;  ///< In the order of their stamps.
 };
 
 /// A topic of odometry.

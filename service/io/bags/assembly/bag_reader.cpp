@@ -80,7 +80,7 @@ void BagReader::TakePlaces() {
       continue;
     }
     const auto number = static_cast<std::size_t>(laser - choice_.lasers.begin());
-    for (ScanPlace place : scans.places) {
+    for (MessagePlace place : scans.places) {
       place.stamp += OffsetOf(options_);
       places_.push_back({.scan = place, .laser = number});
     }

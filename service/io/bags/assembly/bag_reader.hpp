@@ -29,7 +29,7 @@ class BagReader final : public LogReader {
  private:
   /// A scan, and the laser it is of.
   struct Place {
-    ScanPlace scan;
+    MessagePlace scan;
     std::size_t laser = 0;
   };
 

@@ -18,8 +18,8 @@
 
 namespace qwsm::io {
 
-/// Where a scan stands, and when it was measured.
-struct ScanPlace {
+/// Where a message stands in a bag, and when what it tells was measured.
+struct MessagePlace {
   Timestamp stamp{};
   std::uint64_t sequence = 0;  ///< Number of the message in the bag, counted from 1.
   MessageAddress address;
@@ -30,7 +30,7 @@ struct ScanPlace {
 /// A topic of scans.
 struct ScanTopic {
   std::string frame;
-  std::vector<ScanPlace> places;
+  std::vector<MessagePlace> places;
 };
 
 /// A topic of odometry.
