@@ -105,6 +105,7 @@ class Trial {
     TeamServiceOptions options;
     options.team.threads = 1;
     options.team.map_period_s = 0.0;
+    options.merges_beside = false;
     return options;
   }
 

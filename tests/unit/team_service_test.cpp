@@ -24,6 +24,7 @@ constexpr int kScans = 120;
 
 TeamServiceOptions LosslessOptions() {
   TeamServiceOptions options;
+  options.merges_beside = false;
   options.team.session.queue_scans = 1000;
   options.team.session.odometry_wait_s = 10.0;
   options.team.map_period_s = 0.0;
@@ -198,6 +199,25 @@ TEST(TeamService, AnswersARobotThatNobodyPlacedInAComponentUntilItIsFoundInTheMa
   EXPECT_EQ(status.counts.answered, 80U);  // At once, from the first one on.
   EXPECT_EQ(sink.components("robot2"), (std::vector<std::string>{"robot2", ""}));
   const Pose2 error = test::PoseInRoom(109).Inverse() * status.map_robot.T_a_b;
+  EXPECT_LT(error.translation_m().norm(), 0.05);
+  EXPECT_EQ(service.MapOf("robot2"), service.MapOf("robot1"));
+}
+
+TEST(TeamService, TakesARobotOutOfTheMapThatWasToldItsStartWronglyAndFindsIt) {
+  test::RecordingSink sink;
+  TeamServiceOptions options = LosslessOptions();
+  options.team.robots.push_back({.name = "robot2", .x_m = 1.5, .y_m = 1.0, .heading_rad = 2.0});
+  TeamService service(options, sink);
+  service.Start();
+  Give(service, "robot1", 0, 126);
+  service.WaitUntilIdle();
+  for (int scan = 30; scan < 150; ++scan) {
+    Give(service, "robot2", scan, 1);
+    service.WaitUntilIdle();
+  }
+  const RobotStatus status = StatusOf(service, "robot2");
+  EXPECT_EQ(status.counts.answered, 120U);
+  const Pose2 error = test::PoseInRoom(149).Inverse() * status.map_robot.T_a_b;
   EXPECT_LT(error.translation_m().norm(), 0.05);
   EXPECT_EQ(service.MapOf("robot2"), service.MapOf("robot1"));
 }

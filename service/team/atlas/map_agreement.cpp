@@ -16,6 +16,7 @@ constexpr double kBeside_m = 5.0;  // Scans farther off see little of what the o
 constexpr double kBetweenScans_m = 1.0;  // Scans nearer to each other see the same,
 constexpr double kNewInAScan = 0.4;      // and of what the next one tells so much is new.
 constexpr double kSpacing_m = 0.15;      // Points nearer to each other count once.
+constexpr double kExplained = 0.7;       // Of a scan that says where the map is.
 // By how much two maps may be bent against each other, beside what is known of that.
 constexpr double kBent_m = 0.2;
 constexpr double kBent_rad = 0.03;
@@ -54,24 +55,48 @@ UncertainPose2 Inverse(const UncertainPose2& a_b) {
   return {.T_a_b = T_b_a, .covariance = d_b_a * a_b.covariance * d_b_a.transpose()};
 }
 
-MapAgreement::Fates& MapAgreement::Fates::operator+=(const Fates& other) {
+void MapAgreement::Fates::Add(const Fates& other) {
   known += other.known;
   seen_through += other.seen_through;
-  return *this;
 }
 
-double MapAgreement::Nats(const ScanMap& a, const ScanMap& b, const UncertainPose2& a_b) const {
+MapAgreement::Judgement MapAgreement::Judge(const ScanMap& a,
+                                            const ScanMap& b,
+                                            const UncertainPose2& a_b) const {
   const UncertainPose2 b_a = Inverse(a_b);
   const std::vector<const RelevantScan*> of_a = ScansBeside(a, b, b_a.T_a_b);
   const std::vector<const RelevantScan*> of_b = ScansBeside(b, a, a_b.T_a_b);
-  Fates in_other = FatesOf(of_a, b, b_a);
-  in_other += FatesOf(of_b, a, a_b);
+  Fates in_other = FatesOf(of_b, a, a_b);
+  in_other.Add(FatesOf(of_a, b, b_a));
   Fates in_own = FatesOf(of_a, a, {});
-  in_own += FatesOf(of_b, b, {});
+  in_own.Add(FatesOf(of_b, b, {}));
   const double if_right = (in_own.seen_through + 1.0) / (in_own.known + 2.0);
   const double if_alike = std::min(if_right + kDiffers, 1.0);
-  return in_other.seen_through * std::log(if_right / if_alike) +
-         (in_other.known - in_other.seen_through) * std::log((1.0 - if_right) / (1.0 - if_alike));
+  const double not_seen_through = in_other.known - in_other.seen_through;
+  return {.nats = in_other.seen_through * std::log(if_right / if_alike) +
+                  not_seen_through * std::log((1.0 - if_right) / (1.0 - if_alike)),
+          .a_b = Fit(a_b, in_other.pairs)};
+}
+
+// Weighted least squares of where the scans are found against where they are in their own map.
+UncertainPose2 MapAgreement::Fit(const UncertainPose2& a_b, std::span<const Pair> pairs) {
+  if (pairs.empty()) return a_b;
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d pull = Eigen::Vector3d::Zero();
+  for (const Pair& pair : pairs) {
+    const Pose2& found = pair.match.T_ref_cur;
+    Eigen::Matrix3d d_scan = Eigen::Matrix3d::Identity();  // By a small motion of b in a.
+    d_scan.topRightCorner<2, 1>() << -pair.T_a_scan.y_m, pair.T_a_scan.x_m;
+    const Eigen::Vector3d off(found.x_m - pair.T_a_scan.x_m,
+                              found.y_m - pair.T_a_scan.y_m,
+                              NormalizeAngle(found.theta_rad - pair.T_a_scan.theta_rad));
+    const Eigen::Matrix3d weight = pair.match.covariance.inverse();
+    information += d_scan.transpose() * weight * d_scan;
+    pull += d_scan.transpose() * weight * off;
+  }
+  const Eigen::Vector3d motion = information.ldlt().solve(pull);
+  const Pose2 T_a_moved{.x_m = motion.x(), .y_m = motion.y(), .theta_rad = motion.z()};
+  return {.T_a_b = T_a_moved * a_b.T_a_b, .covariance = a_b.covariance};
 }
 
 MapAgreement::Fates MapAgreement::FatesOf(std::span<const RelevantScan* const> scans,
@@ -83,11 +108,12 @@ MapAgreement::Fates MapAgreement::FatesOf(std::span<const RelevantScan* const> s
   for (const RelevantScan* scan : scans) {
     const std::vector<ScanPoint> points = ThinOut(ToPoints(scan->scan), kSpacing_m);
     const UncertainPose2 predicted = map_scans * UncertainPose2{.T_a_b = scan->map_robot.T_a_b};
-    const PlaceFit fit =
-        evidence.Weigh(map, points, locator_.Locate(map, points, predicted * bent));
+    const MatchResult match = locator_.Locate(map, points, predicted * bent);
+    const PlaceFit fit = evidence.Weigh(map, points, match);
     const double telling = kNewInAScan * fit.told;
-    fates += {.known = telling * (fit.explained + fit.seen_through),
-              .seen_through = telling * fit.seen_through};
+    fates.known += telling * (fit.explained + fit.seen_through);
+    fates.seen_through += telling * fit.seen_through;
+    if (fit.explained > kExplained) fates.pairs.push_back({predicted.T_a_b, match});
   }
   return fates;
 }

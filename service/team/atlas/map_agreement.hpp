@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "qwsm/mapping/free_space.hpp"
 #include "qwsm/mapping/scan_locator.hpp"
@@ -21,22 +22,34 @@ class MapAgreement {
   MapAgreement(const ScanLocatorOptions& locator, const FreeSpaceOptions& free_space)
       : locator_(locator), free_space_(free_space) {}
 
-  /// Evidence in nats (log of the ratio of likelihoods) that the maps go together there, the
-  /// alternative being a place that looks alike. Grows with what both have mapped.
-  double Nats(const ScanMap& a, const ScanMap& b, const UncertainPose2& a_b) const;
+  struct Judgement {
+    /// Evidence in nats (log of the ratio of likelihoods) that the maps go together there, the
+    /// alternative being a place that looks alike. Grows with what both have mapped.
+    double nats = 0.0;
+    UncertainPose2 a_b;  ///< As all that both have mapped fits best.
+  };
+
+  Judgement Judge(const ScanMap& a, const ScanMap& b, const UncertainPose2& a_b) const;
 
  private:
+  // Where a scan of one map was found in the other.
+  struct Pair {
+    Pose2 T_a_scan;
+    MatchResult match;
+  };
   // What becomes of points about which a map knows something, each of which tells what no other
   // does.
   struct Fates {
     double known = 0.0;
     double seen_through = 0.0;
-    Fates& operator+=(const Fates& other);
+    std::vector<Pair> pairs;
+    void Add(const Fates& other);
   };
 
   Fates FatesOf(std::span<const RelevantScan* const> scans,
                 const ScanMap& map,
                 const UncertainPose2& map_scans) const;
+  static UncertainPose2 Fit(const UncertainPose2& a_b, std::span<const Pair> pairs);
 
   ScanLocator locator_;
   FreeSpaceOptions free_space_;

@@ -28,6 +28,13 @@ struct Sighting {
   UncertainPose2 map_robot;
 };
 
+/// A robot that is not where it was told.
+struct MisplacedRobot {
+  std::string robot;
+  std::string component;  ///< That it is in, wrongly.
+  MapVersion version;
+};
+
 /// Finds where the components of a team's map lie in one another: a robot of one of them drives
 /// where another one is mapped, recognises one place after the other, and all that both have mapped
 /// goes together. Works beside the robots, on copies of the maps, with what each saw last.
@@ -37,6 +44,13 @@ class MapMerger {
 
   /// Takes what a robot sees. May be called from any thread.
   void See(std::string_view robot, Sighting sighting);
+  /// Takes that a robot is where somebody says. May be called from any thread.
+  void HearPlaceOf(std::string_view robot);
+
+  /// Looks whether robots that were told where they are have mapped there what those have that were
+  /// in the map before.
+  /// @return the first one that has not: that is somewhere else.
+  std::optional<MisplacedRobot> FindMisplaced(const std::vector<MapComponent>& components);
 
   /// Looks around with what was seen last by each robot, in all components but its own.
   /// @return the first place found where one component lies in another.
@@ -57,6 +71,8 @@ class MapMerger {
   };
 
   std::map<std::string, Sighting> NewestSightings() const;
+  std::map<std::string, std::size_t> Told() const;
+  double NatsOfPlace(const std::vector<TeamScan>& scans, const std::string& robot) const;
   const Chart& ChartOf(const MapComponent& component);
   std::optional<ComponentPlace> LookFor(const std::string& robot,
                                         const Sighting& sighting,
@@ -67,6 +83,8 @@ class MapMerger {
   const MapAgreement agreement_;
   mutable std::mutex mutex_;
   std::map<std::string, Sighting, std::less<>> sightings_;  // By robot.
+  // Robots that were told where they are, and how many scans they had when that was looked at.
+  std::map<std::string, std::size_t, std::less<>> told_;
 
   // Whoever looks around alone uses these.
   std::map<std::string, Chart> charts_;                             // By component.

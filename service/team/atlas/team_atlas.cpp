@@ -133,6 +133,28 @@ bool TeamAtlas::Join(const ComponentPlace& place) {
   return true;
 }
 
+bool TeamAtlas::Part(const std::string& robot,
+                     const MapVersion& from,
+                     const std::string& from_name) {
+  const std::lock_guard lock(extension_);
+  const MapComponent component = maps_.Named(from_name);
+  if (component.map->VersionOf(*component.map->Read()) != from) return false;
+  Rearrangement wanted = AsTheyAre(maps_);
+  std::optional<Pose2> T_own_map;
+  const std::string own = maps_.NewNameFor(robot);
+  std::vector<Placement>& places = wanted.wanted.at(from_name);
+  for (std::size_t id = 0; id < places.size(); ++id) {
+    if (component.map->KeyOf(static_cast<ScanId>(id)).robot != robot) continue;
+    Placement& place = places[id];
+    if (!T_own_map) T_own_map = place.map_robot.T_a_b.Inverse();
+    place = {.component = own, .map_robot = UncertainPose2{.T_a_b = *T_own_map} * place.map_robot};
+  }
+  if (!T_own_map) return false;
+  epoch_ = Next(epoch_);
+  TakeEffect(wanted);
+  return true;
+}
+
 void TeamAtlas::CorrectIfDue(const MapComponent& component) {
   std::optional<CorrectedMap> corrected = CorrectorOf(component.name).LookIfDue();
   if (!corrected) return;
@@ -155,44 +177,49 @@ EpochRank TeamAtlas::Next(const EpochRank& last) const {
 // it, as if it had just been seen.
 void TeamAtlas::TakeEffect(const Rearrangement& rearrangement) {
   TeamEpoch epoch = EpochOf(maps_, rearrangement, epoch_);
-  std::map<std::string, std::vector<TeamScan>> arriving;
+  Moves moves;
   for (const auto& [name, wanted] : rearrangement.wanted) {
     const bool loses_scans = std::ranges::any_of(
         wanted, [&, &of = name](const Placement& place) { return place.component != of; });
     if (loses_scans) {
-      MoveOut(name, wanted, arriving);
+      MoveOut(name, wanted, moves);
     } else if (const MapComponent component = maps_.Named(name);
                IsCorrected(*component.map, wanted)) {
       component.map->Correct(CorrectorOf(name).Adopt(PosesOf(wanted)).map);
     }
   }
-  for (const auto& [name, scans] : arriving) {
-    const MapComponent component = maps_.Named(name);
-    for (const TeamScan& scan : scans) {
-      component.map->Insert(scan, ToPoints(scan.scan));
-      if (options_.corrects) CorrectorOf(name).Take(scan);
-    }
-  }
+  for (const auto& [name, scans] : moves.arriving) MoveIn(name, scans, moves);
+  maps_.Exchange(moves.made_anew, moves.home_of_robot);
   Tell(std::move(epoch));
 }
 
 void TeamAtlas::MoveOut(const std::string& component,
                         const std::vector<Placement>& wanted,
-                        std::map<std::string, std::vector<TeamScan>>& arriving) {
+                        Moves& moves) {
   std::vector<TeamScan> scans = maps_.Named(component).map->Scans();
   NoteJoined(component, wanted.back(), scans.back().map_robot.T_a_b);
-  std::map<std::string, std::string> home_of_robot;
   for (std::size_t id = 0; id < scans.size(); ++id) {
     TeamScan& scan = scans[id];
     scan.map_robot = wanted[id].map_robot;
     if (maps_.Of(scan.key.robot).name == component) {
-      home_of_robot[scan.key.robot] = wanted[id].component;
+      moves.home_of_robot[scan.key.robot] = wanted[id].component;
     }
-    arriving[wanted[id].component].push_back(std::move(scan));
+    moves.arriving[wanted[id].component].push_back(std::move(scan));
   }
-  for (const auto& [robot, home] : home_of_robot) maps_.Put(robot, home);
+  moves.made_anew[component] = nullptr;
   if (auto corrector = correctors_.extract(component)) retired_.push_back(std::move(corrector));
-  maps_.Drop(component);
+}
+
+void TeamAtlas::MoveIn(const std::string& component,
+                       const std::vector<TeamScan>& scans,
+                       Moves& moves) {
+  const bool is_there = maps_.Has(component) && !moves.made_anew.contains(component);
+  const std::shared_ptr<TeamMap> map = is_there ? maps_.Named(component).map : maps_.Make();
+  if (!is_there) moves.made_anew[component] = map;
+  for (const TeamScan& scan : scans) {
+    map->Insert(scan, ToPoints(scan.scan));
+    if (options_.corrects) CorrectorOf(component).Take(scan);
+  }
 }
 
 void TeamAtlas::NoteJoined(const std::string& component,

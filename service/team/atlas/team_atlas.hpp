@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -82,6 +83,9 @@ class TeamAtlas {
   /// Makes two components one. @return false if one of them has been corrected since the place was
   /// found.
   bool Join(const ComponentPlace& place);
+  /// Takes all scans of a robot out of a component, into one of their own.
+  /// @return false if the component has been corrected since.
+  bool Part(const std::string& robot, const MapVersion& from, const std::string& from_name);
   /// Ends looks at components that are none any more. Takes as long as these; to be called beside.
   void Tidy();
 
@@ -89,6 +93,12 @@ class TeamAtlas {
   struct JoinedTo {
     std::string component;
     Pose2 T_into_from;
+  };
+  // Between components.
+  struct Moves {
+    std::map<std::string, std::vector<TeamScan>> arriving;      // By component.
+    std::map<std::string, std::shared_ptr<TeamMap>> made_anew;  // Likewise.
+    std::map<std::string, std::string> home_of_robot;           // That changes.
   };
 
   std::optional<TeamMap::Insertion> Insert(const MapComponent& component,
@@ -99,9 +109,8 @@ class TeamAtlas {
   void CorrectIfDue(const MapComponent& component);
   EpochRank Next(const EpochRank& last) const;
   void TakeEffect(const Rearrangement& wanted);
-  void MoveOut(const std::string& component,
-               const std::vector<Placement>& wanted,
-               std::map<std::string, std::vector<TeamScan>>& arriving);
+  void MoveOut(const std::string& component, const std::vector<Placement>& wanted, Moves& moves);
+  void MoveIn(const std::string& component, const std::vector<TeamScan>& scans, Moves& moves);
   void NoteJoined(const std::string& component, const Placement& wanted, const Pose2& before);
   void Tell(TeamEpoch epoch);
   void TellNewPoints(const TeamScan& scan, const MapAddition& addition) const;

@@ -75,6 +75,12 @@ std::optional<TeamScan> TeamMap::LastOf(std::string_view robot) const {
   return last == last_by_robot_.end() ? std::nullopt : std::optional(heads_[last->second]);
 }
 
+std::size_t TeamMap::CountOf(std::string_view robot) const {
+  const std::lock_guard lock(register_);
+  return static_cast<std::size_t>(std::ranges::count(
+      heads_, robot, [](const TeamScan& scan) { return std::string_view(scan.key.robot); }));
+}
+
 ScanKey TeamMap::KeyOf(ScanId id) const {
   const std::lock_guard lock(register_);
   return heads_[id].key;

@@ -84,6 +84,8 @@ class TeamMap {
   /// The last relevant scan of the robot: where it was and what its odometry said. Its ranges are
   /// left out.
   std::optional<TeamScan> LastOf(std::string_view robot) const;
+  /// Number of relevant scans of the robot.
+  std::size_t CountOf(std::string_view robot) const;
   /// The key of a scan. @pre it was added.
   ScanKey KeyOf(ScanId id) const;
   /// The scan of that key, if it was added.

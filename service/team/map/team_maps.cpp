@@ -20,6 +20,11 @@ MapComponent TeamMaps::Named(const std::string& name) {
   return {.name = name, .map = MapNamed(name)};
 }
 
+bool TeamMaps::Has(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  return by_name_.contains(name);
+}
+
 std::vector<MapComponent> TeamMaps::All() const {
   const std::lock_guard lock(mutex_);
   std::vector<MapComponent> components;
@@ -27,12 +32,9 @@ std::vector<MapComponent> TeamMaps::All() const {
   return components;
 }
 
-// Who comes back to where it was lost before is in another component all the same.
 MapComponent TeamMaps::BeginFor(std::string_view robot) {
   const std::lock_guard lock(mutex_);
-  const std::string stem = robot.empty() ? std::string("robot") : std::string(robot);
-  std::string name = stem;
-  for (int number = 2; names_.contains(name); ++number) name = stem + "_" + std::to_string(number);
+  const std::string name = NewName(robot);
   name_of_robot_[std::string(robot)] = name;
   return {.name = name, .map = MapNamed(name)};
 }
@@ -47,9 +49,28 @@ void TeamMaps::Put(std::string_view robot, const std::string& name) {
   name_of_robot_[std::string(robot)] = name;
 }
 
-void TeamMaps::Drop(const std::string& name) {
+std::string TeamMaps::NewNameFor(std::string_view robot) {
   const std::lock_guard lock(mutex_);
-  by_name_.erase(name);
+  return NewName(robot);
+}
+
+// A robot may begin several components, one after the other.
+std::string TeamMaps::NewName(std::string_view robot) {
+  const std::string stem = robot.empty() ? std::string("robot") : std::string(robot);
+  std::string name = stem;
+  for (int number = 2; names_.contains(name); ++number) name = stem + "_" + std::to_string(number);
+  names_.insert(name);
+  return name;
+}
+
+void TeamMaps::Exchange(const std::map<std::string, std::shared_ptr<TeamMap>>& map_of_component,
+                        const std::map<std::string, std::string>& home_of_robot) {
+  const std::lock_guard lock(mutex_);
+  for (const auto& [name, map] : map_of_component) {
+    names_.insert(name);
+    map ? by_name_.insert_or_assign(name, map).second : by_name_.erase(name) > 0;
+  }
+  for (const auto& [robot, home] : home_of_robot) name_of_robot_[robot] = home;
   size_ = by_name_.size();
 }
 

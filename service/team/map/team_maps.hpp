@@ -36,6 +36,7 @@ class TeamMaps {
   MapComponent Of(std::string_view robot);
   /// The component of that name; an empty one if there is none.
   MapComponent Named(const std::string& name);
+  bool Has(const std::string& name) const;
   std::vector<MapComponent> All() const;
   /// Number of components, with the one that the team shares.
   std::size_t size() const { return size_.load(); }
@@ -46,11 +47,19 @@ class TeamMaps {
   void Reserve(const std::string& name);
   /// Says that the robot is in the component of that name from now on.
   void Put(std::string_view robot, const std::string& name);
-  /// Forgets a component, or begins it anew. Who reads its map may go on.
-  void Drop(const std::string& name);
+  /// A name that no component had before, for one that the robot begins.
+  std::string NewNameFor(std::string_view robot);
+  /// An empty map, of no component yet.
+  std::shared_ptr<TeamMap> Make() const { return std::make_shared<TeamMap>(options_); }
+  /// Gives components other maps, all at once; one without a map is none any more. Who reads a map
+  /// that was a component's may go on.
+  /// @param home_of_robot names of the components that robots are in from now on.
+  void Exchange(const std::map<std::string, std::shared_ptr<TeamMap>>& map_of_component,
+                const std::map<std::string, std::string>& home_of_robot);
 
  private:
   std::string HomeOf(std::string_view robot) const;
+  std::string NewName(std::string_view robot);
   std::shared_ptr<TeamMap> MapNamed(const std::string& name);
 
   const MapSharing sharing_;

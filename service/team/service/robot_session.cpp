@@ -103,7 +103,11 @@ void RobotSession::FollowCorrections() {
   const MapVersion now = component_.map->VersionOf(*contents);
   if (std::exchange(version_, now) == now || !last_relevant_) return;
   const std::optional<ScanId> last = component_.map->Find(*last_relevant_);
-  if (!last) return;
+  if (!last) {  // Another service has answered the robot since, elsewhere.
+    last_relevant_.reset();
+    is_placed_ = false;
+    return;
+  }
   const UncertainPose2& map_last = contents->map.scans()[*last].map_robot;
   tracker_.FollowCorrection(map_last * Since(*nodes_.map_last(), tracker_.map_robot()));
   nodes_.Follow(map_last);
@@ -131,6 +135,7 @@ void RobotSession::ExtendWith(TeamScan& scan) {
     const UncertainPose2 robot_scan{.T_a_b = tracker_.map_robot().T_a_b.Inverse() *
                                              scan.map_robot.T_a_b};
     FollowCorrections();
+    if (!is_placed_) return;
     scan.component = component_.name;
     scan.map_robot.T_a_b = (tracker_.map_robot() * robot_scan).T_a_b;
   }
@@ -181,6 +186,7 @@ void RobotSession::Place() {
     tracker_.SuspectOdometryReset();
   } else if (context_.start) {
     tracker_.PlaceAt(*context_.start);
+    context_.merger.HearPlaceOf(name());
   } else if (!component_.map->Begin()) {
     BeginComponent();
   }
@@ -190,6 +196,7 @@ void RobotSession::Place() {
 // What a robot is told is where it is in the map that all share. What it has mapped in a component
 // stays there until that is found in the map, too.
 void RobotSession::TakeUp(const UncertainPose2& told) {
+  context_.merger.HearPlaceOf(name());
   TeamMaps& maps = context_.atlas.maps();
   const bool is_apart = maps.sharing() == MapSharing::kTeam && !component_.name.empty();
   if (is_apart) {

@@ -70,7 +70,7 @@ void TeamService::Start() {
   host_.Start({.tell_status = [this] { sinks_.Tell(&TeamSink::TakeStatus, Status()); },
                .tell_maps = [this](const std::stop_token& stop) { PaintMaps(stop); },
                .map_period = kPaintPeriod});
-  if (options_.team.map != MapSharing::kTeam) return;
+  if (options_.team.map != MapSharing::kTeam || !options_.merges_beside) return;
   merging_ = std::make_unique<PeriodicTask>(
       kMergePeriod, true, [this](const std::stop_token& stop) { MergeMaps(stop); });
 }
@@ -80,16 +80,24 @@ void TeamService::Stop() {
   host_.Stop();
 }
 
+// The thread beside gives way to all others: nobody is to wait for it.
 void TeamService::WaitUntilIdle() {
   host_.WaitUntilIdle();
-  MergeMaps({});
+  if (!merging_) MergeMaps({});
 }
 
 // In the background, however long it takes.
 void TeamService::MergeMaps(const std::stop_token& stop) {
-  const std::lock_guard lock(looking_around_);
   atlas_.Tidy();
   if (const auto place = merger_.LookAround(atlas_.maps().All(), stop)) atlas_.Join(*place);
+  if (const auto misplaced = merger_.FindMisplaced(atlas_.maps().All())) {
+    const auto& [robot, component, version] = *misplaced;
+    if (!atlas_.Part(robot, version, component)) return merger_.HearPlaceOf(robot);
+    sinks_.Tell(&TeamSink::TakeEvent,
+                {.robot = robot,
+                 .is_warning = true,
+                 .text = "is not where it was told: what it sees there, others do not"});
+  }
 }
 
 void TeamService::TakeIn(std::vector<TeamScan> scans) {

@@ -35,6 +35,9 @@ struct TeamServiceOptions {
   TeamOptions team;
   MapperOptions mapper;  ///< The matcher is q-wsm, whatever the options say.
   bool corrects = true;  ///< Whether maps are corrected while robots drive.
+  /// Whether components of the map are looked for in one another beside the robots, or only where
+  /// somebody waits for that; see WaitUntilIdle().
+  bool merges_beside = true;
   OccupancyGridOptions rendering;
 };
 
@@ -61,8 +64,9 @@ class TeamService {
   /// Finishes the matches at work, saves what is to be saved, and works no more. What waits in
   /// queues is left out.
   void Stop();
-  /// Waits until every scan that was taken is answered or dropped, all that can be is on disk, and
-  /// components of the map have been looked for in one another with what robots saw last.
+  /// Waits until every scan that was taken is answered or dropped, and all that can be is on disk.
+  /// Where components are not looked for in one another beside, does that with what robots saw
+  /// last.
   void WaitUntilIdle();
 
   /// The name of the service in the keys of its relevant scans.
@@ -107,7 +111,6 @@ class TeamService {
   const SinkList<TeamSink> sinks_;
   TeamAtlas atlas_;
   MapMerger merger_;
-  std::mutex looking_around_;      // Of those who do one after the other.
   std::vector<TeamScan> offered_;  // Scans from the journal, until the start.
   std::atomic<std::uint64_t> taken_in_ = 0;
   std::atomic<std::uint64_t> duplicates_ = 0;
