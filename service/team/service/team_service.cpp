@@ -136,6 +136,12 @@ void TeamService::Keep(io::JournalEntry entry, const std::function<void()>& sett
   host_.journal().Append(std::move(entry), settled);
 }
 
+TeamStatus TeamService::Status() {
+  TeamStatus status = host_.Status(StatusOfMaps());
+  for (RobotStatus& robot : status.robots) robot.component = atlas_.maps().Of(robot.name).name;
+  return status;
+}
+
 MapStatus TeamService::StatusOfMaps() const {
   MapStatus status{
       .taken_in = taken_in_.load(), .duplicates = duplicates_.load(), .refused = refused_.load()};
