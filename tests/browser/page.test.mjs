@@ -130,10 +130,10 @@ test('a correction of the map takes along what lies on it, and is shown before a
     const {model} = window.qwsm;
     const robot = model.robots.get('robot_2');
     const {x, y} = robot.trail[0];
-    const moved = {origin: 'test', robot: 'robot_2', number: 1, before: {x, y, theta: 0}, pose: {x: x + 2, y, theta: 0}};
-    const last = model.epochs.get('');
+    const moved = {origin: 'test', robot: 'robot_2', number: 1, frameBefore: 'map', frame: 'map', before: {x, y, theta: 0}, pose: {x: x + 2, y, theta: 0}};
+    const last = model.epoch;
     model.take({topic: '/map_epoch', schemaName: 'qwsm_msgs/msg/MapEpoch'},
-      {stamp: model.now, origin: 'test', mapOf: '', number: (last?.number ?? 0) + 1, robots: [], scans: [moved]}, {published_ms: Infinity, told_ms: Date.now()});
+      {stamp: model.now, origin: 'test', number: (last?.number ?? 0) + 1, robots: [], scans: [moved]}, {published_ms: Infinity, told_ms: Date.now()});
     return {before: x, after: robot.trail[0].x, text: model.events[0].text};
   });
   assert.ok(Math.abs(after - before - 2) < 1e-9);
@@ -142,6 +142,27 @@ test('a correction of the map takes along what lies on it, and is shown before a
   assert.ok(await inPage(() => window.qwsm.state.shownEvent?.moves.length === 1));
   await page.locator('.events button').first().click();
   assert.equal(await inPage(() => window.qwsm.state.shownEvent), null);
+});
+
+test('a robot in a map of its own is not drawn in the team\'s until it is found there', async () => {
+  const {apart, drawn, joined, found, text} = await inPage(() => {
+    const {model} = window.qwsm;
+    const report = (frame) => model.take({topic: '/robot_9/match_report', schemaName: 'qwsm_msgs/msg/MatchReport'},
+      {robot: 'robot_9', frame, stamp: model.now, pose: {x: 1, y: 2, theta: 0}, covariance: new Float64Array(9), status: 1, reason: '', overlap: 1}, {published_ms: 0, told_ms: Date.now()});
+    const isDrawn = () => model.robotsInMap().some(({name}) => name === 'robot_9');
+    report('map_robot_9');
+    const drawn = isDrawn();
+    const robot = model.robots.get('robot_9');
+    const apart = robot.isApart;
+    const moved = {origin: 'test', robot: 'robot_9', number: 1, frameBefore: 'map_robot_9', frame: 'map', before: {x: 0, y: 0, theta: 0}, pose: {x: 10, y: 0, theta: 0}};
+    model.take({topic: '/map_epoch', schemaName: 'qwsm_msgs/msg/MapEpoch'},
+      {stamp: model.now, origin: 'test', number: model.epoch.number + 1, robots: [], scans: [moved]}, {published_ms: Infinity, told_ms: Date.now()});
+    const [joined, found, text] = [isDrawn(), robot.last.x, model.events[0].text];
+    model.robots.delete('robot_9');
+    return {apart, drawn, joined, found, text};
+  });
+  assert.deepEqual({apart, drawn, joined, found}, {apart: true, drawn: false, joined: true, found: 11});
+  assert.equal(text, 'map_robot_9 was found in map: they are one map now');
 });
 
 test('whoever comes late sees the whole map within a second', async (t) => {

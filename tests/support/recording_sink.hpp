@@ -18,6 +18,10 @@ class RecordingSink : public team::TeamSink {
   void TakeAnswer(const team::RobotAnswer& answer) override {
     const std::lock_guard lock(mutex_);
     steps_[answer.robot].push_back(answer.step);
+    std::vector<std::string>& components = components_[answer.robot];
+    if (components.empty() || components.back() != answer.component) {
+      components.push_back(answer.component);
+    }
   }
   void TakeReport(const team::RobotAnswer& answer) override {
     const std::lock_guard lock(mutex_);
@@ -33,7 +37,7 @@ class RecordingSink : public team::TeamSink {
   }
   void TakeMap(const team::MapPicture& map) override {
     const std::lock_guard lock(mutex_);
-    maps_[std::string(map.robot)] = map.grid;
+    maps_[std::string(map.component)] = map.grid;
   }
   void TakeEpoch(const team::TeamEpoch& epoch) override {
     const std::lock_guard lock(mutex_);
@@ -53,6 +57,11 @@ class RecordingSink : public team::TeamSink {
     const std::lock_guard lock(mutex_);
     const auto found = steps_.find(robot);
     return found == steps_.end() ? std::vector<MappingStep>() : found->second;
+  }
+  /// The components of the map that the robot was answered in, one after the other.
+  std::vector<std::string> components(const std::string& robot) const {
+    const std::lock_guard lock(mutex_);
+    return components_.at(robot);
   }
   std::vector<MappingStep> reports(const std::string& robot) const {
     const std::lock_guard lock(mutex_);
@@ -93,6 +102,7 @@ class RecordingSink : public team::TeamSink {
  private:
   mutable std::mutex mutex_;
   std::map<std::string, std::vector<MappingStep>> steps_;
+  std::map<std::string, std::vector<std::string>> components_;
   std::map<std::string, std::vector<MappingStep>> reports_;
   std::vector<team::TeamScan> relevant_;
   std::vector<team::TeamEpoch> epochs_;

@@ -108,14 +108,15 @@ const PlaceBelief& PlaceFinder::Look(const ScanMap& map,
   Weigh(sight);
   ForgetUnlikely();
   T_local_last_ = T_local_robot;
-  ++looks_;
+  const bool is_promising = !hypotheses_.empty() && hypotheses_.front().nats > 0.0;
+  vain_looks_ = is_promising ? 0 : vain_looks_ + 1;
   return belief_ = Belief();
 }
 
 bool PlaceFinder::HasMovedOn(const Pose2& T_local_robot) const {
   if (!T_local_last_) return true;
   const Pose2 moved = T_local_last_->Inverse() * T_local_robot;
-  const double rarer = std::min(kRarest, std::pow(kRarer, looks_ - 1));
+  const double rarer = std::min(kRarest, std::pow(kRarer, vain_looks_));
   return moved.translation_m().norm() > rarer * kBetweenLooks_m ||
          std::abs(moved.theta_rad) > rarer * kBetweenLooks_rad;
 }

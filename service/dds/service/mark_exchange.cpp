@@ -9,6 +9,7 @@
 #include "service/dds/wire/planar.hpp"
 #include "service/dds/wire/robot_names.hpp"
 #include "service/dds/wire/scan_conversion.hpp"
+#include "service/team/scans/component.hpp"
 
 namespace qwsm::dds {
 
@@ -110,6 +111,8 @@ void MarkExchange::HearScans() {
         .service = sample.origin, .robot = sample.robot, .sequence = sample.sequence_number};
     stamps_[key] = stamp;
     const auto corrected = corrected_.find(key);
+    const bool is_in_map = team::ComponentOf(sample.header.frame_id).empty();
+    if (corrected == corrected_.end() && !is_in_map) return;
     places.push_back(
         {.robot = key.robot,
          .stamp = stamp,
@@ -122,6 +125,7 @@ void MarkExchange::Follow(const team::TeamEpoch& epoch) {
   std::vector<team::ScanPlace> places;
   const std::lock_guard lock(mutex_);
   for (const team::MovedScan& scan : epoch.scans) {
+    if (!scan.component.empty()) continue;  // Marks are in the map that all share.
     corrected_[scan.key] = scan.map_robot.T_a_b;
     const auto stamp = stamps_.find(scan.key);
     if (stamp == stamps_.end()) continue;

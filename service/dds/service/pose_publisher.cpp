@@ -12,19 +12,19 @@ template <class Kind>
 PosePublisher<Kind>::PosePublisher(const Participant& participant,
                                    const RobotNames& names,
                                    const Writer<wire::TFMessage>& transforms)
-    : map_frame_(kMapFrame),
-      odom_frame_(names.Frame(kOdometryFrame)),
+    : odom_frame_(names.Frame(kOdometryFrame)),
       robot_frame_(names.Frame(kRobotFrame)),
       transforms_(transforms),
       poses_(participant, names.Topic(kPoseTopic), Profile::kAnswer),
       odometry_(participant, names.Topic(kMatchedOdometryTopic), Profile::kAnswer) {}
 
 template <class Kind>
-void PosePublisher<Kind>::Publish(Timestamp stamp,
+void PosePublisher<Kind>::Publish(const std::string& map_frame,
+                                  Timestamp stamp,
                                   const typename Kind::UncertainPose& map_robot,
                                   const std::optional<Pose>& T_odom_robot) const {
   wire::PoseWithCovarianceStamped pose{};
-  pose.header = HeaderOf(stamp, map_frame_);
+  pose.header = HeaderOf(stamp, map_frame);
   pose.pose.pose = ToWire(map_robot.T_a_b);
   CopyCovariance(map_robot.covariance, pose.pose.covariance);
   poses_.Write(pose);
@@ -35,18 +35,19 @@ void PosePublisher<Kind>::Publish(Timestamp stamp,
   odometry.pose = pose.pose;
   odometry_.Write(odometry);
 
-  PublishTransform(stamp, map_robot.T_a_b, T_odom_robot);
+  PublishTransform(map_frame, stamp, map_robot.T_a_b, T_odom_robot);
 }
 
 /// A frame has one parent only: the robot's is `odom`, which whoever measures odometry publishes.
 /// Without odometry it is `map`.
 template <class Kind>
-void PosePublisher<Kind>::PublishTransform(Timestamp stamp,
+void PosePublisher<Kind>::PublishTransform(const std::string& map_frame,
+                                           Timestamp stamp,
                                            const Pose& T_map_robot,
                                            const std::optional<Pose>& T_odom_robot) const {
   const Pose T_map_child = T_odom_robot ? T_map_robot * T_odom_robot->Inverse() : T_map_robot;
   const std::string& child = T_odom_robot ? odom_frame_ : robot_frame_;
-  transforms_.Write(TransformSample(stamp, map_frame_, child, ToWire(T_map_child)).sample());
+  transforms_.Write(TransformSample(stamp, map_frame, child, ToWire(T_map_child)).sample());
 }
 
 template class PosePublisher<team::Planar>;

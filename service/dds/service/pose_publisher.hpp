@@ -25,17 +25,19 @@ class PosePublisher {
                 const Writer<wire::TFMessage>& transforms);
 
   /// Publishes the pose at a time.
+  /// @param map_frame that the pose is in.
   /// @param T_odom_robot odometry at the same time, if there is one.
-  void Publish(Timestamp stamp,
+  void Publish(const std::string& map_frame,
+               Timestamp stamp,
                const typename Kind::UncertainPose& map_robot,
                const std::optional<Pose>& T_odom_robot) const;
 
  private:
-  void PublishTransform(Timestamp stamp,
+  void PublishTransform(const std::string& map_frame,
+                        Timestamp stamp,
                         const Pose& T_map_robot,
                         const std::optional<Pose>& T_odom_robot) const;
 
-  std::string map_frame_;
   std::string odom_frame_;
   std::string robot_frame_;
   const Writer<wire::TFMessage>& transforms_;

@@ -4,6 +4,7 @@
 
 #include "service/dds/wire/registration_report.hpp"
 #include "service/dds/wire/report_conversion.hpp"
+#include "service/team/scans/component.hpp"
 
 namespace qwsm::dds {
 
@@ -12,8 +13,7 @@ RobotOutbox<Kind>::RobotOutbox(const Participant& participant,
                                const RobotNames& names,
                                const Writer<wire::TFMessage>& transforms,
                                const Claim& claim)
-    : map_frame_(kMapFrame),
-      poses_(participant, names, transforms),
+    : poses_(participant, names, transforms),
       reports_(participant,
                names.Topic(OnWire<Kind>::kReportTopic),
                Profile::kAnswer,
@@ -21,13 +21,17 @@ RobotOutbox<Kind>::RobotOutbox(const Participant& participant,
 
 template <class Kind>
 void RobotOutbox<Kind>::Publish(const team::Answer<Kind>& answer) const {
-  poses_.Publish(answer.step.stamp, answer.step.map_robot, answer.T_odom_robot);
+  poses_.Publish(team::FrameOf(answer.component),
+                 answer.step.stamp,
+                 answer.step.map_robot,
+                 answer.T_odom_robot);
 }
 
 template <class Kind>
 void RobotOutbox<Kind>::Report(const team::Answer<Kind>& answer) const {
   const auto report = ReportOf(answer);
-  reports_.Write(ToWire(report, map_frame_));
+  const std::string map_frame = team::FrameOf(answer.component);
+  reports_.Write(ToWire(report, map_frame));
 }
 
 template class RobotOutbox<team::Planar>;

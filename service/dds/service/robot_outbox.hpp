@@ -29,7 +29,6 @@ class RobotOutbox {
   void Report(const team::Answer<Kind>& answer) const;
 
  private:
-  std::string map_frame_;
   PosePublisher<Kind> poses_;
   Writer<typename OnWire<Kind>::WireReport> reports_;
 };

@@ -25,17 +25,14 @@ class TeamMapOutbox final : public team::TeamSink {
 
  private:
   using MapWriter = Writer<wire::OccupancyGrid>;
-  using EpochWriter = Writer<wire::MapEpoch>;
 
-  std::shared_ptr<const MapWriter> MapOf(std::string_view robot);
-  std::shared_ptr<const EpochWriter> EpochOf(std::string_view robot);
+  std::shared_ptr<const MapWriter> MapOf(std::string_view component);
 
   const Participant& participant_;
-  const std::string map_frame_;
   Writer<wire::PointCloud2> new_points_;
   Writer<wire::RelevantScan> shared_scans_;
+  Writer<wire::MapEpoch> epochs_;
   TopicsByRobot<MapWriter> maps_;
-  TopicsByRobot<EpochWriter> epochs_;
 };
 
 }  // namespace qwsm::dds

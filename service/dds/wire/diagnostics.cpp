@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "service/dds/wire/planar.hpp"
+#include "service/team/scans/component.hpp"
 
 namespace qwsm::dds {
 namespace {
@@ -26,6 +27,10 @@ Health HealthOf(const team::RobotStatus& robot) {
       robot.state == team::RobotState::kTracked ? HealthLevel::kOk : HealthLevel::kWarning;
   if (robot.state == team::RobotState::kLost) health.level = HealthLevel::kStale;
   if (robot.state == team::RobotState::kElsewhere) health.level = HealthLevel::kOk;
+  // Where it is is known to itself only.
+  if (robot.state == team::RobotState::kTracked && !robot.component.empty()) {
+    health.message += " in " + team::FrameOf(robot.component);
+  }
   const team::SessionCounts& counts = robot.counts;
   Add(health, "scans", counts.scans);
   Add(health, "answered", counts.answered);

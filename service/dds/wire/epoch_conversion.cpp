@@ -10,6 +10,7 @@
 #include "qwsm/geometry/position.hpp"
 #include "service/dds/wire/planar.hpp"
 #include "service/dds/wire/robot_names.hpp"
+#include "service/team/scans/component.hpp"
 
 namespace qwsm::dds {
 namespace {
@@ -20,35 +21,41 @@ std::span<const wire::MovedScan> ScansOf(const wire::MapEpoch& sample) {
   return {sample.scans._buffer, sample.scans._length};
 }
 
+}  // namespace
+
+const std::string& EpochSample::FrameOf(const std::string& component) {
+  return frames_.try_emplace(component, team::FrameOf(component)).first->second;
+}
+
 // As the last scan of each robot is moved.
-std::vector<wire::MovedRobot> RobotsOf(const team::TeamEpoch& epoch) {
+std::vector<wire::MovedRobot> EpochSample::RobotsOf(const team::TeamEpoch& epoch) {
   std::map<std::string_view, const team::MovedScan*> last;
   for (const team::MovedScan& scan : epoch.scans) last[scan.key.robot] = &scan;
   std::vector<wire::MovedRobot> robots;
   for (const auto& [name, scan] : last) {
     wire::MovedRobot& robot = robots.emplace_back();
     robot.robot = Borrow(scan->key.robot);
+    robot.frame_before = Borrow(FrameOf(scan->component_before));
+    robot.frame = Borrow(FrameOf(scan->component));
     robot.correction = ToWire2D(scan->map_robot.T_a_b * scan->T_map_robot_before.Inverse());
   }
   return robots;
 }
 
-}  // namespace
-
-EpochSample::EpochSample(const team::TeamEpoch& epoch, const std::string& map_frame)
-    : robots_(RobotsOf(epoch)) {
+EpochSample::EpochSample(const team::TeamEpoch& epoch) : robots_(RobotsOf(epoch)) {
   for (const team::MovedScan& moved : epoch.scans) {
     wire::MovedScan& scan = scans_.emplace_back();
     scan.origin = Borrow(moved.key.service);
     scan.robot = Borrow(moved.key.robot);
     scan.sequence_number = moved.key.sequence;
+    scan.frame_before = Borrow(FrameOf(moved.component_before));
+    scan.frame = Borrow(FrameOf(moved.component));
     scan.before = ToWire2D(moved.T_map_robot_before);
     scan.pose = ToWire2D(moved.map_robot.T_a_b);
     CopyCovariance(moved.map_robot.covariance, scan.covariance);
   }
-  sample_.header = HeaderOf(epoch.stamp, map_frame);
+  sample_.header = HeaderOf(epoch.stamp, FrameOf(""));
   sample_.origin = Borrow(epoch.rank.service);
-  sample_.map_of = Borrow(epoch.robot);
   sample_.number = epoch.rank.number;
   const auto robots = static_cast<std::uint32_t>(robots_.size());
   const auto scans = static_cast<std::uint32_t>(scans_.size());
@@ -64,7 +71,8 @@ std::string_view ObjectionTo(const wire::MapEpoch& sample) {
   }
   if (*sample.origin == '\0' || IsTooLong(sample.origin)) return "it names no service";
   for (const wire::MovedScan& scan : ScansOf(sample)) {
-    if (IsTooLong(scan.origin) || IsTooLong(scan.robot)) {
+    if (IsTooLong(scan.origin) || IsTooLong(scan.robot) || IsTooLong(scan.frame) ||
+        IsTooLong(scan.frame_before)) {
       return "a name in it is too long";
     }
     const UncertainPose2 pose{.T_a_b = FromWire(scan.pose),
@@ -77,12 +85,13 @@ std::string_view ObjectionTo(const wire::MapEpoch& sample) {
 
 team::TeamEpoch FromWire(const wire::MapEpoch& sample) {
   team::TeamEpoch epoch{.rank = {.number = sample.number, .service = sample.origin},
-                        .robot = sample.map_of,
                         .stamp = *FromWire(sample.header.stamp),
                         .scans = {}};
   for (const wire::MovedScan& scan : ScansOf(sample)) {
     epoch.scans.push_back(
         {.key = {.service = scan.origin, .robot = scan.robot, .sequence = scan.sequence_number},
+         .component = team::ComponentOf(scan.frame),
+         .component_before = team::ComponentOf(scan.frame_before),
          .T_map_robot_before = FromWire(scan.before),
          .map_robot = {.T_a_b = FromWire(scan.pose), .covariance = CovarianceOf(scan.covariance)}});
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,14 +16,18 @@ namespace qwsm::dds {
 /// A correction as it is published.
 class EpochSample {
  public:
-  /// @param epoch, map_frame: outlive this.
-  EpochSample(const team::TeamEpoch& epoch, const std::string& map_frame);
+  /// @param epoch outlives this.
+  explicit EpochSample(const team::TeamEpoch& epoch);
   EpochSample(const EpochSample&) = delete;
   EpochSample& operator=(const EpochSample&) = delete;
 
   const wire::MapEpoch& sample() const { return sample_; }
 
  private:
+  const std::string& FrameOf(const std::string& component);
+  std::vector<wire::MovedRobot> RobotsOf(const team::TeamEpoch& epoch);
+
+  std::map<std::string, std::string> frames_;  // By component.
   std::vector<wire::MovedScan> scans_;
   std::vector<wire::MovedRobot> robots_;
   wire::MapEpoch sample_{};

@@ -9,6 +9,7 @@
 #include "qwsm/sensor/scan_limits.hpp"
 #include "service/dds/wire/planar.hpp"
 #include "service/dds/wire/robot_names.hpp"
+#include "service/team/scans/component.hpp"
 
 namespace qwsm::dds {
 namespace {
@@ -101,6 +102,7 @@ std::string_view ObjectionTo(const wire::RelevantScan& sample) {
 team::TeamScan FromWire(const wire::RelevantScan& sample) {
   team::TeamScan scan;
   scan.key = {.service = sample.origin, .robot = sample.robot, .sequence = sample.sequence_number};
+  scan.component = team::ComponentOf(sample.header.frame_id);
   scan.scan = {.stamp = *FromWire(sample.header.stamp),
                .geometry = {.first_bearing_rad = sample.angle_min,
                             .bearing_step_rad = sample.angle_increment,

@@ -7,9 +7,10 @@
 namespace qwsm::io {
 namespace {
 
-// Scans begin with 0 or 1; see EncodeScan().
-constexpr std::uint32_t kEpochMark = 0x706f6365;
-// Two lengths, a number, a pose and its covariance.
+// Scans begin with a number below 4; see EncodeScan().
+constexpr std::uint32_t kEpochMark = 0x326f7065;
+constexpr std::uint32_t kOneMapMark = 0x706f6365;  // Of journals that know of one map only.
+// At least two lengths, a number, a pose and its covariance.
 constexpr std::size_t kLeastBytes = 2 * sizeof(std::uint32_t) + 13 * sizeof(double);
 
 }  // namespace
@@ -22,23 +23,28 @@ std::string EncodeEpoch(std::span<const JournaledPose> poses) {
     writer.Add(std::string_view(pose.service));
     writer.Add(std::string_view(pose.robot));
     writer.Add(pose.sequence);
+    writer.Add(std::string_view(pose.component));
     AddPose(writer, pose.map_robot);
   }
   return writer.bytes();
 }
 
 bool IsEpoch(std::string_view contents) {
-  return contents.size() >= sizeof(kEpochMark) && BinaryReader(contents).Unsigned32() == kEpochMark;
+  if (contents.size() < sizeof(kEpochMark)) return false;
+  const std::uint32_t mark = BinaryReader(contents).Unsigned32();
+  return mark == kEpochMark || mark == kOneMapMark;
 }
 
 std::vector<JournaledPose> DecodeEpoch(std::string_view contents) {
+  if (!IsEpoch(contents)) throw BinaryError("it is no correction of a map");
   BinaryReader reader(contents);
-  if (reader.Unsigned32() != kEpochMark) throw BinaryError("it is no correction of a map");
+  const bool names_components = reader.Unsigned32() == kEpochMark;
   std::vector<JournaledPose> poses(reader.Count(kLeastBytes));
   for (JournaledPose& pose : poses) {
     pose.service = reader.Text();
     pose.robot = reader.Text();
     pose.sequence = reader.Unsigned64();
+    if (names_components) pose.component = reader.Text();
     pose.map_robot = ReadUncertainPose(reader);
   }
   if (reader.remaining() > 0) throw BinaryError("there is more in it than a correction");

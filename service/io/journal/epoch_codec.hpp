@@ -17,6 +17,7 @@ struct JournaledPose {
   std::string service;  ///< These three name the scan's entry.
   std::string robot;
   std::uint64_t sequence = 0;
+  std::string component{};  ///< Of the map, that the scan is in.
   UncertainPose2 map_robot;
 };
 

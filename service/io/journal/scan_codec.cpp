@@ -11,6 +11,10 @@
 namespace qwsm::io {
 namespace {
 
+// What there is of a scan in a journal.
+constexpr std::uint32_t kHasOdometry = 1;
+constexpr std::uint32_t kHasComponent = 2;
+
 LaserGeometry ReadGeometry(BinaryReader& reader) {
   LaserGeometry geometry;
   geometry.first_bearing_rad = reader.Float();
@@ -51,7 +55,9 @@ RelevantScan ReadScan(BinaryReader& reader) {
 
 std::string EncodeScan(const JournaledScan& scan) {
   BinaryWriter writer;
-  writer.Add(static_cast<std::uint32_t>(scan.T_odom_robot.has_value() ? 1 : 0));
+  writer.Add((scan.T_odom_robot ? kHasOdometry : 0U) |
+             (scan.component.empty() ? 0U : kHasComponent));
+  if (!scan.component.empty()) writer.Add(std::string_view(scan.component));
   AddPose(writer, scan.T_odom_robot.value_or(Pose2{}));
   AddScan(writer, scan.relevant);
   return writer.bytes();
@@ -60,9 +66,10 @@ std::string EncodeScan(const JournaledScan& scan) {
 JournaledScan DecodeScan(std::string_view bytes) {
   BinaryReader reader(bytes);
   JournaledScan scan;
-  const bool has_odometry = reader.Unsigned32() != 0;
+  const std::uint32_t has = reader.Unsigned32();
+  if ((has & kHasComponent) != 0) scan.component = reader.Text();
   const Pose2 T_odom_robot = ReadPose(reader);
-  if (has_odometry) scan.T_odom_robot = T_odom_robot;
+  if ((has & kHasOdometry) != 0) scan.T_odom_robot = T_odom_robot;
   scan.relevant = ReadScan(reader);
   if (reader.remaining() > 0) throw BinaryError("there is more in it than a scan");
   return scan;

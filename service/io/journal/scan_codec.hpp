@@ -21,6 +21,7 @@ RelevantScan ReadScan(BinaryReader& reader);
 struct JournaledScan {
   RelevantScan relevant;
   std::optional<Pose2> T_odom_robot;  ///< Odometry for the robot to go on from.
+  std::string component{};  ///< Of the map, that it was taken in; empty for the one all share.
 };
 
 /// Kind of the journals that keep these; see JournalFile.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/io/logs/journal_reader.hpp"
 
+#include <tuple>
 #include <utility>
 
 #include "service/io/journal/epoch_codec.hpp"
@@ -35,10 +36,10 @@ void JournalReader::ReadCorrections(const std::filesystem::path& file) {
     if (!IsEpoch(entry->contents)) continue;
     try {
       for (const JournaledPose& pose : DecodeEpoch(entry->contents)) {
-        corrected_[{pose.service, pose.robot, pose.sequence}] = pose.map_robot;
+        corrected_[{pose.service, pose.robot, pose.sequence}] = {pose.component, pose.map_robot};
       }
     } catch (const BinaryError&) {
-      CountDamaged(1, "an entry holds no correction that can be read");
+      Count(1, "an entry holds no correction that can be read");
     }
   }
 }
@@ -47,15 +48,20 @@ std::optional<LogRecord> JournalReader::Next() {
   while (std::optional<JournalEntry> entry = NextEntry()) {
     if (IsEpoch(entry->contents)) continue;
     try {
-      RelevantScan relevant = DecodeScan(entry->contents).relevant;
+      auto [relevant, T_odom_robot, component] = DecodeScan(entry->contents);
       const auto corrected = corrected_.find({entry->service, entry->robot, entry->sequence});
-      if (corrected != corrected_.end()) relevant.map_robot = corrected->second;
+      if (corrected != corrected_.end())
+        std::tie(component, relevant.map_robot) = corrected->second;
+      if (!component.empty()) {
+        Count(1, "a scan is in a map of its robot's own: nobody knows where in the team's it lies");
+        continue;
+      }
       ++report_.scans;
       return ScanReading{.scan = std::move(relevant.scan),
                          .T_odom_robot = relevant.map_robot.T_a_b,
                          .laser = std::move(entry->robot)};
     } catch (const BinaryError&) {
-      CountDamaged(1, "an entry holds no scan that can be read");
+      Count(1, "an entry holds no scan that can be read");
     }
   }
   return std::nullopt;
@@ -67,20 +73,20 @@ std::optional<JournalEntry> JournalReader::NextEntry() {
     std::optional<JournalEntry> entry = journal_.Next();
     const std::size_t damaged = journal_.damaged() - damaged_before;
     report_.lines += damaged + (entry ? 1 : 0);
-    if (damaged > 0) CountDamaged(damaged, "an entry is damaged");
+    if (damaged > 0) Count(damaged, "an entry is damaged");
     return entry;
   } catch (const JournalError& error) {
     throw LogError(error.what());
   }
 }
 
-void JournalReader::CountDamaged(std::size_t damaged, const char* what) {
+void JournalReader::Count(std::size_t entries, const char* what) {
   for (LogFault& fault : report_.faults) {
     if (fault.what != what) continue;
-    fault.count += damaged;
+    fault.count += entries;
     return;
   }
-  report_.faults.push_back({.what = what, .count = damaged, .first_line = report_.lines});
+  report_.faults.push_back({.what = what, .count = entries, .first_line = report_.lines});
 }
 
 LogProgress JournalReader::progress() const {

@@ -30,14 +30,15 @@ class JournalReader final : public LogReader {
 
  private:
   std::optional<JournalEntry> NextEntry();
-  void CountDamaged(std::size_t damaged, const char* what);
+  void Count(std::size_t entries, const char* what);
 
   using Key = std::tuple<std::string, std::string, std::uint64_t>;  // Service, robot, sequence.
 
   void ReadCorrections(const std::filesystem::path& file);
 
   JournalFile journal_;
-  std::map<Key, UncertainPose2> corrected_;  // Poses that are not as they were answered.
+  // Scans that are not where they were taken: the component of the map, and the pose in it.
+  std::map<Key, std::pair<std::string, UncertainPose2>> corrected_;
   LogReport report_;
   std::size_t entries_;
 };

@@ -142,10 +142,8 @@ team::ScanKey LiveRun::KeyOf(std::uint64_t relevant) const {
 }
 
 void LiveRun::Correct(const MapEpoch& epoch, const ScanMap& map) {
-  team::TeamEpoch told{.rank = {.number = ++epochs_, .service = name_},
-                       .robot = {},
-                       .stamp = epoch.stamp,
-                       .scans = {}};
+  team::TeamEpoch told{
+      .rank = {.number = ++epochs_, .service = name_}, .stamp = epoch.stamp, .scans = {}};
   for (std::size_t i = 0; i < std::min(relevant_.size(), epoch.map_node.size()); ++i) {
     told.scans.push_back(
         {.key = KeyOf(i), .T_map_robot_before = relevant_[i], .map_robot = epoch.map_node[i]});
@@ -160,7 +158,7 @@ void LiveRun::Correct(const MapEpoch& epoch, const ScanMap& map) {
 void LiveRun::ShowMap() const {
   const OccupancyGridResult drawn = painter_.Grid();
   if (drawn.status != RenderStatus::kRendered) return;
-  topics_->Show(team::MapPicture{.robot = kOnlyRobot, .stamp = newest_, .grid = drawn.grid});
+  topics_->Show(team::MapPicture{.component = {}, .stamp = newest_, .grid = drawn.grid});
 }
 
 void LiveRun::ShowHealth() const {

@@ -14,6 +14,7 @@ namespace {
 TeamScan ScanFromJournal(const io::JournalEntry& entry) {
   io::JournaledScan scan = io::DecodeScan(entry.contents);
   return {.key = {.service = entry.service, .robot = entry.robot, .sequence = entry.sequence},
+          .component = std::move(scan.component),
           .scan = std::move(scan.relevant.scan),
           .map_robot = scan.relevant.map_robot,
           .T_odom_robot = scan.T_odom_robot};
@@ -22,12 +23,16 @@ TeamScan ScanFromJournal(const io::JournalEntry& entry) {
 }  // namespace
 
 io::JournalEntry ToJournal(const TeamScan& scan) {
+  io::JournaledScan journaled;
+  journaled.relevant.scan = scan.scan;
+  journaled.relevant.map_robot = scan.map_robot;
+  journaled.T_odom_robot = scan.T_odom_robot;
+  journaled.component = scan.component;
   return {.service = scan.key.service,
           .robot = scan.key.robot,
           .sequence = scan.key.sequence,
           .stamp = scan.scan.stamp,
-          .contents = io::EncodeScan({.relevant = {.scan = scan.scan, .map_robot = scan.map_robot},
-                                      .T_odom_robot = scan.T_odom_robot})};
+          .contents = io::EncodeScan(journaled)};
 }
 
 io::JournalEntry ToJournal(const TeamEpoch& epoch) {
@@ -37,10 +42,11 @@ io::JournalEntry ToJournal(const TeamEpoch& epoch) {
     poses.push_back({.service = scan.key.service,
                      .robot = scan.key.robot,
                      .sequence = scan.key.sequence,
+                     .component = scan.component,
                      .map_robot = scan.map_robot});
   }
   return {.service = epoch.rank.service,
-          .robot = epoch.robot,
+          .robot = {},
           .sequence = epoch.rank.number,
           .stamp = epoch.stamp,
           .contents = io::EncodeEpoch(poses)};
@@ -49,14 +55,18 @@ io::JournalEntry ToJournal(const TeamEpoch& epoch) {
 void JournaledMap::Take(const io::JournalEntry& entry) {
   if (!io::IsEpoch(entry.contents)) {
     TeamScan scan = ScanFromJournal(entry);
-    if (index_.try_emplace(scan.key, scans_.size()).second) scans_.push_back(std::move(scan));
+    if (!index_.try_emplace(scan.key, scans_.size()).second) return;
+    std::string component = scan.component;
+    scans_.push_back({.scan = std::move(scan), .component = std::move(component)});
     return;
   }
   for (io::JournaledPose& pose : io::DecodeEpoch(entry.contents)) {
     const auto known = index_.find({.service = std::move(pose.service),
                                     .robot = std::move(pose.robot),
                                     .sequence = pose.sequence});
-    if (known != index_.end()) scans_[known->second].map_robot = pose.map_robot;
+    if (known == index_.end()) continue;
+    scans_[known->second].scan.map_robot = pose.map_robot;
+    scans_[known->second].component = std::move(pose.component);
   }
   last_epoch_ = std::max(last_epoch_, entry.sequence);
 }

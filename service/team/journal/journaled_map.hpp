@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -17,19 +18,25 @@ namespace qwsm::team {
 io::JournalEntry ToJournal(const TeamScan& scan);
 io::JournalEntry ToJournal(const TeamEpoch& epoch);
 
-/// The relevant scans of a journal, where the last correction of the map has put them.
+/// A scan of a journal. Its pose is in the component that it is in now.
+struct JournaledTeamScan {
+  TeamScan scan;
+  std::string component;
+};
+
+/// The relevant scans of a journal, where the last correction has put them.
 class JournaledMap {
  public:
   /// Takes the next entry. @throws io::BinaryError where it holds nothing that can be read.
   void Take(const io::JournalEntry& entry);
 
   /// The scans that were taken, in their order, each once. To be called once.
-  std::vector<TeamScan> TakeScans() { return std::move(scans_); }
+  std::vector<JournaledTeamScan> TakeScans() { return std::move(scans_); }
   /// Number of the last correction; 0 if there was none.
   std::uint64_t last_epoch() const { return last_epoch_; }
 
  private:
-  std::vector<TeamScan> scans_;
+  std::vector<JournaledTeamScan> scans_;
   std::unordered_map<ScanKey, std::size_t, ScanKeyHash> index_;
   std::uint64_t last_epoch_ = 0;
 };

@@ -27,19 +27,20 @@ std::function<void()> BeginOnAnotherThread(std::function<void()> work, bool yiel
 TeamCorrector::TeamCorrector(const MapperOptions& options)
     : noise_(options.motion), corrector_(options, [this](std::function<void()> look) {
         // Of one robot a look that is late is waited for, and must not wait for anybody itself.
-        return BeginOnAnotherThread(std::move(look), last_.size() > 1);
+        return BeginOnAnotherThread(std::move(look), chains_ > 1);
       }) {}
 
 void TeamCorrector::Take(const TeamScan& scan) {
+  const auto [known, is_first] = last_.try_emplace({scan.key.robot, scan.component});
+  Last& last = known->second;
+  const bool begins = is_first || scan.is_new_start;
+  if (begins) last.chain = chains_++;
   ScanNode node{.scan = scan.scan,
                 .map_robot = scan.map_robot,
                 .odometry = {},
                 .T_last_node = {},
-                .robot = last_.size()};
-  const auto [known, is_first] = last_.try_emplace(scan.key.robot, Last{last_.size(), 0, {}, {}});
-  Last& last = known->second;
-  node.robot = last.robot;
-  if (!is_first) {
+                .robot = last.chain};
+  if (!begins) {
     const ScanMotion motion = scan.motion ? *scan.motion : MotionSince(last, scan);
     node.odometry = motion.odometry;
     node.T_last_node = motion.T_last_this;

@@ -6,6 +6,8 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "qwsm/correction/background_corrector.hpp"
 #include "qwsm/mapping/mapper_options.hpp"
@@ -13,8 +15,8 @@
 
 namespace qwsm::team {
 
-/// Corrects a map that many robots make: each robot's scans are a chain of their own, and loops are
-/// looked for among the scans of all of them.
+/// Corrects a map that many robots make: each robot's scans are a chain of their own, another
+/// one where it was set elsewhere, and loops are looked for among the scans of all of them.
 class TeamCorrector {
  public:
   explicit TeamCorrector(const MapperOptions& options);
@@ -31,7 +33,7 @@ class TeamCorrector {
  private:
   // The last scan of a robot.
   struct Last {
-    std::size_t robot = 0;  // As a number.
+    std::size_t chain = 0;
     std::size_t node = 0;
     UncertainPose2 map_robot;
     std::optional<Pose2> T_odom_robot;
@@ -42,7 +44,9 @@ class TeamCorrector {
 
   MotionNoise noise_;
   BackgroundCorrector corrector_;
-  std::map<std::string, Last> last_;  // By robot.
+  // By robot and the component it was in: it may have been lost, and found again.
+  std::map<std::pair<std::string, std::string>, Last> last_;
+  std::size_t chains_ = 0;
   std::size_t nodes_ = 0;
 };
 

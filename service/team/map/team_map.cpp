@@ -25,6 +25,7 @@ TeamMap::TeamMap(const ScanMapOptions& options)
 
 std::optional<TeamMap::Insertion> TeamMap::Insert(const TeamScan& scan,
                                                   std::span<const ScanPoint> points) {
+  const std::lock_guard lock(insertion_);
   if (!Register(scan)) return std::nullopt;
   ScanId id = 0;
   const std::shared_ptr<const Change> change =
@@ -39,42 +40,69 @@ void TeamMap::Correct(ScanMap corrected) {
   const auto map = std::make_shared<const ScanMap>(std::move(corrected));
   state_.Write([&](const Contents&) -> Change { return map; });
   const std::lock_guard lock(register_);
-  for (const RelevantScan& scan : map->scans()) {
-    const ScanKey& key = keys_[scan.id];
-    TeamScan& last = last_by_robot_.at(key.robot);
-    if (last.key == key) last.map_robot = scan.map_robot;
-  }
+  for (const RelevantScan& scan : map->scans()) heads_[scan.id].map_robot = scan.map_robot;
 }
 
 bool TeamMap::Register(const TeamScan& scan) {
   const std::lock_guard lock(register_);
-  if (!known_.insert(scan.key).second) return false;
+  const auto id = static_cast<ScanId>(heads_.size());
+  if (!id_of_.try_emplace(scan.key, id).second) return false;
   has_begun_ = true;
-  keys_.push_back(scan.key);
-  const auto [known, is_first] = last_by_robot_.try_emplace(scan.key.robot);
-  TeamScan& last = known->second;
+  heads_.push_back(
+      {.key = scan.key,
+       .component = scan.component,
+       .scan = {.stamp = scan.scan.stamp, .geometry = scan.scan.geometry, .ranges_m = {}},
+       .map_robot = scan.map_robot,
+       .T_odom_robot = scan.T_odom_robot,
+       .is_new_start = scan.is_new_start,
+       .motion = scan.motion});
   std::uint64_t& sequence = last_sequence_[{scan.key.service, scan.key.robot}];
   sequence = std::max(sequence, scan.key.sequence);
+  const auto [last, is_first] = last_by_robot_.try_emplace(scan.key.robot, id);
+  if (is_first) return true;
   // Scans of several services come in any order.
-  const bool is_newer = last.key.service == scan.key.service ? last.key.sequence < scan.key.sequence
-                                                             : last.scan.stamp < scan.scan.stamp;
-  if (!is_first && !is_newer) return true;
-  last = {.key = scan.key,
-          .scan = {.stamp = scan.scan.stamp, .geometry = scan.scan.geometry, .ranges_m = {}},
-          .map_robot = scan.map_robot,
-          .T_odom_robot = scan.T_odom_robot};
+  const TeamScan& known = heads_[last->second];
+  const bool is_newer = known.key.service == scan.key.service
+                            ? known.key.sequence < scan.key.sequence
+                            : known.scan.stamp < scan.scan.stamp;
+  if (is_newer) last->second = id;
   return true;
 }
 
 std::optional<TeamScan> TeamMap::LastOf(std::string_view robot) const {
   const std::lock_guard lock(register_);
   const auto last = last_by_robot_.find(robot);
-  return last == last_by_robot_.end() ? std::nullopt : std::optional(last->second);
+  return last == last_by_robot_.end() ? std::nullopt : std::optional(heads_[last->second]);
+}
+
+std::size_t TeamMap::CountOf(std::string_view robot) const {
+  const std::lock_guard lock(register_);
+  return static_cast<std::size_t>(std::ranges::count(
+      heads_, robot, [](const TeamScan& scan) { return std::string_view(scan.key.robot); }));
 }
 
 ScanKey TeamMap::KeyOf(ScanId id) const {
   const std::lock_guard lock(register_);
-  return keys_[id];
+  return heads_[id].key;
+}
+
+std::optional<ScanId> TeamMap::Find(const ScanKey& key) const {
+  const std::lock_guard lock(register_);
+  const auto known = id_of_.find(key);
+  return known == id_of_.end() ? std::nullopt : std::optional(known->second);
+}
+
+std::vector<TeamScan> TeamMap::Scans() const {
+  const State::View contents = Read();
+  const std::lock_guard lock(register_);
+  std::vector<TeamScan> scans;
+  scans.reserve(contents->map.scans().size());
+  for (const RelevantScan& scan : contents->map.scans()) {
+    TeamScan& one = scans.emplace_back(heads_[scan.id]);
+    one.scan = scan.scan;
+    one.map_robot = scan.map_robot;
+  }
+  return scans;
 }
 
 std::uint64_t TeamMap::LastSequence(std::string_view service, std::string_view robot) const {

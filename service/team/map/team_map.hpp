@@ -12,7 +12,7 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <unordered_set>
+#include <unordered_map>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -24,7 +24,17 @@
 
 namespace qwsm::team {
 
-/// The one map of a team: many robots match against it while others extend it, and none waits for
+class TeamMap;
+
+/// Which map it was, and how often it was corrected by then.
+struct MapVersion {
+  const TeamMap* map = nullptr;
+  std::uint32_t epoch = 0;
+
+  friend bool operator==(const MapVersion&, const MapVersion&) = default;
+};
+
+/// A map of a team: many robots match against it while others extend it, and none waits for
 /// another. All functions may be called from any thread.
 ///
 /// What is guaranteed about two maps that were given the same scans:
@@ -50,6 +60,7 @@ class TeamMap {
 
   /// The map as it is now; see TwinState::View.
   State::View Read() const { return state_.Read(); }
+  MapVersion VersionOf(const Contents& contents) const { return {this, contents.epoch}; }
 
   /// A scan that was added.
   struct Insertion {
@@ -73,8 +84,14 @@ class TeamMap {
   /// The last relevant scan of the robot: where it was and what its odometry said. Its ranges are
   /// left out.
   std::optional<TeamScan> LastOf(std::string_view robot) const;
+  /// Number of relevant scans of the robot.
+  std::size_t CountOf(std::string_view robot) const;
   /// The key of a scan. @pre it was added.
   ScanKey KeyOf(ScanId id) const;
+  /// The scan of that key, if it was added.
+  std::optional<ScanId> Find(const ScanKey& key) const;
+  /// All scans as they were added, each where it is now.
+  std::vector<TeamScan> Scans() const;
   /// The largest sequence number that the service gave a scan of the robot; 0 if it gave none.
   std::uint64_t LastSequence(std::string_view service, std::string_view robot) const;
 
@@ -84,10 +101,11 @@ class TeamMap {
   State state_;
   RobotPositions robots_;
   std::atomic<bool> has_begun_ = false;
-  mutable std::mutex register_;
-  std::unordered_set<ScanKey, ScanKeyHash> known_;
-  std::vector<ScanKey> keys_;  // By ScanId.
-  std::map<std::string, TeamScan, std::less<>> last_by_robot_;
+  std::mutex insertion_;         // Gives a scan the same number in the map and in the register.
+  mutable std::mutex register_;  // Guards what follows.
+  std::unordered_map<ScanKey, ScanId, ScanKeyHash> id_of_;
+  std::vector<TeamScan> heads_;  // Without their ranges, by ScanId.
+  std::map<std::string, ScanId, std::less<>> last_by_robot_;
   std::map<std::pair<std::string, std::string>, std::uint64_t> last_sequence_;
 };
 

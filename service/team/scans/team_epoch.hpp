@@ -13,27 +13,29 @@
 
 namespace qwsm::team {
 
-/// A relevant scan that was put where it belongs.
+/// A relevant scan, where it belongs.
 struct MovedScan {
   ScanKey key;
-  Pose2 T_map_robot_before;
-  UncertainPose2 map_robot;
+  std::string component{};         ///< Of the team's map, that the scan is in now.
+  std::string component_before{};  ///< That it was in before.
+  Pose2 T_map_robot_before{};      ///< In that one.
+  UncertainPose2 map_robot{};
 };
 
-/// Which of two corrections of one map counts, wherever they were found: the greater.
+/// Which of two corrections counts, wherever they were found: the greater.
 struct EpochRank {
-  std::uint64_t number = 0;  ///< Grows with the corrections of the map.
+  std::uint64_t number = 0;  ///< Grows with the corrections.
   std::string service;       ///< Service that found it.
 
   friend auto operator<=>(const EpochRank&, const EpochRank&) = default;
 };
 
-/// A correction of a map, all of which takes effect at once.
+/// A correction of a team's maps, all of which takes effect at once: scans are put elsewhere, and
+/// components that are found to lie in one another become one.
 struct TeamEpoch {
   EpochRank rank;
-  std::string robot;  ///< Whose map it is; empty for the team's.
-  Timestamp stamp{};  ///< Of the newest scan in the map.
-  std::vector<MovedScan> scans;
+  Timestamp stamp{};             ///< Of the newest scan.
+  std::vector<MovedScan> scans;  ///< All that there are.
 };
 
 }  // namespace qwsm::team

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "qwsm/geometry/pose2.hpp"
@@ -21,9 +22,14 @@ struct ScanMotion {
 /// A relevant scan of any robot of the team: from these alone the map can be rebuilt.
 struct TeamScan {
   ScanKey key;
-  LaserScan scan;
-  UncertainPose2 map_robot;
-  std::optional<Pose2> T_odom_robot;   ///< Odometry for the robot to go on from after a restart.
+  /// In which component of the team's map it was taken; empty for the one that all share. Since
+  /// then it may have been moved into another one.
+  std::string component{};
+  LaserScan scan{};
+  UncertainPose2 map_robot{};           ///< In the component that it is in.
+  std::optional<Pose2> T_odom_robot{};  ///< Odometry for the robot to go on from after a restart.
+  /// Whether nobody knows how the robot came here from its last relevant scan.
+  bool is_new_start = false;
   std::optional<ScanMotion> motion{};  ///< Known where the scan was matched, for a while.
 };
 

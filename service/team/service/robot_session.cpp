@@ -8,15 +8,13 @@
 
 #include "qwsm/geometry/frame_covariance.hpp"
 #include "qwsm/geometry/position.hpp"
-#include "qwsm/mapping/relocalization.hpp"
+#include "service/team/scans/component.hpp"
 
 namespace qwsm::team {
 namespace {
 
 using std::chrono::steady_clock;
 
-// A robot without a place is looked for in the map not more often than this.
-constexpr std::chrono::nanoseconds kSearchPeriod = std::chrono::seconds(2);
 // How far a robot may have been pushed while nobody looked, and how exact a found place is.
 constexpr double kPushed_m = 0.3;
 constexpr double kPushed_rad = 0.1;
@@ -37,8 +35,9 @@ RobotSession::RobotSession(std::string name,
               [this](const TeamEvent& event) { context_.sinks.Tell(&TeamSink::TakeEvent, event); }),
       intake_(events_, options),
       tracker_(mapper),
-      sequence_(
-          std::max(context_.map.LastSequence(context_.service, this->name()), SequenceOfNow())) {}
+      sequence_(std::max(
+          context_.atlas.maps().Of(this->name()).map->LastSequence(context_.service, this->name()),
+          SequenceOfNow())) {}
 
 void RobotSession::PlaceAt(const UncertainPose2& map_robot) {
   const std::string_view objection = ObjectionTo(map_robot);
@@ -66,40 +65,50 @@ void RobotSession::Answer(Work& work,
   const auto begun = steady_clock::now();
   const Observation observation{.scan = std::move(work.scan), .T_odom_robot = work.T_odom_robot};
   work.scan.stamp = observation.scan.stamp;
+  is_placed_ = is_placed_ && !work.was_elsewhere;
+  FollowCorrections();
+  Place();
+  // Odometry that moves faster than any robot has begun anew; after an interruption it may have.
+  const bool may_be_new = work.odometry_goes_on && work.is_interrupted;
+  if (work.odometry_jumped || may_be_new) tracker_.SuspectOdometryReset();
   ContestedTracker::Tracked tracked;
   {
-    const TeamMap::State::View contents = context_.map.Read();
-    FollowCorrections(*contents);
-    const ScanMap& map = contents->map;
-    is_placed_ = is_placed_ && !work.was_elsewhere;
-    is_placed_ = Place(map, work, points);
-    if (!is_placed_) return intake_.NoteUnplaced();
-    // Odometry that moves faster than any robot has begun anew; after an interruption it may have.
-    const bool may_be_new = work.odometry_goes_on && work.is_interrupted;
-    if (work.odometry_jumped || may_be_new) tracker_.SuspectOdometryReset();
-    tracked = tracker_.Track(map, observation, points, claimed_mounting);
+    const TeamMap::State::View contents = component_.map->Read();
+    tracked = tracker_.Track(contents->map, observation, points, claimed_mounting);
   }
   const auto answered = steady_clock::now();
   const MappingStep& step = tracked.step;
   TellNews(tracked.news);
   const SessionCounts counts = Note(work, tracked, answered - begun);
-  context_.map.robots().Report(name(), step.map_robot.T_a_b.translation_m(), answered);
+  component_.map->robots().Report(name(), step.map_robot.T_a_b.translation_m(), answered);
   const RobotAnswer answer{.robot = name(),
                            .step = step,
+                           .component = component_.name,
                            .T_odom_robot = work.T_odom_robot,
                            .matching = answered - begun,
                            .latency = answered - work.arrived,
                            .scans = counts.scans,
                            .dropped = counts.dropped};
   context_.sinks.Tell(&TeamSink::TakeAnswer, answer);
+  TellWhatIsSeen(step, points);
   Extend(tracked);
   context_.report(answer);
 }
 
-// The robot keeps its place beside its last relevant scan.
-void RobotSession::FollowCorrections(const TeamMap::Contents& contents) {
-  if (std::exchange(epoch_, contents.epoch) == contents.epoch || !last_relevant_) return;
-  const UncertainPose2& map_last = contents.map.scans()[*last_relevant_].map_robot;
+// The robot keeps its place beside its last relevant scan, also where that has become part of
+// another component.
+void RobotSession::FollowCorrections() {
+  component_ = context_.atlas.maps().Of(name());
+  const TeamMap::State::View contents = component_.map->Read();
+  const MapVersion now = component_.map->VersionOf(*contents);
+  if (std::exchange(version_, now) == now || !last_relevant_) return;
+  const std::optional<ScanId> last = component_.map->Find(*last_relevant_);
+  if (!last) {  // Another service has answered the robot since, elsewhere.
+    last_relevant_.reset();
+    is_placed_ = false;
+    return;
+  }
+  const UncertainPose2& map_last = contents->map.scans()[*last].map_robot;
   tracker_.FollowCorrection(map_last * Since(*nodes_.map_last(), tracker_.map_robot()));
   nodes_.Follow(map_last);
 }
@@ -112,9 +121,35 @@ void RobotSession::Extend(ContestedTracker::Tracked& tracked) {
     if (node && tracked.relevant.size() == 1) {
       scan.motion = {.odometry = node->odometry, .T_last_this = node->T_last_node};
     }
-    last_relevant_ = context_.extend(scan, ToPoints(scan.scan));
+    scan.is_new_start = std::exchange(is_new_start_, false);
+    ExtendWith(scan);
     nodes_.Follow(scan.map_robot);
   }
+}
+
+// While the scan was matched, others may have corrected the map.
+void RobotSession::ExtendWith(TeamScan& scan) {
+  scan.component = component_.name;
+  const std::vector<ScanPoint> points = ToPoints(scan.scan);
+  while (!context_.atlas.Extend(scan, points, version_)) {
+    const UncertainPose2 robot_scan{.T_a_b = tracker_.map_robot().T_a_b.Inverse() *
+                                             scan.map_robot.T_a_b};
+    FollowCorrections();
+    if (!is_placed_) return;
+    scan.component = component_.name;
+    scan.map_robot.T_a_b = (tracker_.map_robot() * robot_scan).T_a_b;
+  }
+  last_relevant_ = scan.key;
+}
+
+// Only where there is something to be found.
+void RobotSession::TellWhatIsSeen(const MappingStep& step, std::span<const ScanPoint> points) {
+  if (context_.atlas.maps().size() < 2 || step.status == StepStatus::kDeadReckoned) return;
+  context_.merger.See(name(),
+                      {.component = component_,
+                       .version = version_,
+                       .points = {points.begin(), points.end()},
+                       .map_robot = step.map_robot});
 }
 
 void RobotSession::TellNews(ContestedTracker::News news) {
@@ -136,44 +171,59 @@ void RobotSession::TellNews(ContestedTracker::News news) {
   }
 }
 
-bool RobotSession::Place(const ScanMap& map, const Work& work, std::span<const ScanPoint> points) {
+void RobotSession::Place() {
   std::optional<UncertainPose2> initial_pose;
   {
     const std::lock_guard lock(mutex_);
     initial_pose = std::exchange(initial_pose_, std::nullopt);
   }
   if (initial_pose) {
-    is_placed_ ? tracker_.PlaceAsTold(*initial_pose) : tracker_.PlaceAt(*initial_pose);
-    return true;
-  }
-  if (is_placed_) return true;
-  if (const std::optional<TeamScan> last = context_.map.LastOf(name())) {
+    TakeUp(*initial_pose);
+  } else if (is_placed_) {
+    return;
+  } else if (const std::optional<TeamScan> last = component_.map->LastOf(name())) {
     tracker_.PlaceAt(Loosened(last->map_robot), last->T_odom_robot);
     tracker_.SuspectOdometryReset();
-    return true;
-  }
-  if (context_.start) {
+  } else if (context_.start) {
     tracker_.PlaceAt(*context_.start);
-    return true;
+    context_.merger.HearPlaceOf(name());
+  } else if (!component_.map->Begin()) {
+    BeginComponent();
   }
-  if (!map.empty()) return RelocalizeIn(map, work.scan.stamp, points);
-  return context_.map.Begin();
+  is_placed_ = true;
 }
 
-bool RobotSession::RelocalizeIn(const ScanMap& map,
-                                Timestamp stamp,
-                                std::span<const ScanPoint> points) {
-  if (last_relocalization_ && stamp - *last_relocalization_ < kSearchPeriod) return false;
-  last_relocalization_ = stamp;
-  const std::optional<RelocalizationResult> found = Relocalize(map, points);
-  if (!found || found->rival) {
-    events_.Warn(found ? "fits several places in the map: an initial pose would tell which"
-                       : "fits nowhere in the map: an initial pose would tell where it is");
-    return false;
+// What a robot is told is where it is in the map that all share. What it has mapped in a component
+// stays there until that is found in the map, too.
+void RobotSession::TakeUp(const UncertainPose2& told) {
+  context_.merger.HearPlaceOf(name());
+  TeamMaps& maps = context_.atlas.maps();
+  const bool is_apart = maps.sharing() == MapSharing::kTeam && !component_.name.empty();
+  if (is_apart) {
+    maps.Put(name(), "");
+    component_ = maps.Of(name());
+    BeginAnewAt(told);
+  } else if (is_placed_) {
+    tracker_.PlaceAsTold(told);
+  } else {
+    tracker_.PlaceAt(told);
   }
-  tracker_.PlaceAt(Loosened({.T_a_b = found->best.T_map_robot}));
-  events_.Inform("was found in the map");
-  return true;
+}
+
+void RobotSession::BeginComponent() {
+  component_ = context_.atlas.maps().BeginFor(name());
+  component_.map->Begin();
+  BeginAnewAt({});
+  events_.Inform("begins a map of its own, " + FrameOf(component_.name) +
+                 ": nobody knows where in the team's it is");
+}
+
+void RobotSession::BeginAnewAt(const UncertainPose2& map_robot) {
+  version_ = component_.map->VersionOf(*component_.map->Read());
+  last_relevant_.reset();
+  nodes_ = {};
+  is_new_start_ = true;
+  tracker_.PlaceAt(map_robot);
 }
 
 // To a robot in a corridor, another one that comes along is the only thing that tells how far it
@@ -184,7 +234,7 @@ void RobotSession::HideTeammates(Work& work) {
   const bool is_motion_known = work.T_odom_robot && T_odom_last && work.odometry_goes_on;
   const Pose2 T_last_robot =
       is_motion_known ? T_odom_last->Inverse() * *work.T_odom_robot : Pose2{};
-  HideRobots(context_.map.robots().OthersThan(name(), steady_clock::now()),
+  HideRobots(component_.map->robots().OthersThan(name(), steady_clock::now()),
              context_.teammate_radius_m,
              tracker_.map_robot().T_a_b * T_last_robot,
              work.scan);

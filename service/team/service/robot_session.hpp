@@ -10,7 +10,8 @@
 #include <vector>
 
 #include "qwsm/correction/node_maker.hpp"
-#include "service/team/map/team_map.hpp"
+#include "service/team/atlas/map_merger.hpp"
+#include "service/team/atlas/team_atlas.hpp"
 #include "service/team/service/contested_tracker.hpp"
 #include "service/team/session/session_intake.hpp"
 #include "service/team/session/session_options.hpp"
@@ -23,13 +24,12 @@ namespace qwsm::team {
 /// What a service gives a session that it keeps.
 struct SessionContext {
   std::string service;  ///< Service's name in the keys of the robot's relevant scans.
-  TeamMap& map;
+  TeamAtlas& atlas;
+  MapMerger& merger;
   const SinkList<TeamSink>& sinks;
   std::optional<UncertainPose2> start;  ///< Where the robot starts if nothing better is known.
   /// Readings so near to a teammate are left out, in metres; see TeamOptions.
   double teammate_radius_m = 0.0;
-  /// Puts a relevant scan into the map, the journal and the network. @return its id in the map.
-  std::function<std::optional<ScanId>(const TeamScan&, std::span<const ScanPoint>)> extend;
   /// Tells of an answer once what it says is safe.
   std::function<void(const RobotAnswer&)> report;
 };
@@ -37,9 +37,9 @@ struct SessionContext {
 /// One robot: takes its messages from any thread and answers its scans one by one in a worker.
 ///
 /// Where it starts: as told; else where it was last, if the map has scans of it; else as
-/// configured; else, where the map is empty, at the origin of its odometry; else where its scan
-/// fits the map and fits nowhere else. Until one of these tells, its scans are counted but not
-/// answered. What it is told while it is tracked is put to a trial (ContestedTracker).
+/// configured; else, where the map is empty, at the origin of its odometry. Where none of these
+/// tells, it begins a component of the map, in which it is answered until it is found in the map.
+/// What it is told while it is tracked is put to a trial (ContestedTracker).
 class RobotSession final : public Lane {
  public:
   using Kind = Planar;
@@ -65,10 +65,14 @@ class RobotSession final : public Lane {
   void Answer(Work& work,
               std::span<const ScanPoint> points,
               const std::optional<Pose2>& claimed_mounting);
-  void FollowCorrections(const TeamMap::Contents& contents);
+  void FollowCorrections();
   void Extend(ContestedTracker::Tracked& tracked);
-  bool Place(const ScanMap& map, const Work& work, std::span<const ScanPoint> points);
-  bool RelocalizeIn(const ScanMap& map, Timestamp stamp, std::span<const ScanPoint> points);
+  void ExtendWith(TeamScan& scan);
+  void Place();
+  void TakeUp(const UncertainPose2& told);
+  void BeginComponent();
+  void BeginAnewAt(const UncertainPose2& map_robot);
+  void TellWhatIsSeen(const MappingStep& step, std::span<const ScanPoint> points);
   void HideTeammates(Work& work);
   void TellNews(ContestedTracker::News news);
   SessionCounts Note(const Work& work,
@@ -85,11 +89,12 @@ class RobotSession final : public Lane {
   // The worker alone uses these.
   ContestedTracker tracker_;
   NodeMaker nodes_;
-  std::optional<ScanId> last_relevant_;
-  std::uint32_t epoch_ = 0;  // Of the map that the tracker's poses are in.
+  MapComponent component_;  // That the tracker's poses are in.
+  MapVersion version_;      // Of its map.
+  std::optional<ScanKey> last_relevant_;
   bool is_placed_ = false;
+  bool is_new_start_ = false;  // Nothing ties the next relevant scan to the one before.
   std::optional<Pose2> T_odom_last_;
-  std::optional<Timestamp> last_relocalization_;
   std::uint64_t sequence_ = 0;
 };
 

@@ -20,9 +20,10 @@
 
 #include "qwsm/mapping/mapper_options.hpp"
 #include "qwsm/mapping/occupancy_grid.hpp"
+#include "service/team/atlas/map_merger.hpp"
+#include "service/team/atlas/team_atlas.hpp"
 #include "service/team/map/map_painter.hpp"
-#include "service/team/map/team_corrector.hpp"
-#include "service/team/map/team_maps.hpp"
+#include "service/team/service/periodic_task.hpp"
 #include "service/team/service/robot_session.hpp"
 #include "service/team/service/session_host.hpp"
 #include "service/team/service/team_options.hpp"
@@ -34,6 +35,9 @@ struct TeamServiceOptions {
   TeamOptions team;
   MapperOptions mapper;  ///< The matcher is q-wsm, whatever the options say.
   bool corrects = true;  ///< Whether maps are corrected while robots drive.
+  /// Whether components of the map are looked for in one another beside the robots, or only where
+  /// somebody waits for that; see WaitUntilIdle().
+  bool merges_beside = true;
   OccupancyGridOptions rendering;
 };
 
@@ -59,9 +63,11 @@ class TeamService {
   void Start();
   /// Finishes the matches at work, saves what is to be saved, and works no more. What waits in
   /// queues is left out.
-  void Stop() { host_.Stop(); }
+  void Stop();
   /// Waits until every scan that was taken is answered or dropped, and all that can be is on disk.
-  void WaitUntilIdle() { host_.WaitUntilIdle(); }
+  /// Where components are not looked for in one another beside, does that with what robots saw
+  /// last.
+  void WaitUntilIdle();
 
   /// The name of the service in the keys of its relevant scans.
   const std::string& identity() const { return host_.identity(); }
@@ -74,16 +80,18 @@ class TeamService {
   /// inserted by stamp, so that services that start late get the same map from the same scans.
   /// What is known already, or came from this service, is passed over.
   void TakeIn(std::vector<TeamScan> scans);
-  /// Takes in a correction of the team's map that another service found. It counts if it is newer
+  /// Takes in a correction of the team's maps that another service found. It counts if it is newer
   /// than what this service knows: of a greater number, or of the same and a greater service.
   void TakeIn(const TeamEpoch& epoch);
   /// Offers what this service took in of another one that is gone, for those that come later. So
   /// what one service has is never lost to the team.
   void OfferTakenIn();
 
-  TeamStatus Status() const { return host_.Status(StatusOfMaps()); }
+  TeamStatus Status();
   /// The map a robot is matched against; the team's where all share one.
-  std::shared_ptr<const TeamMap> MapOf(std::string_view robot) { return maps_.Of(robot); }
+  std::shared_ptr<const TeamMap> MapOf(std::string_view robot) {
+    return atlas_.maps().Of(robot).map;
+  }
   /// The map a robot is matched against, drawn at the cost of what was not drawn while the service
   /// ran; nothing where it is empty or too large.
   /// @pre the service has stopped.
@@ -91,45 +99,30 @@ class TeamService {
 
  private:
   std::shared_ptr<RobotSession> MakeSession(std::string robot);
-  std::optional<ScanId> Extend(const TeamScan& scan, std::span<const ScanPoint> points);
   void TakeInOne(TeamScan scan);
-  void Restore(TeamScan scan);
-  std::optional<ScanId> Insert(const TeamScan& scan,
-                               std::span<const ScanPoint> points,
-                               const std::function<void(const MapAddition&)>& settled);
-  void Keep(io::JournalEntry entry, std::function<void()> settled);
-  void TellAsEvent(const TeamEpoch& epoch) const;
-  TeamCorrector& CorrectorOf(const TeamMap& map);
-  void CorrectIfDue(const std::string& robot, TeamMap& map);
-  EpochRank Next(const EpochRank& last) const;
-  void TakeEffect(const std::string& robot, TeamMap& map, CorrectedMap corrected);
-  TeamEpoch EpochOf(const std::string& robot, const TeamMap& map, const CorrectedMap& corrected);
-  void TellNewPoints(const TeamScan& scan, const MapAddition& addition);
+  void Keep(io::JournalEntry entry, const std::function<void()>& settled);
+  void MergeMaps(const std::stop_token& stop);
   void PaintMaps(const std::stop_token& stop);
-  void TellMap(const std::string& robot, MapPainter& painter);
-  MapPainter& PainterOf(const TeamMap& map);
+  void TellMap(const std::string& component, MapPainter& painter);
+  MapPainter& PainterOf(const std::shared_ptr<const TeamMap>& map);
   MapStatus StatusOfMaps() const;
 
   const TeamServiceOptions options_;
   const SinkList<TeamSink> sinks_;
-  TeamMaps maps_;
-  std::mutex extension_;  // Keeps the journal in the order of the map; guards what follows.
-  std::map<const TeamMap*, TeamCorrector> correctors_;
-  EpochRank epoch_;  // Of the last correction of any map.
-  // Poses of scans that the last correction by another service names.
-  std::unordered_map<ScanKey, UncertainPose2, ScanKeyHash> named_by_others_;
-  std::vector<TeamScan> offered_;    // Scans from the journal, until the start.
-  std::vector<TeamScan> of_others_;  // Scans taken in from other services, which offer them.
+  TeamAtlas atlas_;
+  MapMerger merger_;
+  std::vector<TeamScan> offered_;  // Scans from the journal, until the start.
   std::atomic<std::uint64_t> taken_in_ = 0;
   std::atomic<std::uint64_t> duplicates_ = 0;
   std::atomic<std::uint64_t> refused_ = 0;
 
   // The task that paints alone uses these, while it runs.
-  std::map<const TeamMap*, MapPainter> painters_;
+  std::map<std::shared_ptr<const TeamMap>, MapPainter> painters_;
   std::chrono::steady_clock::time_point maps_told_{};
   std::chrono::steady_clock::time_point maps_repeated_{};
 
-  SessionHost<RobotSession> host_;  // Last: its threads use all members above.
+  SessionHost<RobotSession> host_;  // Its threads use all members above.
+  std::unique_ptr<PeriodicTask> merging_;
 };
 
 }  // namespace qwsm::team

@@ -20,6 +20,7 @@ template <class Kind>
 struct Answer {
   std::string robot;
   typename Kind::Step step;
+  std::string component{};  ///< Of the team's map, that the step's pose is in.
   std::optional<typename Kind::Pose> T_odom_robot{};  ///< Odometry at the scan's stamp.
   std::chrono::nanoseconds matching{};                ///< Time the match took.
   std::chrono::nanoseconds latency{};                 ///< From the scan's arrival to now.

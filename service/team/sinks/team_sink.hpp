@@ -16,14 +16,15 @@ namespace qwsm::team {
 /// What a relevant scan has just added to the map.
 struct NewPoints {
   std::string_view robot;
+  std::string_view component;  ///< Of the team's map, that the scan is in.
   Timestamp stamp{};
   const std::vector<Eigen::Vector2d>& points_map_m;
 };
 
 /// A drawn map.
 struct MapPicture {
-  std::string_view robot;  ///< Whose map it is; empty for the team's.
-  Timestamp stamp{};       ///< Stamp of the newest scan in the map.
+  std::string_view component;  ///< Of the team's map; empty for the one that all share.
+  Timestamp stamp{};           ///< Stamp of the newest scan in the map.
   const OccupancyGrid& grid;
 };
 
@@ -37,7 +38,7 @@ class TeamSink : public ServiceSink<Planar> {
   /// Takes what a relevant scan added to the map, as safe in the journal as that scan.
   virtual void TakeNewPoints(const NewPoints&) {}
   virtual void TakeMap(const MapPicture&) {}
-  /// Takes a correction of a map, safely in the journal as a relevant scan is.
+  /// Takes a correction of the maps, safely in the journal as a relevant scan is.
   virtual void TakeEpoch(const TeamEpoch&) {}
 };
 

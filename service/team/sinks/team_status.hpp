@@ -61,6 +61,7 @@ struct LatencySummary {
 struct RobotStatus {
   std::string name;
   RobotState state = RobotState::kExpected;
+  std::string component{};     ///< Of the team's map, that it is in.
   UncertainPose2 map_robot{};  ///< Pose at the robot's last answered scan.
   Timestamp stamp{};           ///< Stamp of the robot's last answered scan.
   std::size_t waiting = 0;     ///< Scans in the queue.

@@ -130,10 +130,10 @@ export class MapView {
   get theme() { return kThemes[this.state.theme]; }
 
   bounds() {
-    const boxes = [...this.model.maps.values()].map((map) => map.bounds).filter(Boolean);
+    const boxes = this.#maps().map((map) => map.bounds).filter(Boolean);
     if (this.camera.from !== 'above') boxes.length = 0;
     for (const points of this.model.clouds.values()) boxes.push(boxOf(points, this.camera));
-    for (const {last} of this.model.robots.values()) {
+    for (const {last} of this.model.robotsInMap()) {
       if (!last) continue;
       const [right, up] = this.camera.project(last.x, last.y, last.z ?? 0);
       boxes.push({left: right - 3, right: right + 3, bottom: up - 3, top: up + 3});
@@ -142,6 +142,8 @@ export class MapView {
     return {left: Math.min(...boxes.map((b) => b.left)), right: Math.max(...boxes.map((b) => b.right)), bottom: Math.min(...boxes.map((b) => b.bottom)), top: Math.max(...boxes.map((b) => b.top))};
   }
 
+  #maps() { return [...this.model.maps.values()].filter(({frame}) => !this.model.isApart(frame)); }
+
   draw(now_ms) {
     this.#drawBehind(now_ms);
     const c = this.context;
@@ -149,7 +151,7 @@ export class MapView {
     c.drawImage(this.behind, 0, 0);
     c.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     const isLive = this.state.shownStamp === null;
-    const robots = [...this.model.robots.values()];
+    const robots = this.model.robotsInMap();
     if (isLive && this.state.layers.scans && this.camera.from === 'above') for (const robot of robots) this.#drawScan(c, robot, now_ms);
     if (this.state.layers.marks) this.#drawMarks(c);
     for (const robot of robots) {
@@ -190,14 +192,14 @@ export class MapView {
     if (layers.occupancy) for (const points of this.model.clouds.values()) this.#drawCloud(c, points);
     if (layers.grid) this.#drawGrid(c);
     if (isFromAbove && (shownStamp !== null || layers.relevant)) this.#drawRelevant(c);
-    if (layers.trails) for (const robot of this.model.robots.values()) this.#drawTrail(c, robot);
-    if (layers.loops) for (const {loops} of this.model.robots.values()) this.#drawLoops(c, loops);
+    if (layers.trails) for (const robot of this.model.robotsInMap()) this.#drawTrail(c, robot);
+    if (layers.loops) for (const {loops} of this.model.robotsInMap()) this.#drawLoops(c, loops);
     if (this.state.shownEvent?.moves) this.#drawMoves(c, this.state.shownEvent.moves);
   }
 
   #drawMaps(c) {
     c.imageSmoothingEnabled = this.camera.scale < 20;
-    for (const map of this.model.maps.values()) {
+    for (const map of this.#maps()) {
       for (const chunk of map.chunks.values()) {
         const [left, top] = this.camera.toScreen(chunk.x, chunk.y + chunk.size_m);
         const side = chunk.size_m * this.camera.scale;
@@ -280,8 +282,8 @@ export class MapView {
     const size = Math.max(1.2, Math.min(3, this.camera.scale * 0.03));
     c.fillStyle = this.theme.point;
     c.globalAlpha = 0.75;
-    for (const {stamp, points} of this.model.relevant.values()) {
-      if (stamp <= until) this.#drawPoints(c, points, size);
+    for (const {stamp, points, frame} of this.model.relevant.values()) {
+      if (stamp <= until && !this.model.isApart(frame)) this.#drawPoints(c, points, size);
     }
     c.globalAlpha = 1;
   }

@@ -80,9 +80,10 @@ const readers = {
     return {...head, angleMin, angleIncrement, rangeMin, rangeMax, ranges: r.float32s()};
   },
   'qwsm_msgs/msg/MapEpoch': (r) => ({
-    ...header(r), origin: r.string(), mapOf: r.string(), number: r.uint64(),
-    robots: r.list(() => ({robot: r.string(), correction: pose2(r)})),
-    scans: r.list(() => ({origin: r.string(), robot: r.string(), number: r.uint64(), before: pose2(r), pose: pose2(r), covariance: r.float64s(9)})),
+    ...header(r), origin: r.string(), number: r.uint64(),
+    robots: r.list(() => ({robot: r.string(), frameBefore: r.string(), frame: r.string(), correction: pose2(r)})),
+    scans: r.list(() => ({origin: r.string(), robot: r.string(), number: r.uint64(), frameBefore: r.string(), before: pose2(r),
+      frame: r.string(), pose: pose2(r), covariance: r.float64s(9)})),
   }),
   'nav_msgs/msg/Odometry': (r) => {
     const head = header(r);

@@ -79,6 +79,8 @@ class Robot {
     this.health = '';
     this.lastMatch = null;
     this.arrived_ms = 0;
+    this.frame = '';  // Of the map that its poses are in.
+    this.isApart = false;  // Whether that is another one than the team's.
   }
   get last() { return this.history.at(-1); }
   get sigma_m() { return this.last ? Math.sqrt(Math.max(0, this.last.cov[0] + this.last.cov[4])) : 0; }
@@ -86,7 +88,8 @@ class Robot {
   // `told_ms`: when that was published, on this computer's clock; `published_ms`: on the service's.
   takeReport(report, {told_ms, published_ms}) {
     const {stamp, pose, covariance, status, reason, meanResidual, overlap, scans, dropped, latency} = report;
-    if (this.last && stamp < this.last.stamp - 1) this.beginAnew();
+    if (this.last && (stamp < this.last.stamp - 1 || report.frame !== this.frame)) this.beginAnew();
+    this.frame = report.frame;
     this.history.push({stamp, published_ms, ...pose, cov: covariance, status, reason, residual_m: meanResidual, overlap, scans, dropped, latency});
     if (this.history.length > kMostHistory) this.history.splice(0, kMostHistory / 10);
     if (status !== Status.deadReckoned) this.lastMatch = stamp;
@@ -111,13 +114,14 @@ class Robot {
     };
     this.trail = this.trail.map(moved);
     this.history = this.history.map(moved);
+    this.frame = scans.at(-1).frame ?? this.frame;
   }
   beginAnew() { this.history = []; this.trail = []; this.loops = []; this.lastMatch = null; }
 
   // What is known of it until a stamp, from its relevant scans of before this page was opened on.
   pathUntil(stamp) {
     const begin = this.history[0]?.stamp ?? Infinity;
-    const before = this.relevant.slice(0, indexAt(this.relevant, Math.min(stamp, begin)) + 1);
+    const before = this.relevant.slice(0, indexAt(this.relevant, Math.min(stamp, begin)) + 1).filter(({frame}) => frame === this.frame);
     return [...before, ...this.history.slice(0, indexAt(this.history, stamp) + 1)];
   }
   poseAt(stamp) {
@@ -179,6 +183,7 @@ class GridMap {
     if (this.generation !== null && tile.generation < this.generation) return;
     if (tile.generation !== this.generation) this.clear();
     this.generation = tile.generation;
+    this.frame = tile.frame;
     const side_m = tile.resolution * tile.width;
     const column = Math.round(tile.x / side_m), row = Math.round(tile.y / side_m);
     const chunkColumn = Math.floor(column / kChunkTiles), chunkRow = Math.floor(row / kChunkTiles);
@@ -215,7 +220,7 @@ export class Model {
     this.sensors = new Map();  // Poses on the robot, by frame.
     this.relevant = new Map();  // By origin, robot and number.
     this.marks = new Map();
-    this.epochs = new Map();  // The last correction of each map, by whose map it is.
+    this.epoch = null;  // The last correction of the maps.
     this.events = [];
     this.service = {};
     this.mapVersion = 0;
@@ -230,7 +235,7 @@ export class Model {
     this.clouds.clear();
     this.sensors.clear();
     this.relevant.clear();
-    this.epochs.clear();
+    this.epoch = null;
     for (const robot of this.robots.values()) robot.relevant = [];
     this.marks.clear();
     ++this.mapVersion;
@@ -339,9 +344,9 @@ export class Model {
     const key = scanKey(scan);
     if (this.relevant.has(key)) return;
     // What is told of it may be older than a correction.
-    const pose = [...this.epochs.values()].map(({poses}) => poses.get(key)).find(Boolean) ?? scan.pose;
+    const {pose, frame} = this.epoch?.places.get(key) ?? scan;
     const points = scanPoints(scan, compose(pose, scan.laser));
-    const kept = {stamp: scan.stamp, ...pose, cov: scan.covariance, points};
+    const kept = {stamp: scan.stamp, ...pose, frame, cov: scan.covariance, points};
     this.relevant.set(key, kept);
     this.robot(scan.robot).takeRelevant(kept);
     ++this.mapVersion;
@@ -349,24 +354,40 @@ export class Model {
 
   // A correction of the map: what lies on it goes along.
   #takeEpoch(epoch, {published_ms, told_ms}) {
-    const known = this.epochs.get(epoch.mapOf);
+    const known = this.epoch;
     const isNews = !known || epoch.number > known.number || (epoch.number === known.number && epoch.origin > known.origin);
     if (!isNews) return;
-    const poses = new Map(epoch.scans.map((scan) => [scanKey(scan), scan.pose]));
-    this.epochs.set(epoch.mapOf, {number: epoch.number, origin: epoch.origin, poses});
-    for (const [key, pose] of poses) {
+    const places = new Map(epoch.scans.map((scan) => [scanKey(scan), scan]));
+    this.epoch = {number: epoch.number, origin: epoch.origin, places};
+    for (const [key, {pose, frame}] of places) {
       const kept = this.relevant.get(key);
-      if (kept) Object.assign(kept, pose, {points: movePoints(compose(pose, inverse(kept)), kept.points)});
+      if (kept) Object.assign(kept, pose, {frame, points: movePoints(compose(pose, inverse(kept)), kept.points)});
     }
     for (const robot of this.robots.values()) {
       const scans = epoch.scans.filter((scan) => scan.robot === robot.name);
       if (scans.length > 0) robot.follow(scans, published_ms);
     }
-    const moves_m = epoch.scans.map(({before, pose}) => Math.hypot(pose.x - before.x, pose.y - before.y));
+    const joints = new Set(epoch.scans.filter((scan) => scan.frame !== scan.frameBefore).map((scan) => `${scan.frameBefore} was found in ${scan.frame}: they are one map now`));
+    for (const joint of joints) this.tell(joint, epoch.stamp || this.now);
+    const moved = epoch.scans.filter((scan) => scan.frame === scan.frameBefore);
+    ++this.mapVersion;
+    if (joints.size > 0 && moved.every(({before, pose}) => before.x === pose.x && before.y === pose.y)) return;
+    const moves_m = moved.map(({before, pose}) => Math.hypot(pose.x - before.x, pose.y - before.y));
     const most_m = Math.max(0, ...moves_m);
     this.tell(`the map was corrected: ${moves_m.filter((m) => m > 0.01).length} of ${moves_m.length} scans moved, by ${most_m < 1 ? `${(100 * most_m).toFixed(0)} cm` : `${most_m.toFixed(1)} m`} at most`,
-      epoch.stamp || this.now, {at_ms: told_ms, moves: epoch.scans.map(({before, pose}) => ({before, pose}))});
-    ++this.mapVersion;
+      epoch.stamp || this.now, {at_ms: told_ms, moves: moved.map(({before, pose}) => ({before, pose}))});
+  }
+
+  // Maps of robots of which nobody knows where they are say nothing of the team's, and are not drawn
+  // in it. Where each robot has a map of its own, there is none that all share.
+  isApart(frame) { return frame?.startsWith('map_') && this.hasTeamMap; }
+  get hasTeamMap() {
+    return [...this.robots.values()].some(({frame}) => frame === 'map') || [...this.relevant.values()].some(({frame}) => frame === 'map');
+  }
+  // Says of each robot whether it is in the team's map. @return those that are.
+  robotsInMap() {
+    for (const robot of this.robots.values()) robot.isApart = this.isApart(robot.frame);
+    return [...this.robots.values()].filter(({isApart}) => !isApart);
   }
 
   #takeMark(mark) {
@@ -434,6 +455,7 @@ export function condition(robot, now_ms) {
     const since_s = robot.lastMatch === null ? 0 : robot.last.stamp - robot.lastMatch;
     return {level: since_s > 3 ? 2 : 1, text: `dead reckoning for ${ago(since_s)}`, age_s};
   }
+  if (robot.isApart) return {level: 2, text: 'lost: in a map of its own, searching for its place', age_s};
   if (robot.last.status === Status.simulated) return {level: 0, text: 'simulated; no service answers it', age_s};
   if (robot.health === 'answered by another service') return {level: 0, text: 'matched, by another service', age_s};
   return {level: 0, text: robot.last.status === Status.extended ? 'matched, exploring' : 'matched', age_s};

@@ -134,7 +134,7 @@ export class Tools {
     const near = ({x, y, z}) => { const [sx, sy] = this.view.camera.toScreen(x, y, z); return Math.hypot(sx - px, sy - py); };
     const mark = [...this.model.marks.values()].find((m) => !m.removed && near(m) < kNear_px / 1.5);
     if (mark) return this.actions.editMark(mark.id);
-    const robots = [...this.model.robots.values()].filter(({last}) => last && near(last) < kNear_px);
+    const robots = this.model.robotsInMap().filter(({last}) => last && near(last) < kNear_px);
     robots.sort((a, b) => near(a.last) - near(b.last));
     this.actions.select(robots[0]?.name ?? null);
     this.view.overlay = null;

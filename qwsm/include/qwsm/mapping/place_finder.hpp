@@ -53,6 +53,8 @@ class PlaceFinder {
                           const Pose2& T_local_robot);
 
   const PlaceBelief& belief() const { return belief_; }
+  /// Where the robot was in its own frame at the last look, which the belief is about.
+  const std::optional<Pose2>& T_local_looked() const { return T_local_last_; }
 
  private:
   // A place of the robot, followed from look to look.
@@ -78,7 +80,7 @@ class PlaceFinder {
   PlaceEvidence evidence_;
   std::vector<Hypothesis> hypotheses_;  // The most likely one first.
   std::optional<Pose2> T_local_last_;   // At the last look.
-  int looks_ = 0;
+  int vain_looks_ = 0;                  // Since one that spoke for some place.
   PlaceBelief belief_;
 };
 

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "qwsm/mapping/mapper_options.hpp"
+#include "qwsm/mapping/place_finder.hpp"
+#include "qwsm/sensor/scan_points.hpp"
+#include "service/team/atlas/map_agreement.hpp"
+#include "service/team/atlas/team_atlas.hpp"
+
+namespace qwsm::team {
+
+/// What a robot sees, and where it is in the component that it is in.
+struct Sighting {
+  MapComponent component;
+  MapVersion version;  ///< Of the component's map that the pose is in.
+  std::vector<ScanPoint> points;
+  UncertainPose2 map_robot;
+};
+
+/// A robot that is not where it was told.
+struct MisplacedRobot {
+  std::string robot;
+  std::string component;  ///< That it is in, wrongly.
+  MapVersion version;
+};
+
+/// Finds where the components of a team's map lie in one another: a robot of one of them drives
+/// where another one is mapped, recognises one place after the other, and all that both have mapped
+/// goes together. Works beside the robots, on copies of the maps, with what each saw last.
+class MapMerger {
+ public:
+  explicit MapMerger(const MapperOptions& options);
+
+  /// Takes what a robot sees. May be called from any thread.
+  void See(std::string_view robot, Sighting sighting);
+  /// Takes that a robot is where somebody says. May be called from any thread.
+  void HearPlaceOf(std::string_view robot);
+
+  /// Looks whether robots that were told where they are have mapped there what those have that were
+  /// in the map before.
+  /// @return the first one that has not: that is somewhere else.
+  std::optional<MisplacedRobot> FindMisplaced(const std::vector<MapComponent>& components);
+
+  /// Looks around with what was seen last by each robot, in all components but its own.
+  /// @return the first place found where one component lies in another.
+  std::optional<ComponentPlace> LookAround(const std::vector<MapComponent>& components,
+                                           const std::stop_token& stop);
+
+ private:
+  // A copy of a map as it was.
+  struct Chart {
+    MapVersion version;
+    ScanMap map;
+  };
+  // A robot's search for its place in another component than its own.
+  struct Search {
+    MapVersion from;
+    MapVersion into;
+    PlaceFinder finder;
+  };
+
+  std::map<std::string, Sighting> NewestSightings() const;
+  std::map<std::string, std::size_t> Told() const;
+  double NatsOfPlace(const std::vector<TeamScan>& scans, const std::string& robot) const;
+  const Chart& ChartOf(const MapComponent& component);
+  std::optional<ComponentPlace> LookFor(const std::string& robot,
+                                        const Sighting& sighting,
+                                        const MapComponent& other);
+  void ForgetWhatIsNone(const std::vector<MapComponent>& components);
+
+  const MapperOptions options_;
+  const MapAgreement agreement_;
+  mutable std::mutex mutex_;
+  std::map<std::string, Sighting, std::less<>> sightings_;  // By robot.
+  // Robots that were told where they are, and how many scans they had when that was looked at.
+  std::map<std::string, std::size_t, std::less<>> told_;
+
+  // Whoever looks around alone uses these.
+  std::map<std::string, Chart> charts_;                             // By component.
+  std::map<std::pair<std::string, std::string>, Search> searches_;  // By robot and component.
+};
+
+}  // namespace qwsm::team

@@ -1,0 +1,296 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/team/atlas/team_atlas.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <set>
+#include <utility>
+
+#include "service/team/journal/journaled_map.hpp"
+#include "service/team/scans/component.hpp"
+
+namespace qwsm::team {
+namespace {
+
+std::vector<UncertainPose2> PosesOf(const std::vector<Placement>& places) {
+  std::vector<UncertainPose2> poses;
+  poses.reserve(places.size());
+  for (const Placement& place : places) poses.push_back(place.map_robot);
+  return poses;
+}
+
+bool IsCorrected(const TeamMap& map, const std::vector<Placement>& wanted) {
+  const TeamMap::State::View contents = map.Read();
+  return !std::ranges::equal(
+      contents->map.scans(), wanted, [](const RelevantScan& scan, const Placement& place) {
+        return scan.map_robot.T_a_b == place.map_robot.T_a_b;
+      });
+}
+
+}  // namespace
+
+TeamAtlas::TeamAtlas(const TeamAtlasOptions& options, AtlasSurroundings surroundings)
+    : options_(options),
+      surroundings_(std::move(surroundings)),
+      maps_(options.sharing, options.mapper.map) {}
+
+void TeamAtlas::Restore(TeamScan scan, const std::string& component) {
+  const std::lock_guard lock(extension_);
+  const MapComponent home = maps_.Named(component);
+  if (!home.map->Insert(scan, ToPoints(scan.scan))) return;
+  maps_.Put(scan.key.robot, component);
+  maps_.Reserve(scan.component);
+  if (options_.corrects) CorrectorOf(component).Take(scan);
+}
+
+// Nobody hears of a relevant scan before it is safe: who has heard of it may rely on it.
+bool TeamAtlas::Extend(const TeamScan& scan,
+                       std::span<const ScanPoint> points,
+                       const MapVersion& answered_in) {
+  const std::lock_guard lock(extension_);
+  const MapComponent component = maps_.Of(scan.key.robot);
+  if (component.map->VersionOf(*component.map->Read()) != answered_in) return false;
+  const std::optional<TeamMap::Insertion> insertion = component.map->Insert(scan, points);
+  if (!insertion) return true;
+  surroundings_.keep(ToJournal(scan), [this, shared = std::make_shared<TeamScan>(scan), insertion] {
+    surroundings_.sinks.Tell(&TeamSink::TakeRelevantScan, *shared);
+    TellNewPoints(*shared, *insertion->addition);
+  });
+  if (options_.corrects) {
+    CorrectorOf(component.name).Take(scan);
+    CorrectIfDue(component);
+  }
+  return true;
+}
+
+bool TeamAtlas::TakeIn(TeamScan scan) {
+  const std::lock_guard lock(extension_);
+  std::string name = options_.sharing == MapSharing::kTeam ? scan.component : scan.key.robot;
+  Settle(scan, name);
+  const MapComponent component = maps_.Named(name);
+  if (!component.map->Insert(scan, ToPoints(scan.scan))) return false;
+  maps_.Put(scan.key.robot, name);
+  surroundings_.keep(ToJournal(scan), [] {});
+  if (options_.corrects) {
+    CorrectorOf(name).Take(scan);
+    CorrectIfDue(component);
+  }
+  of_others_.push_back(std::move(scan));
+  return true;
+}
+
+// Scans may be heard of after what has become of them.
+void TeamAtlas::Settle(TeamScan& scan, std::string& component) const {
+  if (const auto told = told_.find(scan.key); told != told_.end()) {
+    component = told->second.component;
+    scan.map_robot = told->second.map_robot;
+    return;
+  }
+  for (auto joined = joined_.find(component); joined != joined_.end();
+       joined = joined_.find(component)) {
+    component = joined->second.component;
+    scan.map_robot = UncertainPose2{.T_a_b = joined->second.T_into_from} * scan.map_robot;
+  }
+}
+
+void TeamAtlas::TakeIn(const TeamEpoch& epoch) {
+  const std::lock_guard lock(extension_);
+  const bool is_wanted = options_.corrects && options_.sharing == MapSharing::kTeam;
+  if (!is_wanted || epoch.rank <= epoch_) return;
+  told_.clear();
+  for (const MovedScan& scan : epoch.scans) {
+    told_[scan.key] = {.component = scan.component, .map_robot = scan.map_robot};
+  }
+  const Rearrangement wanted = Follow(maps_, told_);
+  // Whoever knows of scans that the other one did not tells where these are now.
+  epoch_ = wanted.moves_others ? Next(epoch.rank) : epoch.rank;
+  TakeEffect(wanted);
+}
+
+std::vector<TeamScan> TeamAtlas::TakenIn() {
+  const std::lock_guard lock(extension_);
+  return std::exchange(of_others_, {});
+}
+
+bool TeamAtlas::Join(const ComponentPlace& place) {
+  const std::lock_guard lock(extension_);
+  const auto is_as_found = [this](const std::string& name, const MapVersion& found) {
+    const MapComponent component = maps_.Named(name);
+    return component.map->VersionOf(*component.map->Read()) == found;
+  };
+  if (!is_as_found(place.from_name, place.from) || !is_as_found(place.into_name, place.into)) {
+    return false;
+  }
+  Rearrangement wanted = AsTheyAre(maps_);
+  for (Placement& one : wanted.wanted.at(place.from_name)) {
+    one = {.component = place.into_name, .map_robot = place.into_from * one.map_robot};
+  }
+  epoch_ = Next(epoch_);
+  TakeEffect(wanted);
+  return true;
+}
+
+bool TeamAtlas::Part(const std::string& robot,
+                     const MapVersion& from,
+                     const std::string& from_name) {
+  const std::lock_guard lock(extension_);
+  const MapComponent component = maps_.Named(from_name);
+  if (component.map->VersionOf(*component.map->Read()) != from) return false;
+  Rearrangement wanted = AsTheyAre(maps_);
+  std::optional<Pose2> T_own_map;
+  const std::string own = maps_.NewNameFor(robot);
+  std::vector<Placement>& places = wanted.wanted.at(from_name);
+  for (std::size_t id = 0; id < places.size(); ++id) {
+    if (component.map->KeyOf(static_cast<ScanId>(id)).robot != robot) continue;
+    Placement& place = places[id];
+    if (!T_own_map) T_own_map = place.map_robot.T_a_b.Inverse();
+    place = {.component = own, .map_robot = UncertainPose2{.T_a_b = *T_own_map} * place.map_robot};
+  }
+  if (!T_own_map) return false;
+  epoch_ = Next(epoch_);
+  TakeEffect(wanted);
+  return true;
+}
+
+void TeamAtlas::CorrectIfDue(const MapComponent& component) {
+  std::optional<CorrectedMap> corrected = CorrectorOf(component.name).LookIfDue();
+  if (!corrected) return;
+  Rearrangement wanted = AsTheyAre(maps_);
+  std::vector<Placement>& places = wanted.wanted.at(component.name);
+  for (std::size_t id = 0; id < places.size(); ++id) {
+    places[id].map_robot = corrected->map_node[id];
+  }
+  epoch_ = Next(epoch_);
+  TeamEpoch epoch = EpochOf(maps_, wanted, epoch_);
+  component.map->Correct(std::move(corrected->map));
+  Tell(std::move(epoch));
+}
+
+EpochRank TeamAtlas::Next(const EpochRank& last) const {
+  return {.number = last.number + 1, .service = surroundings_.service()};
+}
+
+// A component from which scans go is made anew of those that stay; what comes to one is added to
+// it, as if it had just been seen.
+void TeamAtlas::TakeEffect(const Rearrangement& rearrangement) {
+  TeamEpoch epoch = EpochOf(maps_, rearrangement, epoch_);
+  Moves moves;
+  for (const auto& [name, wanted] : rearrangement.wanted) {
+    const bool loses_scans = std::ranges::any_of(
+        wanted, [&, &of = name](const Placement& place) { return place.component != of; });
+    if (loses_scans) {
+      MoveOut(name, wanted, moves);
+    } else if (const MapComponent component = maps_.Named(name);
+               IsCorrected(*component.map, wanted)) {
+      component.map->Correct(CorrectorOf(name).Adopt(PosesOf(wanted)).map);
+    }
+  }
+  for (const auto& [name, scans] : moves.arriving) MoveIn(name, scans, moves);
+  maps_.Exchange(moves.made_anew, moves.home_of_robot);
+  Tell(std::move(epoch));
+}
+
+void TeamAtlas::MoveOut(const std::string& component,
+                        const std::vector<Placement>& wanted,
+                        Moves& moves) {
+  std::vector<TeamScan> scans = maps_.Named(component).map->Scans();
+  NoteJoined(component, wanted.back(), scans.back().map_robot.T_a_b);
+  for (std::size_t id = 0; id < scans.size(); ++id) {
+    TeamScan& scan = scans[id];
+    scan.map_robot = wanted[id].map_robot;
+    if (maps_.Of(scan.key.robot).name == component) {
+      moves.home_of_robot[scan.key.robot] = wanted[id].component;
+    }
+    moves.arriving[wanted[id].component].push_back(std::move(scan));
+  }
+  moves.made_anew[component] = nullptr;
+  if (auto corrector = correctors_.extract(component)) retired_.push_back(std::move(corrector));
+}
+
+void TeamAtlas::MoveIn(const std::string& component,
+                       const std::vector<TeamScan>& scans,
+                       Moves& moves) {
+  const bool is_there = maps_.Has(component) && !moves.made_anew.contains(component);
+  const std::shared_ptr<TeamMap> map = is_there ? maps_.Named(component).map : maps_.Make();
+  if (!is_there) moves.made_anew[component] = map;
+  for (const TeamScan& scan : scans) {
+    map->Insert(scan, ToPoints(scan.scan));
+    if (options_.corrects) CorrectorOf(component).Take(scan);
+  }
+}
+
+void TeamAtlas::NoteJoined(const std::string& component,
+                           const Placement& wanted,
+                           const Pose2& before) {
+  if (wanted.component == component) return;
+  joined_[component] = {.component = wanted.component,
+                        .T_into_from = wanted.map_robot.T_a_b * before.Inverse()};
+}
+
+void TeamAtlas::Tidy() {
+  decltype(retired_) retired;
+  const std::lock_guard lock(extension_);
+  retired.swap(retired_);
+}
+
+void TeamAtlas::Tell(TeamEpoch epoch) {
+  TellAsEvent(epoch);
+  std::map<ScanKey, const MovedScan*> moved;
+  for (const MovedScan& scan : epoch.scans) moved[scan.key] = &scan;
+  for (TeamScan& scan : of_others_) {
+    const auto there = moved.find(scan.key);
+    if (there == moved.end()) continue;
+    scan.component = there->second->component;
+    scan.map_robot = there->second->map_robot;
+  }
+  const auto shared = std::make_shared<const TeamEpoch>(std::move(epoch));
+  surroundings_.keep(ToJournal(*shared),
+                     [this, shared] { surroundings_.sinks.Tell(&TeamSink::TakeEpoch, *shared); });
+}
+
+void TeamAtlas::TellAsEvent(const TeamEpoch& epoch) const {
+  double farthest_m = 0.0;
+  std::set<std::pair<std::string, std::string>> moves;
+  for (const MovedScan& scan : epoch.scans) {
+    if (scan.component != scan.component_before) {
+      moves.emplace(scan.component_before, scan.component);
+      continue;
+    }
+    const Eigen::Vector2d moved_m =
+        scan.map_robot.T_a_b.translation_m() - scan.T_map_robot_before.translation_m();
+    farthest_m = std::max(farthest_m, moved_m.norm());
+  }
+  const std::string by =
+      epoch.rank.service == surroundings_.service() ? "" : " by " + epoch.rank.service;
+  const auto tell = [this](const std::string& text) {
+    surroundings_.sinks.Tell(&TeamSink::TakeEvent,
+                             {.robot = std::nullopt, .is_warning = false, .text = text});
+  };
+  for (const auto& [from, into] : moves) {
+    tell(fmt::format(
+        "{} was found in {}{}: its scans are there now", FrameOf(from), FrameOf(into), by));
+  }
+  if (moves.empty() || farthest_m > 0.0) {
+    tell(fmt::format("the map was corrected{}: its scans move by up to {:.2f} m", by, farthest_m));
+  }
+}
+
+TeamCorrector& TeamAtlas::CorrectorOf(const std::string& component) {
+  return correctors_.try_emplace(component, options_.mapper).first->second;
+}
+
+void TeamAtlas::TellNewPoints(const TeamScan& scan, const MapAddition& addition) const {
+  std::vector<Eigen::Vector2d> points_map_m;
+  points_map_m.reserve(addition.points.size());
+  for (const MapPoint& point : addition.points) points_map_m.push_back(point.p_map_m);
+  surroundings_.sinks.Tell(&TeamSink::TakeNewPoints,
+                           {.robot = scan.key.robot,
+                            .component = scan.component,
+                            .stamp = scan.scan.stamp,
+                            .points_map_m = points_map_m});
+}
+
+}  // namespace qwsm::team

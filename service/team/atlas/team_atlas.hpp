@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "qwsm/mapping/mapper_options.hpp"
+#include "service/io/journal/journal_entry.hpp"
+#include "service/team/atlas/rearrangement.hpp"
+#include "service/team/map/team_corrector.hpp"
+#include "service/team/map/team_maps.hpp"
+#include "service/team/sinks/sink_list.hpp"
+#include "service/team/sinks/team_sink.hpp"
+
+namespace qwsm::team {
+
+struct TeamAtlasOptions {
+  MapSharing sharing = MapSharing::kTeam;
+  MapperOptions mapper;
+  bool corrects = true;  ///< Whether maps are corrected while robots drive.
+};
+
+/// What an atlas needs of the service that it belongs to.
+struct AtlasSurroundings {
+  std::function<std::string()> service;  ///< Tells the service's name in keys of scans.
+  /// Keeps an entry in the journal, if there is one, and calls what is to be told once it is safe.
+  std::function<void(io::JournalEntry, std::function<void()>)> keep;
+  const SinkList<TeamSink>& sinks;
+};
+
+/// How the frame of one component lies in another one.
+struct ComponentPlace {
+  MapVersion from;  ///< As it was when this was found.
+  std::string from_name;
+  MapVersion into;
+  std::string into_name;
+  UncertainPose2 into_from;
+};
+
+/// All that a team knows of its surroundings: the map that its robots share, and the components of
+/// those of which nobody knows where in it they are (an atlas, Elvira et al. 2019). Robots
+/// and other services extend it; what is drawn wrong is put elsewhere, and components that are
+/// found in one another become one. Each of these is an epoch, in the journal and for the other
+/// services. All functions may be called from any thread.
+class TeamAtlas {
+ public:
+  TeamAtlas(const TeamAtlasOptions& options, AtlasSurroundings surroundings);
+
+  TeamMaps& maps() { return maps_; }
+  const TeamMaps& maps() const { return maps_; }
+
+  /// Takes back a scan of a journal. @param component it is in.
+  void Restore(TeamScan scan, const std::string& component);
+  /// Goes on counting from the last epoch of a journal.
+  void GoOnFrom(std::uint64_t epoch) { epoch_.number = epoch; }
+
+  /// Adds a relevant scan of a robot of this service.
+  /// @param answered_in the map that its pose is in.
+  /// @return false if that has been corrected, or become part of another one, since.
+  bool Extend(const TeamScan& scan,
+              std::span<const ScanPoint> points,
+              const MapVersion& answered_in);
+
+  /// Takes in a scan of another service. @return whether it is new here.
+  /// @pre ObjectionTo(scan).empty()
+  bool TakeIn(TeamScan scan);
+  /// Takes in a correction by another service; see TeamService.
+  void TakeIn(const TeamEpoch& epoch);
+  /// What was taken in of others, for those that come later, if these are gone. Told once.
+  std::vector<TeamScan> TakenIn();
+
+  /// Makes two components one. @return false if one of them has been corrected since the place was
+  /// found.
+  bool Join(const ComponentPlace& place);
+  /// Takes all scans of a robot out of a component, into one of their own.
+  /// @return false if the component has been corrected since.
+  bool Part(const std::string& robot, const MapVersion& from, const std::string& from_name);
+  /// Ends looks at components that are none any more. Takes as long as these; to be called beside.
+  void Tidy();
+
+ private:
+  struct JoinedTo {
+    std::string component;
+    Pose2 T_into_from;
+  };
+  // Between components.
+  struct Moves {
+    std::map<std::string, std::vector<TeamScan>> arriving;      // By component.
+    std::map<std::string, std::shared_ptr<TeamMap>> made_anew;  // Likewise.
+    std::map<std::string, std::string> home_of_robot;           // That changes.
+  };
+
+  std::optional<TeamMap::Insertion> Insert(const MapComponent& component,
+                                           const TeamScan& scan,
+                                           std::span<const ScanPoint> points);
+  void Settle(TeamScan& scan, std::string& component) const;
+  TeamCorrector& CorrectorOf(const std::string& component);
+  void CorrectIfDue(const MapComponent& component);
+  EpochRank Next(const EpochRank& last) const;
+  void TakeEffect(const Rearrangement& wanted);
+  void MoveOut(const std::string& component, const std::vector<Placement>& wanted, Moves& moves);
+  void MoveIn(const std::string& component, const std::vector<TeamScan>& scans, Moves& moves);
+  void NoteJoined(const std::string& component, const Placement& wanted, const Pose2& before);
+  void Tell(TeamEpoch epoch);
+  void TellNewPoints(const TeamScan& scan, const MapAddition& addition) const;
+  void TellAsEvent(const TeamEpoch& epoch) const;
+
+  const TeamAtlasOptions options_;
+  const AtlasSurroundings surroundings_;
+  TeamMaps maps_;
+  std::mutex extension_;  // Keeps the journal in the order of the maps; guards what follows.
+  std::map<std::string, TeamCorrector> correctors_;  // By component.
+  std::vector<decltype(correctors_)::node_type> retired_;
+  EpochRank epoch_;
+  Placements told_;                         // By the last epoch of another service.
+  std::map<std::string, JoinedTo> joined_;  // Components that are none any more.
+  std::vector<TeamScan> of_others_;         // Scans taken in from other services.
+};
+
+}  // namespace qwsm::team
