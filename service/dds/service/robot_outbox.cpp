@@ -21,7 +21,8 @@ RobotOutbox<Kind>::RobotOutbox(const Participant& participant,
 
 template <class Kind>
 void RobotOutbox<Kind>::Publish(const team::Answer<Kind>& answer) const {
-  poses_.Publish(answer.step.stamp, answer.step.map_robot, answer.T_odom_robot);
+  poses_.Publish(
+      answer.step.stamp, answer.told.value_or(answer.step.map_robot), answer.T_odom_robot);
 }
 
 template <class Kind>

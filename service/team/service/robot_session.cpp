@@ -37,6 +37,7 @@ RobotSession::RobotSession(std::string name,
               [this](const TeamEvent& event) { context_.sinks.Tell(&TeamSink::TakeEvent, event); }),
       intake_(events_, options),
       tracker_(mapper),
+      easing_(context_.correction),
       sequence_(
           std::max(context_.map.LastSequence(context_.service, this->name()), SequenceOfNow())) {}
 
@@ -87,6 +88,7 @@ void RobotSession::Answer(Work& work,
   const RobotAnswer answer{.robot = name(),
                            .step = step,
                            .T_odom_robot = work.T_odom_robot,
+                           .told = easing_.Tell(step, work.T_odom_robot),
                            .matching = answered - begun,
                            .latency = answered - work.arrived,
                            .scans = counts.scans,
@@ -100,7 +102,9 @@ void RobotSession::Answer(Work& work,
 void RobotSession::FollowCorrections(const TeamMap::Contents& contents) {
   if (std::exchange(epoch_, contents.epoch) == contents.epoch || !last_relevant_) return;
   const UncertainPose2& map_last = contents.map.scans()[*last_relevant_].map_robot;
+  const Pose2 T_before_robot = tracker_.map_robot().T_a_b;
   tracker_.FollowCorrection(map_last * Since(*nodes_.map_last(), tracker_.map_robot()));
+  easing_.Correct(T_before_robot, tracker_.map_robot().T_a_b);
   nodes_.Follow(map_last);
 }
 
@@ -142,6 +146,7 @@ bool RobotSession::Place(const ScanMap& map, const Work& work, std::span<const S
     const std::lock_guard lock(mutex_);
     initial_pose = std::exchange(initial_pose_, std::nullopt);
   }
+  if (initial_pose || !is_placed_) easing_.Forget();
   if (initial_pose) {
     is_placed_ ? tracker_.PlaceAsTold(*initial_pose) : tracker_.PlaceAt(*initial_pose);
     return true;

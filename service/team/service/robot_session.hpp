@@ -12,6 +12,7 @@
 #include "qwsm/correction/node_maker.hpp"
 #include "service/team/map/team_map.hpp"
 #include "service/team/service/contested_tracker.hpp"
+#include "service/team/session/correction_easing.hpp"
 #include "service/team/session/session_intake.hpp"
 #include "service/team/session/session_options.hpp"
 #include "service/team/session/worker_pool.hpp"
@@ -28,6 +29,7 @@ struct SessionContext {
   std::optional<UncertainPose2> start;  ///< Where the robot starts if nothing better is known.
   /// Readings so near to a teammate are left out, in metres; see TeamOptions.
   double teammate_radius_m = 0.0;
+  CorrectionOptions correction{};  ///< How corrections of the map reach the robot.
   /// Puts a relevant scan into the map, the journal and the network. @return its id in the map.
   std::function<std::optional<ScanId>(const TeamScan&, std::span<const ScanPoint>)> extend;
   /// Tells of an answer once what it says is safe.
@@ -85,6 +87,7 @@ class RobotSession final : public Lane {
   // The worker alone uses these.
   ContestedTracker tracker_;
   NodeMaker nodes_;
+  CorrectionEasing easing_;
   std::optional<ScanId> last_relevant_;
   std::uint32_t epoch_ = 0;  // Of the map that the tracker's poses are in.
   bool is_placed_ = false;

@@ -315,6 +315,7 @@ std::shared_ptr<RobotSession> TeamService::MakeSession(std::string robot) {
                          .sinks = sinks_,
                          .start = start ? std::optional(PlanarStart(*start)) : std::nullopt,
                          .teammate_radius_m = options_.team.teammate_radius_m,
+                         .correction = CorrectionOf(options_.team.correction, robot),
                          .extend = extend,
                          .report = report};
   return std::make_shared<RobotSession>(
