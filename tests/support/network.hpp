@@ -47,8 +47,9 @@ class PrivateNetwork {
 class Daemon {
  public:
   explicit Daemon(std::vector<std::string> arguments, const std::string& program = "qwsm")
-      : program_(std::make_unique<Program>(std::move(arguments),
-                                           Redirection{.output = {}, .program = program})) {}
+      : Daemon(std::move(arguments), Redirection{.output = {}, .program = program}) {}
+  Daemon(std::vector<std::string> arguments, const Redirection& redirection)
+      : program_(std::make_unique<Program>(std::move(arguments), redirection)) {}
   Daemon(const Daemon&) = delete;
   Daemon& operator=(const Daemon&) = delete;
   ~Daemon() {
@@ -67,6 +68,8 @@ class Daemon {
     }
     return false;
   }
+  /// Waits for the end.
+  Outcome Wait() { return std::exchange(program_, nullptr)->Wait(); }
   /// Sends the signal and waits for the end.
   Outcome End(int number = SIGTERM) {
     program_->Signal(number);
