@@ -52,6 +52,11 @@ class CutNetwork {
   void Cut() const { Do("-n " + names_[kSwitch] + " link set right nomaster"); }
   void Heal() const { Do("-n " + names_[kSwitch] + " link set right master switch"); }
 
+  /// Takes the network interface of a computer down.
+  void TakeDown(Side side) const {
+    Do("-n " + names_.at(side) + " link set " + PortOf(side) + " down");
+  }
+
   /// Starts a program on one of the computers.
   std::unique_ptr<Daemon> Start(Side side, std::vector<std::string> arguments) const {
     arguments.insert(arguments.end(), {"--set", std::string("network.interface=") + PortOf(side)});

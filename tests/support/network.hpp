@@ -58,6 +58,7 @@ class Daemon {
 
   pid_t process() const { return program_->process(); }
   void Signal(int number) const { program_->Signal(number); }
+  bool HasEnded() const { return program_->HasEnded(); }
   std::string ErrorsSoFar() const { return program_->ErrorsSoFar(); }
   std::chrono::nanoseconds CpuSoFar() const { return program_->CpuSoFar(); }
   /// Waits until the program says something on stderr. @returns false after ten seconds without.

@@ -64,6 +64,13 @@ class Program {
   pid_t process() const { return process_; }
   void Signal(int number) const { kill(process_, number); }
 
+  bool HasEnded() const {
+    siginfo_t ended{};
+    const int options = WEXITED | WNOHANG | WNOWAIT;  // It can still be waited for.
+    const auto id = static_cast<id_t>(process_);
+    return waitid(P_PID, id, &ended, options) == 0 && ended.si_pid == process_;
+  }
+
   std::string ErrorsSoFar() const { return ReadFile(streams_.path() / "errors"); }
 
   /// What it has needed so far, of all its threads. @pre it has not ended.

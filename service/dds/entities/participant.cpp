@@ -55,8 +55,12 @@ constexpr std::string_view kDefaults =
 
 // Who was cut off is found again when one says that it is there, by default every 8 s. On loopback
 // nobody is cut off, and it is said to each that might be there.
+//
+// A thread that receives multicast alone is woken for its end by multicast, which never comes where
+// the interface has been taken down: one thread receives all.
 constexpr std::string_view kDefaultsOfNetworks =
     "<CycloneDDS><Domain id=\"any\"><Discovery><SPDPInterval>2s</SPDPInterval></Discovery>"
+    "<Internal><MultipleReceiveThreads>false</MultipleReceiveThreads></Internal>"
     "</Domain></CycloneDDS>";
 
 /// What the options say, in Cyclone's language.
