@@ -49,14 +49,15 @@ std::optional<UncertainPose2> StartOf(const LocalizeArguments& arguments) {
 ExitCode RunLocalize(LocalizeArguments arguments) {
   StartMessages(arguments.run.verbosity);
   arguments.run.other_inputs = {arguments.map};
-  ScanMap map = OpenMap(arguments.map);
-  const options::ProgramOptions options = LoadOptionsFor(arguments, map);
+  KnownMap known = OpenMap(arguments.map);
+  const options::ProgramOptions options = LoadOptionsFor(arguments, known.map);
   const auto source = OpenLogs(arguments.run, options.log);
   if (arguments.run.dry_run) return TellPlan("localize", arguments.run);
 
   const RunSession session(arguments.run, options);
-  Localizer localizer(options.mapper, std::move(map), StartOf(arguments));
-  return FollowInMap("localize", localizer, *source, options, session);
+  Localizer localizer(options.mapper, std::move(known.map), StartOf(arguments));
+  pipeline::JournalMarks marks(arguments.run.logs, known.marks);
+  return FollowInMap("localize", {localizer, marks}, *source, options, session);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,12 +20,12 @@
 #include "service/apps/team_mapping.hpp"
 #include "service/config/suggestion.hpp"
 #include "service/io/files/atomic_file.hpp"
-#include "service/io/maps/map_file.hpp"
 #include "service/pipeline/live/live_run.hpp"
 #include "service/pipeline/results/answer_bag.hpp"
 #include "service/pipeline/results/corrected_run.hpp"
 #include "service/pipeline/results/journal_marks.hpp"
 #include "service/pipeline/results/marks_list.hpp"
+#include "service/pipeline/results/marks_of_map.hpp"
 #include "service/pipeline/results/results_writer.hpp"
 #include "service/pipeline/run/parallel.hpp"
 #include "service/pipeline/simulation/simulator_source.hpp"
@@ -125,6 +126,22 @@ std::unique_ptr<pipeline::LiveRun> ShowLive(const MapArguments& arguments,
   return live;
 }
 
+/// The marks of a log, and those that were set on the page of the run, if there is one.
+std::vector<team::Mark> WithThoseOfPage(std::vector<team::Mark> marks,
+                                        const pipeline::LiveRun* live) {
+  if (live != nullptr) std::ranges::move(live->marks(), std::back_inserter(marks));
+  return marks;
+}
+
+/// Leaves what is marked on the map among the results, and both where the map is to be saved.
+void KeepMap(const MapArguments& arguments,
+             const RunSession& session,
+             const ScanMap& map,
+             const std::vector<team::Mark>& marks) {
+  pipeline::WriteMarks(session.folder().path(), marks);
+  if (arguments.save_map) pipeline::SaveMap(*arguments.save_map, map, marks);
+}
+
 constexpr const char* kAtEnd = "the log is at its end";
 
 ExitCode MapAll(const MapArguments& arguments,
@@ -169,16 +186,16 @@ ExitCode MapAll(const MapArguments& arguments,
   if (arguments.bag) {
     answers.Write(session.folder() / kAnswers, pipeline::RenderOrWarn(map, options.rendering));
   }
-  pipeline::WriteMarks(
-      session.folder().path(),
-      marks.Placed(corrected ? corrected->correction.map_robot : std::vector<UncertainPose2>()));
-  if (arguments.save_map) io::SaveMap(*arguments.save_map, map);
+  const std::vector<team::Mark> of_log =
+      marks.Placed(corrected ? corrected->correction.map_robot : std::vector<UncertainPose2>());
   if (live && corrected) live->Correct({.map_node = corrected->correction.map_node}, map);
   if (live) live->Finish(map, corrected ? "the log is at its end, the map corrected" : kAtEnd);
+  KeepMap(arguments, session, map, WithThoseOfPage(of_log, live.get()));
   session.Summarize(results, map);
   if (live && end.end == pipeline::ReplayEnd::kExhausted) {
     KeepPage(
         [&live](const pipeline::Interruption& interruption) { live->StayUntil(interruption); });
+    KeepMap(arguments, session, map, WithThoseOfPage(of_log, live.get()));
   }
   return Conclude(end);
 }
@@ -186,12 +203,13 @@ ExitCode MapAll(const MapArguments& arguments,
 /// Goes on in a map that was made before, once the robot is recognised in it.
 ExitCode ContinueMap(const MapArguments& arguments,
                      const options::ProgramOptions& options,
-                     ScanMap map,
+                     KnownMap known,
                      pipeline::ScanSource& source,
                      const RunSession& session) {
-  Localizer localizer(options.mapper, std::move(map));
-  const ExitCode code = FollowInMap("map", localizer, source, options, session);
-  if (arguments.save_map) io::SaveMap(*arguments.save_map, localizer.map());
+  Localizer localizer(options.mapper, std::move(known.map));
+  pipeline::JournalMarks marks(arguments.run.logs, known.marks);
+  const ExitCode code = FollowInMap("map", {localizer, marks}, source, options, session);
+  if (arguments.save_map) pipeline::SaveMap(*arguments.save_map, localizer.map(), marks.Placed({}));
   return code;
 }
 
@@ -224,11 +242,11 @@ ExitCode RunMap(MapArguments arguments) {
     arguments.run.scenario = arguments.simulated.scenario;
   }
   options::ProgramOptions options = LoadOptions(arguments);
-  std::optional<ScanMap> map;
+  std::optional<KnownMap> known;
   if (arguments.continued) {
     arguments.run.other_inputs = {*arguments.continued};
-    map = OpenMap(*arguments.continued);
-    options.mapper.map = map->options();
+    known = OpenMap(*arguments.continued);
+    options.mapper.map = known->map.options();
   }
   Origin origin;
   try {
@@ -245,8 +263,8 @@ ExitCode RunMap(MapArguments arguments) {
   if (origin.scenario) {
     io::WriteTextFile(session.folder() / "scenario.yaml", ScenarioText(*origin.scenario));
   }
-  return map ? ContinueMap(arguments, options, *std::move(map), *origin.source, session)
-             : MapAll(arguments, options, *origin.source, session);
+  return known ? ContinueMap(arguments, options, *std::move(known), *origin.source, session)
+               : MapAll(arguments, options, *origin.source, session);
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include "service/io/maps/map_file.hpp"
 #include "service/io/maps/ros_map_file.hpp"
 #include "service/pipeline/results/lost_and_found.hpp"
+#include "service/pipeline/results/marks_list.hpp"
+#include "service/pipeline/results/marks_of_map.hpp"
 #include "service/pipeline/results/results_writer.hpp"
 #include "service/pipeline/text/messages.hpp"
 
@@ -34,12 +36,12 @@ ExitCode ConcludeLost(const PlaceBelief& belief, std::size_t unplaced) {
 
 }  // namespace
 
-ScanMap OpenMap(const std::filesystem::path& path) {
+KnownMap OpenMap(const std::filesystem::path& path) {
   const std::filesystem::path ending = path.extension();
   if (ending != ".yaml" && ending != ".yml") {
     ScanMap map = io::LoadMap(path);
     if (map.empty()) throw UsageError(path.string() + ": is a map without scans");
-    return map;
+    return {.map = std::move(map), .marks = pipeline::MarksOfMap(path)};
   }
   ScanMap map = SurveyGrid(io::ReadRosMap(path));
   if (map.empty()) {
@@ -47,20 +49,22 @@ ScanMap OpenMap(const std::filesystem::path& path) {
                      ": no occupied cell lies beside a free one, so there is nothing to localize "
                      "by; look at its thresholds and the picture");
   }
-  return map;
+  return {.map = std::move(map)};
 }
 
 ExitCode FollowInMap(const std::string& task,
-                     Localizer& localizer,
+                     const RobotInMap& robot,
                      pipeline::ScanSource& source,
                      const options::ProgramOptions& options,
                      const RunSession& session) {
   pipeline::ResultsWriter results(session.folder(), {.pictures = session.has_pictures()});
-  pipeline::LostAndFound lost_and_found(localizer, results);
+  Localizer& localizer = robot.localizer;
+  pipeline::LostAndFound lost_and_found(localizer, {&results, &robot.marks});
   const pipeline::ReplayResult end = session.Run(
       task, source, std::bind_front(&Localizer::Process, &localizer), {&lost_and_found});
   results.SetTitle(session.Title(task, end));
   results.Finish(localizer.map(), options.mapper.matcher, options.rendering);
+  pipeline::WriteMarks(session.folder().path(), robot.marks.Placed({}));
   session.Summarize(results, localizer.map());
   if (end.end == pipeline::ReplayEnd::kExhausted && lost_and_found.held() > 0) {
     return ConcludeLost(localizer.belief(), lost_and_found.held());

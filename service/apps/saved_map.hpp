@@ -5,21 +5,35 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "qwsm/mapping/localizer.hpp"
 #include "service/apps/run_session.hpp"
+#include "service/pipeline/results/journal_marks.hpp"
 
 namespace qwsm::apps {
 
+/// A map that was made before, with what operators marked on it.
+struct KnownMap {
+  ScanMap map;
+  std::vector<team::Mark> marks{};
+};
+
 /// The map of a file: one that was saved, or the occupancy grid of another program.
 /// @throws UsageError where there is nothing in it to localize by.
-ScanMap OpenMap(const std::filesystem::path& path);
+KnownMap OpenMap(const std::filesystem::path& path);
+
+/// A robot in such a map, and the marks on it.
+struct RobotInMap {
+  Localizer& localizer;
+  pipeline::JournalMarks& marks;
+};
 
 /// Follows a robot through a map that was made before, and leaves the results.
 /// @param task as `localize`, for messages.
 /// @returns kFailed where the log ends and the robot is lost, which is told.
 ExitCode FollowInMap(const std::string& task,
-                     Localizer& localizer,
+                     const RobotInMap& robot,
                      pipeline::ScanSource& source,
                      const options::ProgramOptions& options,
                      const RunSession& session);

@@ -11,6 +11,7 @@
 #include "service/io/maps/map_file.hpp"
 #include "service/io/maps/ros_map_file.hpp"
 #include "service/io/pictures/map_picture.hpp"
+#include "service/pipeline/results/marks_of_map.hpp"
 #include "service/pipeline/text/messages.hpp"
 
 namespace qwsm::apps {
@@ -39,6 +40,8 @@ class TeamMapping {
 
   /// The map of all.
   ScanMap map() const { return io::LoadMap(map_file_); }
+  /// What is marked on it.
+  std::vector<team::Mark> marks() const { return pipeline::MarksOfMap(map_file_); }
 
  private:
   /// Tries again who was not found while the map grows: a robot may have been where only those
@@ -66,12 +69,13 @@ class TeamMapping {
   ExitCode MapInMap(const std::string& robot) const {
     TellTurn(robot);
     options::ProgramOptions options = options_;
-    ScanMap map = OpenMap(map_file_);
-    options.mapper.map = map.options();
-    Localizer localizer(options.mapper, std::move(map));
+    KnownMap known = OpenMap(map_file_);
+    options.mapper.map = known.map.options();
+    Localizer localizer(options.mapper, std::move(known.map));
+    pipeline::JournalMarks marks({}, known.marks);
     const ExitCode code =
-        FollowInMap("map", localizer, *Open(robot), options, session_.Part(robot));
-    if (code == ExitCode::kDone) io::SaveMap(map_file_, localizer.map());
+        FollowInMap("map", {localizer, marks}, *Open(robot), options, session_.Part(robot));
+    if (code == ExitCode::kDone) pipeline::SaveMap(map_file_, localizer.map(), marks.Placed({}));
     return code;
   }
 
@@ -109,7 +113,7 @@ ExitCode MapTeam(const RunArguments& arguments,
     io::WriteRosMap(session.folder() / "map.yaml", *grid);
     io::WriteMapPicture(session.folder() / "map.png", *grid);
   }
-  if (team.save_map) io::SaveMap(*team.save_map, map);
+  if (team.save_map) pipeline::SaveMap(*team.save_map, map, mapping.marks());
   if (!arguments.verbosity.quiet) Print("results        {}\n", session.folder().path().string());
   return code;
 }

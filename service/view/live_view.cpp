@@ -25,6 +25,11 @@ std::string_view TypeOfFile(std::string_view path) {
   return "image/svg+xml";
 }
 
+std::optional<TlsIdentity> IdentityOf(const ViewOptions& options) {
+  const auto files = EncryptionOf(options);
+  return files ? std::make_optional<TlsIdentity>(*files) : std::nullopt;
+}
+
 /// Changes with each start: clients begin anew then.
 std::string NewSession() {
   return std::to_string(std::chrono::system_clock::now().time_since_epoch().count());
@@ -39,18 +44,21 @@ class LiveView::Parts final : public WebHandler {
         const ViewOptions& options,
         const Service& service)
       : access_(options),
+        identity_(IdentityOf(options)),
         marks_(service.marks),
         greeting_(ServerInfoText(service.name, NewSession())),
         board_(service.warn),
         server_({.address = options.address,
                  .port = options.port,
-                 .max_sockets = static_cast<std::size_t>(options.max_clients)},
+                 .max_sockets = static_cast<std::size_t>(options.max_clients),
+                 .identity = identity_},
                 *this),
         gateway_(participant,
                  graph,
                  {.take_topics = [this](auto topics) { TakeTopics(std::move(topics)); },
                   .take_samples = [this](auto samples) { TakeSamples(std::move(samples)); },
                   .warn = service.warn}) {
+    if (identity_ && !identity_->warning().empty()) service.warn(identity_->warning());
     server_.Start();
   }
   ~Parts() override { server_.Stop(); }
@@ -72,7 +80,10 @@ class LiveView::Parts final : public WebHandler {
     return std::make_unique<Client>(board_, uplink_, greeting_);
   }
 
-  int port() const { return server_.port(); }
+  std::string url() const {
+    return identity_ ? fmt::format("https://{}:{}/", identity_->host(), server_.port())
+                     : fmt::format("http://localhost:{}/", server_.port());
+  }
 
  private:
   void TakeTopics(std::vector<dds::PublishedTopic> topics) {
@@ -97,6 +108,7 @@ class LiveView::Parts final : public WebHandler {
   }
 
   Access access_;
+  std::optional<TlsIdentity> identity_;
   dds::MarkExchange& marks_;
   std::string greeting_;
   // What follows, but for server and gateway, is used by the server's thread.
@@ -119,6 +131,6 @@ LiveView::LiveView(const dds::Participant& participant,
 
 LiveView::~LiveView() = default;
 
-std::string LiveView::url() const { return fmt::format("http://localhost:{}/", parts_->port()); }
+std::string LiveView::url() const { return parts_->url(); }
 
 }  // namespace qwsm::view

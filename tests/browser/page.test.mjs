@@ -210,4 +210,17 @@ test('a browser that hangs holds nobody up, and comes back', async (t) => {
   await server.close();
 });
 
+test('the page is encrypted where the service has a certificate', async () => {
+  const otherPort = await freePort();
+  const certificate = await programs.certificate();
+  const encrypted = await programs.serve(otherPort, [...certificate, '--set', 'view.token=open-sesame'], 'encrypted.db');
+  assert.match(encrypted.said, /look at https:\/\/localhost:/);
+  const context = await browser.newContext({ignoreHTTPSErrors: true});
+  const other = await context.newPage();
+  await other.goto(`https://localhost:${otherPort}/?token=open-sesame`);
+  await other.waitForFunction(() => document.getElementById('link').dataset.state === 'live' && window.qwsm.model.robots.size === 4);
+  await context.close();
+  encrypted.kill('SIGKILL');
+});
+
 test('nothing went wrong in the page', () => assert.deepEqual(complaints, []));

@@ -36,8 +36,8 @@ export class Programs {
   }
 
   // Starts a service with a page, and waits until it is there.
-  async serve(port, more = []) {
-    const service = this.start(['serve', '--view', '--journal', join(this.folder, 'team.db'),
+  async serve(port, more = [], journal = 'team.db') {
+    const service = this.start(['serve', '--view', '--journal', join(this.folder, journal),
       '--set', `view.port=${port}`, '--set', 'team.map_period_s=1',
       '--set', 'network.interface=lo', '--set', `network.tag=${this.tag}`, ...more]);
     await until(() => service.said.includes('look at'), 'the service tells its address');
@@ -63,6 +63,13 @@ export class Programs {
   // Somebody who publishes a map of 100 x 100 m at 5 cm.
   publishLargeMap() {
     return this.start([this.tag], join(kPrograms, '..', 'tests', 'browser', 'large_map'));
+  }
+
+  // Settings of a service that encrypts, with a certificate that nobody vouches for.
+  async certificate() {
+    const name = join(this.folder, 'page');
+    await this.start([name], join(kPrograms, '..', 'tests', 'browser', 'make_certificate')).ended;
+    return ['--set', `view.certificate=${name}.pem`, '--set', `view.key=${name}.key`];
   }
 
   async stop() {

@@ -14,11 +14,11 @@ namespace {
 using namespace qwsm::io;
 
 /// The bytes behind a header that is right, so that the search gets past the checksum.
-std::string WithHeader(const std::string& rest) {
+std::string WithHeader(std::uint32_t version, const std::string& rest) {
   boost::crc_32_type crc;
   crc.process_bytes(rest.data(), rest.size());
   BinaryWriter header;
-  header.Add(std::uint32_t{1});
+  header.Add(version);
   header.Add(static_cast<std::uint32_t>(crc.checksum()));
   header.Add(static_cast<std::uint64_t>(rest.size()));
   return "QWSM map" + header.bytes() + rest;
@@ -26,8 +26,11 @@ std::string WithHeader(const std::string& rest) {
 
 void Decode(const std::string& bytes) {
   try {
-    const std::string encoded = EncodeMap(DecodeMap(bytes, "fuzz"));
-    qwsm::test::Expect(EncodeMap(DecodeMap(encoded, "copy")) == encoded);
+    const auto again = [](const std::string& of, const char* name) {
+      return EncodeMap(DecodeMap(of, name), DecodeMarksOfMap(of, name));
+    };
+    const std::string encoded = again(bytes, "fuzz");
+    qwsm::test::Expect(again(encoded, "copy") == encoded);
   } catch (const MapFileError& error) {
     qwsm::test::Expect(std::string(error.what()).starts_with("fuzz: "));
   }
@@ -40,6 +43,7 @@ void Decode(const std::string& bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string bytes(reinterpret_cast<const char*>(data), size);
   Decode(bytes);
-  Decode(WithHeader(bytes));
+  Decode(WithHeader(1, bytes));
+  Decode(WithHeader(2, bytes));
   return 0;
 }

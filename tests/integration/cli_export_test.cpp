@@ -8,11 +8,14 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "qwsm/mapping/scan_map.hpp"
 #include "service/io/journal/journal_file.hpp"
 #include "service/io/journal/scan_codec.hpp"
 #include "service/io/maps/map_file.hpp"
+#include "service/team/marks/mark_book.hpp"
+#include "service/team/marks/mark_journal.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/room_log.hpp"
 
@@ -68,6 +71,38 @@ TEST_F(ExportCommand, GivesTheSameMapOfAllThatHoldsIt) {
     EXPECT_EQ(Left(".tfw"), first);
     EXPECT_TRUE(Left("_pois.csv").starts_with("\"pois\"\n\"1.2\"\n"));
   }
+}
+
+TEST_F(ExportCommand, MarksOfAJournalAreOnTheMapsThatAreSavedOfIt) {
+  const fs::path journal = Journal();
+  const RelevantScan scan = io::LoadMap(saved_).scans().back();
+  team::MarkBook book;
+  book.Place(std::vector<team::ScanPlace>{
+      {.robot = "robot1", .stamp = scan.scan.stamp, .T_map_robot = scan.map_robot.T_a_b}});
+  const team::Mark mark =
+      book.Completed({.id = "m1", .kind = "victim", .text = "Anna", .p_map_m = {1.0, 0.5}});
+  team::MarkJournal(journal, [](const std::string& text) { ADD_FAILURE() << text; }).Keep({mark});
+  const auto lists_anna = [&](const fs::path& source) {
+    EXPECT_EQ(Export(source).exit_code, 0);
+    return Left("_pois.csv").find("\"Anna\",1.000,0.500,0.000,1,T,victim") != std::string::npos;
+  };
+  const auto run = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--no-pictures", "--force", "-o", results_});
+    const Outcome outcome = RunProgram(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  };
+  EXPECT_TRUE(lists_anna(journal));
+  const fs::path first = folder_.path() / "first.qwsm";
+  run({"map", journal, "--save-map", first});
+  EXPECT_TRUE(lists_anna(first));
+  EXPECT_TRUE(lists_anna(results_));
+  const fs::path second = folder_.path() / "second.qwsm";
+  run({"map", log_, "--continue", first, "--save-map", second});
+  EXPECT_TRUE(lists_anna(second));
+  EXPECT_TRUE(lists_anna(results_));
+  fs::remove_all(results_);
+  run({"localize", "--map", second, log_});
+  EXPECT_TRUE(lists_anna(results_));
 }
 
 TEST_F(ExportCommand, ListsTheMarksAndTheMission) {

@@ -27,6 +27,21 @@ namespace {
 
 using namespace std::chrono_literals;
 
+/// Marks a victim called Anna at (2, 3), as the page does.
+void MarkAnna(Onlooker& onlooker) {
+  onlooker.client().SendFrame(WebClient::kText,
+                              R"({"op":"advertise","channels":[{"id":1,"topic":"/qwsm/marks",)"
+                              R"("encoding":"cdr","schemaName":"qwsm_msgs/msg/Mark"}]})");
+  // Stamp, frame, id, kind, text, author; x and y; not removed.
+  std::string mark("\1\1\0\0\0\0\1\0\0", 9);
+  mark += std::string(8, '\0') + std::string("\4\0\0\0map\0\3\0\0\0m1\0\0\7\0\0\0victim\0\0", 28);
+  mark += std::string("\5\0\0\0Anna\0\0\0\0\2\0\0\0o\0\0\0", 20);
+  const std::vector<double> place{2.0, 3.0};
+  mark.append(reinterpret_cast<const char*>(place.data()), 2 * sizeof(double));
+  mark += std::string(1, '\0');
+  onlooker.client().SendFrame(WebClient::kBinary, mark);
+}
+
 class View : public ::testing::Test {
  protected:
   PrivateNetwork network_;
@@ -153,13 +168,24 @@ TEST_F(View, ShowsALogThatIsMapped) {
                          "--set",
                          "view.port=0",
                          "--output",
-                         folder.path() / "run"});
+                         folder.path() / "run",
+                         "--save-map",
+                         folder.path() / "campus.qwsm"});
   Onlooker onlooker(mapping.port());
   ASSERT_TRUE(onlooker.Subscribe("/match_report", 1));
   ASSERT_TRUE(onlooker.Subscribe("/map_tiles", 2));
   EXPECT_TRUE(onlooker.Sample(1));
   EXPECT_TRUE(onlooker.Sample(2));
+  // What is marked on the page is on the map that is saved.
+  ASSERT_TRUE(onlooker.Subscribe("/qwsm/marks", 3));
+  MarkAnna(onlooker);
+  EXPECT_TRUE(onlooker.Sample(3));
   mapping.daemon().End();
+  const Outcome exported =
+      RunProgram({"export", folder.path() / "campus.qwsm", "--geotiff", folder.path() / "campus"});
+  EXPECT_EQ(exported.exit_code, 0) << exported.errors;
+  EXPECT_NE(ReadFile(folder.path() / "campus_pois.csv").find("\"Anna\""), std::string::npos);
+  EXPECT_NE(ReadFile(folder.path() / "run" / "marks.csv").find("\"Anna\""), std::string::npos);
 }
 
 TEST_F(View, ShowingALogChangesNothingOfItsPath) {
@@ -201,23 +227,13 @@ TEST_F(View, ShowsASimulatorThatNobodyAnswers) {
 TEST_F(View, MarksOutliveTheService) {
   const TemporaryFolder folder;
   const std::vector<std::string> journal{"--journal", folder.path() / "team.db"};
-  const std::string advertise = R"({"op":"advertise","channels":[{"id":1,"topic":"/qwsm/marks",)"
-                                R"("encoding":"cdr","schemaName":"qwsm_msgs/msg/Mark"}]})";
-  // Stamp, frame, id, kind, text, author; x and y; not removed.
-  std::string mark("\1\1\0\0\0\0\1\0\0", 9);
-  mark += std::string(8, '\0') + std::string("\4\0\0\0map\0\3\0\0\0m1\0\0\7\0\0\0victim\0\0", 28);
-  mark += std::string("\5\0\0\0Anna\0\0\0\0\2\0\0\0o\0\0\0", 20);
-  const std::vector<double> place{2.0, 3.0};
-  mark.append(reinterpret_cast<const char*>(place.data()), 2 * sizeof(double));
-  mark += std::string(1, '\0');
   RobotInRoom robot(network_);
   {
     ViewedService service(network_, journal);
     ASSERT_FALSE(robot.DriveUntilAnswered(8).empty());
     Onlooker onlooker(service.port());
     ASSERT_TRUE(onlooker.Subscribe("/qwsm/marks", 1));
-    onlooker.client().SendFrame(WebClient::kText, advertise);
-    onlooker.client().SendFrame(WebClient::kBinary, mark);
+    MarkAnna(onlooker);
     const auto told = onlooker.Sample(1);
     ASSERT_TRUE(told);
     EXPECT_NE(told->find("Anna"), std::string::npos);

@@ -14,6 +14,7 @@
 """
 
 import re
+from pathlib import PurePosixPath
 
 from tree import Finding
 
@@ -51,6 +52,7 @@ THIRD_PARTY = {
     "libtiff": (r"tiff", {"service/io"}),
     "Ceres": (r"ceres/", {"service/graph"}),
     "Boost": (r"boost/", {"service/io", "service/view"}),
+    "OpenSSL": (r"openssl/", {"service/view"}),
     "zstd": (r"zstd\.h", {"service/io"}),
     "LZ4": (r"lz4frame\.h", {"service/io"}),
     "bzip2": (r"bzlib\.h", {"service/io"}),
@@ -70,9 +72,13 @@ THIRD_PARTY = {
 # Libraries that even their own layer keeps to its .cpp files, so that a port touches few of them and
 # few of ours compile them.
 SOURCES_ONLY = {
-    "Box2D", "Boost", "Cairo", "Ceres", "LZ4", "SQLite", "bzip2", "libtiff", "nlohmann-json", "spdlog",
-    "zstd"
+    "Box2D", "Boost", "Cairo", "Ceres", "LZ4", "OpenSSL", "SQLite", "bzip2", "libtiff", "nlohmann-json",
+    "spdlog", "zstd"
 }
+
+# The folder whose headers may include such a library all the same: templates over its types. Who
+# includes them stands in the folder above.
+INNER_FOLDERS = {"Boost": "service/view/http/beast/"}
 
 # Standard headers by which a library would print, open files, read clocks or run threads.
 IMPURE = {"cstdio", "filesystem", "fstream", "iostream", "stdio.h"}
@@ -108,16 +114,25 @@ def third_party(header):
     return next((name for name, (pattern, _) in libraries if re.match(pattern, header)), None)
 
 
+def is_inner_of_others(path, header):
+    """Whether a header is meant for another folder than that of the path."""
+    return any(header.startswith(folder) and not path.startswith(str(PurePosixPath(folder).parent))
+               for folder in INNER_FOLDERS.values())
+
+
 def judge(path, layer, header):
     """What is wrong with `layer` including `header` in `path`; None where nothing is."""
     library = third_party(header)
     if library:
         if layer not in THIRD_PARTY[library][1]:
             return f"{layer} must not use {library}"
-        if library in SOURCES_ONLY and not path.endswith(".cpp"):
+        is_inner = path.startswith(INNER_FOLDERS.get(library, "nowhere"))
+        if library in SOURCES_ONLY and not is_inner and not path.endswith(".cpp"):
             return f"{library} belongs into .cpp files only"
     elif header in FORBIDDEN_STANDARD.get(layer, ()):
         return f"{layer} must not print, open files or run threads"
+    elif is_inner_of_others(path, header):
+        return "an inner header of another folder"
     elif layer_of(header) in MAY_USE:
         if layer_of(header) not in MAY_USE[layer] | {layer}:
             return f"{layer} must not know {layer_of(header)}"

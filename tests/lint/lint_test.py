@@ -53,6 +53,13 @@ class Layers(unittest.TestCase):
         self.refuses("sim/include/sim/a.hpp", "#include <box2d/box2d.h>")
         self.refuses("service/io/a.cpp", "#include <new/library.h>")
 
+    def test_inner_headers_stay_in_their_folder(self):
+        self.allows("service/view/http/beast/a.hpp", "#include <boost/asio.hpp>")
+        self.allows("service/view/http/a.cpp", '#include "service/view/http/beast/a.hpp"')
+        self.refuses("service/view/http/a.hpp", "#include <boost/asio.hpp>")
+        self.refuses("service/view/live/a.cpp", '#include "service/view/http/beast/a.hpp"')
+        self.refuses("service/view/http/beast/a.hpp", "#include <openssl/ssl.h>")
+
     def test_a_lower_layer_does_not_know_a_higher_one(self):
         complaint = "includes service/pipeline/b.hpp: service/io must not know service/pipeline"
         self.assertEqual(

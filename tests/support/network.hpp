@@ -47,8 +47,9 @@ class PrivateNetwork {
 class Daemon {
  public:
   explicit Daemon(std::vector<std::string> arguments, const std::string& program = "qwsm")
-      : program_(std::make_unique<Program>(std::move(arguments),
-                                           Redirection{.output = {}, .program = program})) {}
+      : Daemon(std::move(arguments), Redirection{.output = {}, .program = program}) {}
+  Daemon(std::vector<std::string> arguments, const Redirection& redirection)
+      : program_(std::make_unique<Program>(std::move(arguments), redirection)) {}
   Daemon(const Daemon&) = delete;
   Daemon& operator=(const Daemon&) = delete;
   ~Daemon() {
@@ -57,6 +58,7 @@ class Daemon {
 
   pid_t process() const { return program_->process(); }
   void Signal(int number) const { program_->Signal(number); }
+  bool HasEnded() const { return program_->HasEnded(); }
   std::string ErrorsSoFar() const { return program_->ErrorsSoFar(); }
   std::chrono::nanoseconds CpuSoFar() const { return program_->CpuSoFar(); }
   /// Waits until the program says something on stderr. @returns false after ten seconds without.
@@ -67,6 +69,8 @@ class Daemon {
     }
     return false;
   }
+  /// Waits for the end.
+  Outcome Wait() { return std::exchange(program_, nullptr)->Wait(); }
   /// Sends the signal and waits for the end.
   Outcome End(int number = SIGTERM) {
     program_->Signal(number);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <fcntl.h>
+#include <sched.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -40,11 +41,12 @@ struct Outcome {
   std::chrono::nanoseconds cpu{};  ///< All it needed, of all its threads.
 };
 
-/// Where a program reads and writes, if not nowhere and into its outcome.
+/// Where a program reads and writes, if not nowhere and into its outcome, and on which network.
 struct Redirection {
   std::filesystem::path input = "/dev/null";
   std::filesystem::path output{};
   std::string program = "qwsm";
+  std::filesystem::path network_namespace{};  ///< Such as /run/netns/NAME; empty: the test's own.
 };
 
 /// A program of ours as its own process.
@@ -61,6 +63,13 @@ class Program {
 
   pid_t process() const { return process_; }
   void Signal(int number) const { kill(process_, number); }
+
+  bool HasEnded() const {
+    siginfo_t ended{};
+    const int options = WEXITED | WNOHANG | WNOWAIT;  // It can still be waited for.
+    const auto id = static_cast<id_t>(process_);
+    return waitid(P_PID, id, &ended, options) == 0 && ended.si_pid == process_;
+  }
 
   std::string ErrorsSoFar() const { return ReadFile(streams_.path() / "errors"); }
 
@@ -94,6 +103,7 @@ class Program {
     process_ = fork();
     if (process_ < 0) throw std::runtime_error("cannot fork");
     if (process_ > 0) return;
+    Enter(redirection.network_namespace);
     Redirect(STDIN_FILENO, redirection.input, O_RDONLY);
     const bool captured = redirection.output.empty();
     Redirect(STDOUT_FILENO,
@@ -106,6 +116,11 @@ class Program {
 
   static std::chrono::nanoseconds Duration(const timeval& time) {
     return std::chrono::seconds(time.tv_sec) + std::chrono::microseconds(time.tv_usec);
+  }
+
+  static void Enter(const std::filesystem::path& network_namespace) {
+    if (network_namespace.empty()) return;
+    if (setns(open(network_namespace.c_str(), O_RDONLY), CLONE_NEWNET) != 0) _exit(126);
   }
 
   static void Redirect(int descriptor, const std::filesystem::path& file, int flags) {

@@ -22,15 +22,19 @@ class ViewedService {
       : ViewedService(network.JoinService(With(std::move(more)))) {}
   /// @param arguments of a program that tells its messages.
   explicit ViewedService(std::vector<std::string> arguments) : service_(std::move(arguments)) {
-    if (!service_.WaitUntilItSays("look at http://localhost:")) {
+    constexpr std::string_view kBefore = "look at ";
+    if (!service_.WaitUntilItSays(std::string(kBefore) + "http")) {
       throw std::runtime_error(service_.ErrorsSoFar());
     }
     const std::string said = service_.ErrorsSoFar();
-    constexpr std::string_view kBefore = "http://localhost:";
-    port_ = std::stoi(said.substr(said.find(kBefore) + kBefore.size()));
+    const std::size_t begin = said.find(kBefore) + kBefore.size();
+    address_ = said.substr(begin, said.find('\n', begin) - begin);
+    port_ = std::stoi(address_.substr(address_.rfind(':') + 1));
   }
 
   int port() const { return port_; }
+  /// What it says where the page is.
+  const std::string& address() const { return address_; }
   Daemon& daemon() { return service_; }
 
  private:
@@ -40,14 +44,18 @@ class ViewedService {
   }
 
   Daemon service_;
+  std::string address_;
   int port_ = 0;
 };
 
 /// One who looks on: it knows which channels there are.
 class Onlooker {
  public:
-  explicit Onlooker(int port, int receive_buffer_bytes = 0) : client_(port, receive_buffer_bytes) {
-    const std::string answer = client_.Upgrade();
+  explicit Onlooker(int port, int receive_buffer_bytes = 0)
+      : Onlooker(WebClient(port, receive_buffer_bytes)) {}
+  explicit Onlooker(WebClient client, const std::string& target = "/ws")
+      : client_(std::move(client)) {
+    const std::string answer = client_.Upgrade(target);
     if (answer.find(" 101 ") == std::string::npos) throw std::runtime_error(answer);
   }
 

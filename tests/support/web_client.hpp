@@ -2,19 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
+#include <cerrno>
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
+
+#include "tests/support/web_line.hpp"
 
 namespace qwsm::test {
 
@@ -23,36 +20,11 @@ class WebClient {
  public:
   /// @param receive_buffer_bytes of the kernel; 0: as it likes.
   explicit WebClient(int port, int receive_buffer_bytes = 0)
-      : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
-    if (receive_buffer_bytes > 0) {
-      setsockopt(
-          socket_, SOL_SOCKET, SO_RCVBUF, &receive_buffer_bytes, sizeof receive_buffer_bytes);
-    }
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(port));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    if (connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) {
-      throw std::runtime_error("nobody listens on port " + std::to_string(port));
-    }
-  }
-  WebClient(const WebClient&) = delete;
-  WebClient& operator=(const WebClient&) = delete;
-  WebClient(WebClient&& other) noexcept
-      : socket_(std::exchange(other.socket_, -1)), received_(std::move(other.received_)) {}
-  ~WebClient() {
-    if (socket_ >= 0) close(socket_);
-  }
+      : WebClient(std::make_unique<PlainLine>(port, receive_buffer_bytes)) {}
+  explicit WebClient(std::unique_ptr<WebLine> line) : line_(std::move(line)) {}
 
   /// Sends bytes as they are. @returns false where the other side has gone.
-  bool Send(std::string_view bytes) const {
-    while (!bytes.empty()) {
-      const ssize_t sent = send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-      if (sent <= 0) return false;
-      bytes.remove_prefix(static_cast<std::size_t>(sent));
-    }
-    return true;
-  }
+  bool Send(std::string_view bytes) const { return line_->Write(bytes); }
   /// Whether the server has hung up, waiting for that so long; what it says meanwhile is dropped.
   bool IsClosedWithin(std::chrono::milliseconds period) {
     const auto until = std::chrono::steady_clock::now() + period;
@@ -141,7 +113,7 @@ class WebClient {
   /// Reads what is there, but no more than so much, without waiting.
   void ReadAtMost(std::size_t bytes) {
     std::string buffer(bytes, '\0');
-    const ssize_t got = recv(socket_, buffer.data(), bytes, MSG_DONTWAIT);
+    const ssize_t got = line_->ReadNow(buffer.data(), bytes);
     if (got > 0) received_.append(buffer, 0, static_cast<std::size_t>(got));
   }
 
@@ -158,16 +130,16 @@ class WebClient {
   bool Fill(std::chrono::steady_clock::time_point until) {
     const auto left =
         std::chrono::ceil<std::chrono::milliseconds>(until - std::chrono::steady_clock::now());
-    pollfd waiting{.fd = socket_, .events = POLLIN, .revents = 0};
-    if (left.count() <= 0 || poll(&waiting, 1, static_cast<int>(left.count())) <= 0) return false;
+    if (left.count() <= 0 || !line_->WaitFor(left)) return false;
     char buffer[65536];
-    const ssize_t got = recv(socket_, buffer, sizeof buffer, 0);
+    const ssize_t got = line_->ReadNow(buffer, sizeof buffer);
+    if (got < 0 && errno == EAGAIN) return true;
     is_closed_ = got <= 0;
     if (got > 0) received_.append(buffer, static_cast<std::size_t>(got));
     return got > 0;
   }
 
-  int socket_;
+  std::unique_ptr<WebLine> line_;
   bool is_closed_ = false;
   std::string received_;
 };

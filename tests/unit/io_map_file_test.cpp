@@ -77,6 +77,17 @@ TEST(MapFile, MappingGoesOnAsIfItHadNeverStopped) {
 
 TEST(MapFile, KeepsAnEmptyMap) { EXPECT_TRUE(DecodeMap(EncodeMap(ScanMap()), "room.map").empty()); }
 
+TEST(MapFile, KeepsTheMarksOnTheMap) {
+  const ScanMap map = MapOfRoom();
+  const std::vector<std::string> marks{"first", "", std::string("\0x", 2)};
+  const std::string bytes = EncodeMap(map, marks);
+  EXPECT_EQ(DecodeMarksOfMap(bytes, "room.map"), marks);
+  EXPECT_EQ(EncodeMap(DecodeMap(bytes, "room.map")), EncodeMap(map));
+  EXPECT_TRUE(DecodeMarksOfMap(EncodeMap(map), "room.map").empty());
+  EXPECT_EQ(EncodeMap(map)[8], 1);  // Older releases read it.
+  EXPECT_THROW(DecodeMarksOfMap(bytes.substr(0, 60), "room.map"), MapFileError);
+}
+
 TEST(MapFile, SaysExactlyWhatIsWrong) {
   const std::string bytes = EncodeMap(MapOfRoom());
   EXPECT_EQ(Complaint(""), "room.map: is no map of qwsm");
@@ -89,7 +100,7 @@ TEST(MapFile, SaysExactlyWhatIsWrong) {
   std::string newer = bytes;
   newer[8] = 7;
   EXPECT_EQ(Complaint(newer),
-            "room.map: is a map of version 7; this release of qwsm reads version 1");
+            "room.map: is a map of version 7; this release of qwsm reads versions 1 and 2");
   std::string flipped = bytes;
   flipped[bytes.size() / 2] ^= 1;
   EXPECT_EQ(Complaint(flipped), "room.map: is damaged: its checksum is wrong");

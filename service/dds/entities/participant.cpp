@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace qwsm::dds {
 namespace {
@@ -51,6 +53,16 @@ constexpr std::string_view kDefaults =
     "<SocketReceiveBufferSize min=\"default\" max=\"4MB\"/>"
     "</Internal></Domain></CycloneDDS>";
 
+// Who was cut off is found again when one says that it is there, by default every 8 s. On loopback
+// nobody is cut off, and it is said to each that might be there.
+//
+// A thread that receives multicast alone is woken for its end by multicast, which never comes where
+// the interface has been taken down: one thread receives all.
+constexpr std::string_view kDefaultsOfNetworks =
+    "<CycloneDDS><Domain id=\"any\"><Discovery><SPDPInterval>2s</SPDPInterval></Discovery>"
+    "<Internal><MultipleReceiveThreads>false</MultipleReceiveThreads></Internal>"
+    "</Domain></CycloneDDS>";
+
 /// What the options say, in Cyclone's language.
 std::string ToXml(const NetworkOptions& options) {
   std::string xml = "<CycloneDDS><Domain id=\"any\"><General>";
@@ -65,13 +77,12 @@ std::string ToXml(const NetworkOptions& options) {
 
 /// Later parts of a configuration win over earlier ones.
 std::string ConfigurationOf(const NetworkOptions& options) {
+  std::vector<std::string> parts{std::string(kDefaults)};
+  if (options.interface != "lo") parts.emplace_back(kDefaultsOfNetworks);
   const char* environment = std::getenv("CYCLONEDDS_URI");
-  const bool is_configured = environment != nullptr && *environment != '\0';
-  return fmt::format("{},{}{}{}",
-                     kDefaults,
-                     is_configured ? environment : "",
-                     is_configured ? "," : "",
-                     ToXml(options));
+  if (environment != nullptr && *environment != '\0') parts.emplace_back(environment);
+  parts.push_back(ToXml(options));
+  return fmt::format("{}", fmt::join(parts, ","));
 }
 
 Entity CreateParticipant(std::uint32_t domain) {

@@ -23,7 +23,7 @@ template <class Kind>
 void RobotOutbox<Kind>::Publish(const team::Answer<Kind>& answer) const {
   poses_.Publish(team::FrameOf(answer.component),
                  answer.step.stamp,
-                 answer.step.map_robot,
+                 answer.told.value_or(answer.step.map_robot),
                  answer.T_odom_robot);
 }
 

@@ -18,11 +18,19 @@ namespace qwsm::io {
 namespace {
 
 constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersionWithMarks = 2;
 constexpr std::size_t kHeaderBytes =
     kMapMagic.size() + 2 * sizeof(std::uint32_t) + sizeof(std::uint64_t);
 // Of the smallest scan and of a point, which bound what a file of some size can claim to hold.
 constexpr std::size_t kScanBytes = 38 * sizeof(std::uint32_t);
 constexpr std::size_t kPointBytes = 2 * sizeof(double) + 2 * sizeof(std::uint32_t);
+constexpr std::size_t kMarkBytes = sizeof(std::uint64_t);
+
+/// What is behind the header of a file.
+struct Contents {
+  std::uint32_t version = kVersion;
+  std::string_view rest;
+};
 
 void AddPoints(BinaryWriter& writer, const PointQuadtree& points) {
   writer.Add(static_cast<std::uint64_t>(points.size()));
@@ -59,8 +67,15 @@ ScanMapOptions ReadMapOptions(BinaryReader& reader) {
   return options;
 }
 
-ScanMap DecodeRest(std::string_view rest) {
-  BinaryReader reader(rest);
+std::vector<std::string> ReadMarks(BinaryReader& reader) {
+  std::vector<std::string> marks(reader.Count(kMarkBytes));
+  for (std::string& mark : marks) mark = reader.Text();
+  return marks;
+}
+
+ScanMap DecodeContents(const Contents& contents) {
+  BinaryReader reader(contents.rest);
+  if (contents.version == kVersionWithMarks) ReadMarks(reader);
   ScanMap map(ReadMapOptions(reader));
   const std::size_t scans = reader.Count(kScanBytes);
   for (std::size_t i = 0; i < scans; ++i) {
@@ -75,17 +90,18 @@ ScanMap DecodeRest(std::string_view rest) {
 }
 
 /// Checks all that can be known before the contents are looked at, and returns them.
-std::string_view CheckHeader(std::string_view bytes, std::string_view name) {
+Contents CheckHeader(std::string_view bytes, std::string_view name) {
   if (!bytes.starts_with(kMapMagic)) throw MapFileError(fmt::format("{}: is no map of qwsm", name));
   if (bytes.size() < kHeaderBytes) throw MapFileError(fmt::format("{}: is truncated", name));
   BinaryReader header(bytes.substr(kMapMagic.size()));
   const std::uint32_t version = header.Unsigned32();
-  if (version != kVersion) {
+  if (version != kVersion && version != kVersionWithMarks) {
     throw MapFileError(
-        fmt::format("{}: is a map of version {}; this release of qwsm reads version {}",
+        fmt::format("{}: is a map of version {}; this release of qwsm reads versions {} and {}",
                     name,
                     version,
-                    kVersion));
+                    kVersion,
+                    kVersionWithMarks));
   }
   const std::uint32_t checksum = header.Unsigned32();
   const std::uint64_t size = header.Unsigned64();
@@ -102,7 +118,18 @@ std::string_view CheckHeader(std::string_view bytes, std::string_view name) {
   if (Checksum(rest) != checksum) {
     throw MapFileError(fmt::format("{}: is damaged: its checksum is wrong", name));
   }
-  return rest;
+  return {.version = version, .rest = rest};
+}
+
+/// Whatever `decode` makes of the contents of a map.
+template <class Decode>
+auto Decoded(std::string_view bytes, std::string_view name, const Decode& decode) {
+  const Contents contents = CheckHeader(bytes, name);
+  try {
+    return decode(contents);
+  } catch (const BinaryError& error) {
+    throw MapFileError(fmt::format("{}: is damaged: {}", name, error.what()));
+  }
 }
 
 /// All bytes of a map file; of any other, not more than it takes to tell.
@@ -117,8 +144,12 @@ std::string ReadBytes(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::string EncodeMap(const ScanMap& map) {
+std::string EncodeMap(const ScanMap& map, std::span<const std::string> marks) {
   BinaryWriter rest;
+  if (!marks.empty()) {
+    rest.Add(static_cast<std::uint64_t>(marks.size()));
+    for (const std::string& mark : marks) rest.Add(std::string_view(mark));
+  }
   OptionCollector options;
   ScanMapOptions copy = map.options();
   Describe(options, copy);
@@ -128,27 +159,35 @@ std::string EncodeMap(const ScanMap& map) {
   AddPoints(rest, map.surfaces().quadtree());
 
   BinaryWriter header;
-  header.Add(kVersion);
+  header.Add(marks.empty() ? kVersion : kVersionWithMarks);
   header.Add(Checksum(rest.bytes()));
   header.Add(static_cast<std::uint64_t>(rest.bytes().size()));
   return std::string(kMapMagic) + header.bytes() + rest.bytes();
 }
 
 ScanMap DecodeMap(std::string_view bytes, std::string_view name) {
-  const std::string_view rest = CheckHeader(bytes, name);
-  try {
-    return DecodeRest(rest);
-  } catch (const BinaryError& error) {
-    throw MapFileError(fmt::format("{}: is damaged: {}", name, error.what()));
-  }
+  return Decoded(bytes, name, DecodeContents);
 }
 
-void SaveMap(const std::filesystem::path& path, const ScanMap& map) {
-  WriteTextFile(path, EncodeMap(map));
+std::vector<std::string> DecodeMarksOfMap(std::string_view bytes, std::string_view name) {
+  return Decoded(bytes, name, [](const Contents& contents) {
+    BinaryReader reader(contents.rest);
+    return contents.version == kVersionWithMarks ? ReadMarks(reader) : std::vector<std::string>();
+  });
+}
+
+void SaveMap(const std::filesystem::path& path,
+             const ScanMap& map,
+             std::span<const std::string> marks) {
+  WriteTextFile(path, EncodeMap(map, marks));
 }
 
 ScanMap LoadMap(const std::filesystem::path& path) {
   return DecodeMap(ReadBytes(path), path.string());
+}
+
+std::vector<std::string> LoadMarksOfMap(const std::filesystem::path& path) {
+  return DecodeMarksOfMap(ReadBytes(path), path.string());
 }
 
 }  // namespace qwsm::io

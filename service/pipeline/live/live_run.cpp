@@ -56,6 +56,7 @@ class LiveRun::Topics {
   }
 
   std::string url() const { return view_.url(); }
+  std::vector<team::Mark> marks() const { return marks_.marks(); }
 
   void Show(const team::RobotAnswer& answer) {
     answers_.TakeAnswer(answer);
@@ -95,6 +96,8 @@ LiveRun::LiveRun(const options::ProgramOptions& options, const std::string& name
 LiveRun::~LiveRun() = default;
 
 std::string LiveRun::url() const { return topics_->url(); }
+
+std::vector<team::Mark> LiveRun::marks() const { return topics_->marks(); }
 
 void LiveRun::Take(const TimedStep& timed) {
   ++scans_;

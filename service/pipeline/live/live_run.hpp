@@ -14,6 +14,7 @@
 #include "service/options/program_options.hpp"
 #include "service/pipeline/run/interruption.hpp"
 #include "service/pipeline/run/step_sink.hpp"
+#include "service/team/marks/mark.hpp"
 #include "service/team/scans/scan_key.hpp"
 
 namespace qwsm::pipeline {
@@ -31,6 +32,8 @@ class LiveRun final : public StepSink {
   std::string url() const;
 
   void Take(const TimedStep& timed) override;
+  /// What has been marked on the page so far.
+  std::vector<team::Mark> marks() const;
   /// Shows a correction of the map. @param map with what was corrected.
   void Correct(const MapEpoch& epoch, const ScanMap& map);
   /// Shows that the run is over. @param map with all that was corrected in the end.

@@ -37,7 +37,9 @@ MarksOnScans ReadMarksOnScans(const std::filesystem::path& file) {
   return kept;
 }
 
-JournalMarks::JournalMarks(std::span<const std::filesystem::path> logs) {
+JournalMarks::JournalMarks(std::span<const std::filesystem::path> logs,
+                           const std::vector<team::Mark>& on_map)
+    : kept_{.marks = on_map, .scans = {}} {
   for (const std::filesystem::path& log : logs) {
     MarksOnScans of_log = ReadMarksOnScans(log);
     std::ranges::move(of_log.marks, std::back_inserter(kept_.marks));

@@ -22,11 +22,14 @@ struct MarksOnScans {
 /// damaged. @throws std::runtime_error where the journal cannot be read.
 MarksOnScans ReadMarksOnScans(const std::filesystem::path& file);
 
-/// Where the marks of journals are on a map that is made of the journals anew.
+/// Where the marks of journals are on a map that is made of the journals anew, beside those that
+/// the map had before.
 class JournalMarks final : public StepSink {
  public:
   /// Reads the marks of those logs that are journals.
-  explicit JournalMarks(std::span<const std::filesystem::path> logs);
+  /// @param on_map of the map that the run begins with, where they are.
+  explicit JournalMarks(std::span<const std::filesystem::path> logs,
+                        const std::vector<team::Mark>& on_map = {});
 
   void Take(const TimedStep& timed) override;
   /// The marks on the map. @param map_robot poses of all steps once corrected; empty: as answered.

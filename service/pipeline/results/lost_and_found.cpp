@@ -32,14 +32,18 @@ void LostAndFound::Take(const TimedStep& timed) {
                    held_.size() + 1);
     Place();
   }
-  next_.Take(timed);
+  PassOn(timed);
+}
+
+void LostAndFound::PassOn(const TimedStep& timed) const {
+  for (StepSink* sink : next_) sink->Take(timed);
 }
 
 // What the robot did while it was lost is known as well as if it had been tracked, but for where.
 void LostAndFound::Place() {
   for (TimedStep& timed : held_) {
     timed.step.map_robot = localizer_.map_local() * timed.step.map_robot;
-    next_.Take(timed);
+    PassOn(timed);
   }
   held_.clear();
 }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "qwsm/mapping/localizer.hpp"
@@ -15,8 +16,9 @@ namespace qwsm::pipeline {
 /// found. Tells of both.
 class LostAndFound final : public StepSink {
  public:
-  /// @param next takes the answers in the map. @pre both outlive this.
-  LostAndFound(const Localizer& localizer, StepSink& next) : localizer_(localizer), next_(next) {}
+  /// @param next take the answers in the map. @pre all outlive this.
+  LostAndFound(const Localizer& localizer, std::vector<StepSink*> next)
+      : localizer_(localizer), next_(std::move(next)) {}
 
   void Take(const TimedStep& timed) override;
 
@@ -25,9 +27,10 @@ class LostAndFound final : public StepSink {
 
  private:
   void Place();
+  void PassOn(const TimedStep& timed) const;
 
   const Localizer& localizer_;
-  StepSink& next_;
+  std::vector<StepSink*> next_;
   std::vector<TimedStep> held_;
 };
 

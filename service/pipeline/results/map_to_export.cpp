@@ -18,6 +18,7 @@
 #include "service/io/trajectories/trajectory_file.hpp"
 #include "service/pipeline/results/journal_marks.hpp"
 #include "service/pipeline/results/marks_list.hpp"
+#include "service/pipeline/results/marks_of_map.hpp"
 #include "service/pipeline/results/results_writer.hpp"
 #include "service/pipeline/text/messages.hpp"
 
@@ -60,7 +61,9 @@ MapToExport LoadSavedMap(const fs::path& file, const OccupancyGridOptions& rende
   const ScanMap saved = io::LoadMap(file);
   std::vector<RobotScan> scans;
   for (const RelevantScan& scan : saved.scans()) scans.push_back({.robot = {}, .relevant = scan});
-  return MapOfScans(scans, file.string(), rendering);
+  MapToExport map = MapOfScans(scans, file.string(), rendering);
+  map.marks = PointsOf(MarksOfMap(file));
+  return map;
 }
 
 /// The marks of a journal where its scans are.

@@ -38,9 +38,9 @@ MapToExport MapOfScans(const std::vector<RobotScan>& scans,
 
 /// Reads a map wherever one was left: in the folder of results of `map`, `localize` or `serve`, as
 /// the YAML file of ROS's map_server, in the journal of a service, or saved by `map --save-map`.
-/// Marks are in journals, and in folders that `serve` or `map` of a journal left. Paths out of
-/// journals and saved maps go through the relevant scans. Entries of a journal that are damaged are
-/// warned of and left out.
+/// Marks are in journals, in maps that were saved, and in folders that `serve` or `map` left. Paths
+/// out of journals and saved maps go through the relevant scans. Entries of a journal that are
+/// damaged are warned of and left out.
 /// @param rendering for what is not rendered yet.
 /// @throws std::runtime_error naming the file, what is wrong and what would be right.
 MapToExport LoadMapToExport(const std::filesystem::path& source,

@@ -30,7 +30,7 @@ class RunHistory final : public StepSink {
   io::MapOverlay Overlay() const;
   /// The residual of each scan, in mm; NaN where there was no match.
   const std::vector<double>& residuals_mm() const { return residuals_mm_.elements(); }
-  /// The time that each scan took, in ms.
+  /// The processor time that each scan took, in ms.
   const std::vector<double>& times_ms() const { return times_ms_.elements(); }
 
  private:

@@ -35,6 +35,7 @@ RobotSession::RobotSession(std::string name,
               [this](const TeamEvent& event) { context_.sinks.Tell(&TeamSink::TakeEvent, event); }),
       intake_(events_, options),
       tracker_(mapper),
+      easing_(context_.correction),
       sequence_(std::max(
           context_.atlas.maps().Of(this->name()).map->LastSequence(context_.service, this->name()),
           SequenceOfNow())) {}
@@ -85,6 +86,7 @@ void RobotSession::Answer(Work& work,
                            .step = step,
                            .component = component_.name,
                            .T_odom_robot = work.T_odom_robot,
+                           .told = easing_.Tell(step, work.T_odom_robot),
                            .matching = answered - begun,
                            .latency = answered - work.arrived,
                            .scans = counts.scans,
@@ -98,6 +100,7 @@ void RobotSession::Answer(Work& work,
 // The robot keeps its place beside its last relevant scan, also where that has become part of
 // another component.
 void RobotSession::FollowCorrections() {
+  const std::string component_before = component_.name;
   component_ = context_.atlas.maps().Of(name());
   const TeamMap::State::View contents = component_.map->Read();
   const MapVersion now = component_.map->VersionOf(*contents);
@@ -109,7 +112,13 @@ void RobotSession::FollowCorrections() {
     return;
   }
   const UncertainPose2& map_last = contents->map.scans()[*last].map_robot;
+  const Pose2 T_before_robot = tracker_.map_robot().T_a_b;
   tracker_.FollowCorrection(map_last * Since(*nodes_.map_last(), tracker_.map_robot()));
+  if (component_.name == component_before) {
+    easing_.Correct(T_before_robot, tracker_.map_robot().T_a_b);
+  } else {
+    easing_.Forget();  // Between frames there is no way.
+  }
   nodes_.Follow(map_last);
 }
 
@@ -177,6 +186,7 @@ void RobotSession::Place() {
     const std::lock_guard lock(mutex_);
     initial_pose = std::exchange(initial_pose_, std::nullopt);
   }
+  if (initial_pose || !is_placed_) easing_.Forget();
   if (initial_pose) {
     TakeUp(*initial_pose);
   } else if (is_placed_) {

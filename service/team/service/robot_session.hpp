@@ -13,6 +13,7 @@
 #include "service/team/atlas/map_merger.hpp"
 #include "service/team/atlas/team_atlas.hpp"
 #include "service/team/service/contested_tracker.hpp"
+#include "service/team/session/correction_easing.hpp"
 #include "service/team/session/session_intake.hpp"
 #include "service/team/session/session_options.hpp"
 #include "service/team/session/worker_pool.hpp"
@@ -30,6 +31,7 @@ struct SessionContext {
   std::optional<UncertainPose2> start;  ///< Where the robot starts if nothing better is known.
   /// Readings so near to a teammate are left out, in metres; see TeamOptions.
   double teammate_radius_m = 0.0;
+  CorrectionOptions correction{};  ///< How corrections of the map reach the robot.
   /// Tells of an answer once what it says is safe.
   std::function<void(const RobotAnswer&)> report;
 };
@@ -89,6 +91,7 @@ class RobotSession final : public Lane {
   // The worker alone uses these.
   ContestedTracker tracker_;
   NodeMaker nodes_;
+  CorrectionEasing easing_;
   MapComponent component_;  // That the tracker's poses are in.
   MapVersion version_;      // Of its map.
   std::optional<ScanKey> last_relevant_;

@@ -9,6 +9,7 @@
 
 #include "service/team/map/map_sharing.hpp"
 #include "service/team/service/service_options.hpp"
+#include "service/team/session/correction_options.hpp"
 
 namespace qwsm::team {
 
@@ -17,6 +18,7 @@ struct TeamOptions : ServiceOptions {
   MapSharing map = MapSharing::kTeam;
   double teammate_radius_m = 0.7;
   std::string scans = "scan";
+  TeamCorrectionOptions correction{};
 };
 
 template <class Visitor>
@@ -31,6 +33,7 @@ void Describe(Visitor& visit, TeamOptions& o) {
   visit("scans",
         o.scans,
         {.help = "topics of a robot's lasers below its namespace, with commas: scan,rear/scan"});
+  visit("correction", o.correction, {.help = "how corrections of the map reach the robots"});
 }
 
 /// The topics of a robot's lasers, as `rear/scan`.

@@ -212,6 +212,7 @@ std::shared_ptr<RobotSession> TeamService::MakeSession(std::string robot) {
                          .sinks = sinks_,
                          .start = start ? std::optional(PlanarStart(*start)) : std::nullopt,
                          .teammate_radius_m = options_.team.teammate_radius_m,
+                         .correction = CorrectionOf(options_.team.correction, robot),
                          .report = report};
   return std::make_shared<RobotSession>(
       std::move(robot), options_.team.session, options_.mapper, std::move(context));

@@ -22,9 +22,12 @@ struct Answer {
   typename Kind::Step step;
   std::string component{};  ///< Of the team's map, that the step's pose is in.
   std::optional<typename Kind::Pose> T_odom_robot{};  ///< Odometry at the scan's stamp.
-  std::chrono::nanoseconds matching{};                ///< Time the match took.
-  std::chrono::nanoseconds latency{};                 ///< From the scan's arrival to now.
-  std::uint64_t scans = 0;                            ///< Scans of this robot so far.
+  /// Where who drives by it is told that the robot is, as long as a correction of the map has not
+  /// reached it in full; nothing where that is the answer.
+  std::optional<typename Kind::UncertainPose> told{};
+  std::chrono::nanoseconds matching{};  ///< Time the match took.
+  std::chrono::nanoseconds latency{};   ///< From the scan's arrival to now.
+  std::uint64_t scans = 0;              ///< Scans of this robot so far.
   /// Scans of this robot that were dropped because the queue was full.
   std::uint64_t dropped = 0;
 };

@@ -63,12 +63,29 @@ WebAnswer Refusal(int status, std::string_view why) {
 
 }  // namespace
 
+std::optional<TlsFiles> EncryptionOf(const ViewOptions& options) {
+  if (options.certificate.empty() != options.key.empty()) {
+    const bool has_key = options.certificate.empty();
+    throw WebError(fmt::format("view.{}: is set, but view.{} is not: encryption needs both files",
+                               has_key ? "key" : "certificate",
+                               has_key ? "certificate" : "key"));
+  }
+  if (!options.certificate.empty()) {
+    return TlsFiles{
+        .certificate = options.certificate, .key = options.key, .client_ca = options.client_ca};
+  }
+  if (!options.client_ca.empty()) {
+    throw WebError("view.client_ca: is of use with view.certificate and view.key only");
+  }
+  return std::nullopt;
+}
+
 Access::Access(const ViewOptions& options)
     : options_(options), is_loopback_(IsLoopback(options.address)) {
-  if (!is_loopback_ && options_.token.empty()) {
+  if (!is_loopback_ && options_.token.empty() && options_.client_ca.empty()) {
     throw WebError(fmt::format(
         "view.address: others can reach {}; set view.token to a secret that whoever may "
-        "look knows, or leave the address at 127.0.0.1",
+        "look knows, or view.client_ca to who vouches for them, or leave the address at 127.0.0.1",
         options_.address));
   }
   const bool is_plain = std::ranges::all_of(options_.token, [](unsigned char c) {
@@ -95,7 +112,8 @@ std::optional<WebAnswer> Access::Objection(const WebRequest& request) const {
 }
 
 bool Access::IsOwnOrigin(const WebRequest& request) const {
-  return request.origin == fmt::format("http://{}", request.host) ||
+  const std::string_view scheme = options_.certificate.empty() ? "http" : "https";
+  return request.origin == fmt::format("{}://{}", scheme, request.host) ||
          IsListed(options_.origins, request.origin);
 }
 

@@ -10,6 +10,10 @@
 
 namespace qwsm::view {
 
+/// The files for encryption that the options name; nothing where they want none.
+/// @throws WebError where one is named without another that it needs.
+std::optional<TlsFiles> EncryptionOf(const ViewOptions& options);
+
 /// Decides who may connect.
 ///
 /// A page of somebody else, open in the operator's browser, can reach this computer's ports, too: a
@@ -17,7 +21,7 @@ namespace qwsm::view {
 /// name of the loopback, for any other name may have been pointed here to make its page ours.
 class Access {
  public:
-  /// @throws WebError where others could reach the port, and no token is set.
+  /// @throws WebError where others could reach the port, and need neither token nor certificate.
   explicit Access(const ViewOptions& options);
 
   /// Why a socket is refused; nothing where it is let in.

@@ -6,19 +6,14 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "service/view/http/tls_identity.hpp"
+#include "service/view/http/web_error.hpp"
 #include "service/view/live/client.hpp"
 
 namespace qwsm::view {
-
-/// Tells that nobody can be served; the text names the address and says how to mend it.
-class WebError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// What a browser asks for.
 struct WebRequest {
@@ -53,6 +48,7 @@ struct WebServerOptions {
   std::string address;
   int port = 0;
   std::size_t max_sockets = 32;
+  std::optional<TlsIdentity> identity{};  ///< Without one, nothing is encrypted.
 };
 
 /// How much there was to do, and to refuse.

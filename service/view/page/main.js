@@ -43,7 +43,7 @@ const wants = (channel) => {
 let session = null;
 const query = new URLSearchParams(location.search);
 const token = query.get('token');
-const connection = new Connection(`ws://${location.host}/ws${token ? `?token=${encodeURIComponent(token)}` : ''}`, {
+const connection = new Connection(`${location.protocol.replace('http', 'ws')}//${location.host}/ws${token ? `?token=${encodeURIComponent(token)}` : ''}`, {
   opened: ({name, sessionId}) => {
     if (session !== null && sessionId !== session) {
       model.beginSession();

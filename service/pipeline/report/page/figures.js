@@ -19,7 +19,7 @@ const kFigures = {
   mean_trace_m2: ['Mean trace', 'm²', 'Mean uncertainty of a match as Visser et al. (2009) chart it: variance in x plus that in y.'],
   scans_per_s: ['Scans per second', '1/s', 'Scans answered per second of computing.'],
   drive_s: ['Duration', 's', 'Time from the first scan to the last, by their stamps.'],
-  ms_median: ['Time, median', 'ms', 'Half of the scans took no longer; wall time of the answer.'],
+  ms_median: ['Time, median', 'ms', 'Half of the scans took no longer; processor time of the answer.'],
   ms_p99: ['Time, p99', 'ms', '99 of 100 scans took no longer.'],
   ms_max: ['Time, longest', 'ms', 'The slowest answer.'],
   'map.points': ['Points in the map', '', 'Points that scans are matched with.'],

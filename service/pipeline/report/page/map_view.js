@@ -338,7 +338,7 @@ class MapReport {
         series: [{ values: this.scans.sigma_deg, color: 'series' }], marks: this.deadReckoned },
       answered.length ? { title: 'Correction', unit: 'm', meaning: 'How far closing the loops has moved the pose from where it '
         + 'was answered.', series: [{ values: Float32Array.from(answered, shift), color: 'series' }] } : null,
-      { title: 'Time per scan', unit: 'ms', meaning: 'Wall time of the answer, on a machine that may have had other work.',
+      { title: 'Time per scan', unit: 'ms', meaning: 'Processor time of the answer: what it takes where nothing else runs.',
         series: [{ values: this.scans.ms, color: 'series-2' }] },
     ].filter((plot) => plot).map((options) => new Plot(this.axis, options));
     const stride = report.scans.stride;
