@@ -94,7 +94,8 @@ BENCHMARK(ScanAgainstMapSize)
     ->Iterations(500)
     ->Arg(100'000)
     ->Arg(1'000'000)
-    ->Arg(4'000'000);
+    ->Arg(4'000'000)
+    ->Arg(10'000'000);
 
 }  // namespace
 }  // namespace qwsm::bench

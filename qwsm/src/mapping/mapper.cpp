@@ -2,12 +2,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "qwsm/mapping/mapper.hpp"
 
+#include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "qwsm/sensor/scan_points.hpp"
 
 namespace qwsm {
+namespace {
+
+// Whether two scans tell of the same points. Readings that failed are no numbers, which are equal
+// to nothing.
+bool HaveSamePoints(const LaserScan& a, const LaserScan& b) {
+  const auto bits = [](float range_m) { return std::bit_cast<std::uint32_t>(range_m); };
+  return a.geometry == b.geometry && std::ranges::equal(a.ranges_m, b.ranges_m, {}, bits, bits);
+}
+
+}  // namespace
 
 Mapper::Mapper(const MapperOptions& options) : tracker_(options), map_(options.map) {}
 
@@ -27,7 +40,10 @@ MappingStep Mapper::Process(const Observation& observation) {
   if (step.relevant) {
     // The baselines match with the last relevant scan only.
     if (options().matcher != MatcherKind::kQWsm) map_.ForgetPoints();
-    map_.Insert(step.relevant_scan, ToPoints(step.relevant_scan), step.map_relevant);
+    // Mostly nothing moved, and the scan that extends the map is the one just taken.
+    const bool is_this = HaveSamePoints(step.relevant_scan, observation.scan);
+    map_.Insert(
+        step.relevant_scan, is_this ? points : ToPoints(step.relevant_scan), step.map_relevant);
   }
   return step;
 }

@@ -43,6 +43,14 @@ bool IsConvincinglyBetter(std::span<const ScanPoint> points,
   return nats >= kConvincingNats && nats - of_other >= kConvincingNats;
 }
 
+// Whether any pose could be convincingly better: where nearly all of the scan is explained, none
+// is, and need not be sought.
+bool MayBeBeaten(std::span<const ScanPoint> points, const MatchResult& match) {
+  MatchResult perfect;
+  perfect.overlap = 1.0;
+  return IsConvincinglyBetter(points, perfect, match);
+}
+
 // Covariance of a matched pose: as uncertain as the part of the map it was matched to, plus what is
 // left of its uncertainty relative to that part. Where the pairs say nothing, as along a corridor,
 // that is all of the prediction's.
@@ -163,7 +171,8 @@ void RobotTracker::Locate(const ScanMap& map,
   if (!IsPosition((map_last_ * last_robot.conservative).T_a_b)) last_robot = Unmoved();
   const UncertainPose2 predicted = local_last_ * last_robot.conservative;
   step.match = LocateNear(map, observation, points, predicted);
-  const bool is_surprising = motion_.IsSurprising(observation.T_odom_robot, share);
+  const bool is_surprising =
+      motion_.IsSurprising(observation.T_odom_robot, share) && MayBeBeaten(points, step.match);
   if (is_odometry_suspect_ || is_surprising) {
     const PosePrediction without_odometry = motion_.Predict(std::nullopt, share);
     const MatchResult other =

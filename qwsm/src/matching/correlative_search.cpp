@@ -72,9 +72,7 @@ class PoseSearch::BranchAndBound {
 
   // The block of the highest bound is visited first, until none can hold a better pose.
   void BranchFromWindow() {
-    if (roots_.empty()) {
-      ForEachHeading([this](int heading) { AddRoots(heading); });
-    }
+    if (floor_ < floor_of_roots_) FindRoots();
     queue_.clear();
     std::ranges::copy_if(roots_, std::back_inserter(queue_), [this](const SearchBlock& root) {
       return root.bound > floor_ && !IsExcluded(root);
@@ -96,26 +94,48 @@ class PoseSearch::BranchAndBound {
     }
   }
 
-  // The blocks of a heading that the search begins with, and their bounds, many at once.
+  // The blocks that may hold a pose better than wanted now: later searches mostly want more.
+  void FindRoots() {
+    roots_.clear();
+    floor_of_roots_ = floor_;
+    ForEachHeading([this](int heading) { AddRoots(heading); });
+  }
+
+  // Those of a heading. Their bounds are by the finer blocks that each consists of: many of these
+  // are bounded at once, and most roots are not worth looking into further.
   void AddRoots(int heading) {
-    constexpr int kAtOnce = LikelihoodWindow::kBlockSide;
-    const std::span<const GridCell> ends = ends_.At(heading);
-    for (int y = offsets_.first(); y <= offsets_.reach; y += kAtOnce * kRootSide) {
-      for (int x = offsets_.first(); x <= offsets_.reach; x += kAtOnce * kRootSide) {
-        AddParts(likelihoods_.BoundsOfBlocks(kRootLevel, ends, {x, y}),
-                 0,
-                 {0.0, heading, x, y, kRootSide},
-                 [this](const SearchBlock& root) { roots_.push_back(root); });
+    constexpr int kBlocks = LikelihoodWindow::kBlockSide;  // Bounded at once, along each axis.
+    constexpr int kSide = LikelihoodWindow::kBlockSide;    // Of each.
+    for (int y = offsets_.first(); y <= offsets_.reach; y += kBlocks * kSide) {
+      for (int x = offsets_.first(); x <= offsets_.reach; x += kBlocks * kSide) {
+        const auto bounds =
+            likelihoods_.BoundsOfBlocks(LikelihoodWindow::kBlockLevel, ends_.At(heading), {x, y});
+        for (int row = 0; row < kBlocks; row += kBlocksOfRoot) {
+          for (int column = 0; column < kBlocks; column += kBlocksOfRoot) {
+            AddRoot({0.0, heading, x + column * kSide, y + row * kSide, kRootSide},
+                    &bounds[static_cast<std::size_t>(row * kBlocks + column)]);
+          }
+        }
       }
     }
+  }
+
+  // @param bounds of its first block, in rows of LikelihoodWindow::kBlockSide.
+  void AddRoot(SearchBlock root, const int* bounds) {
+    static_assert(kBlocksOfRoot == 2);
+    constexpr int kBelow = LikelihoodWindow::kBlockSide;
+    const int bound = std::max({bounds[0], bounds[1], bounds[kBelow], bounds[kBelow + 1]});
+    if (bound < NeededSum(0.0) || root.x > offsets_.reach || root.y > offsets_.reach) return;
+    root.bound = bound / Full() - LeastCost(root);
+    if (root.bound > floor_) roots_.push_back(root);
   }
 
   // Tries those squares of two offsets by two of a block that may hold a better pose, the one of
   // the highest bound first: a good pose soon makes most of what follows needless.
   void TryPairs(const SearchBlock& block) {
-    const double cost = LeastCost(block);
-    const LikelihoodWindow::Hope hope{.bound = static_cast<int>((block.bound + cost) * Full()) + 1,
-                                      .needed = NeededSum(cost)};
+    const LikelihoodWindow::Hope hope{
+        .bound = likelihoods_.Bound(kRootLevel, ends_.At(block.heading), {block.x, block.y}),
+        .needed = NeededSum(LeastCost(block))};
     const auto bounds =
         likelihoods_.BoundsOfPairs(ends_.At(block.heading), {block.x, block.y}, hope);
     pairs_.clear();
@@ -219,7 +239,8 @@ class PoseSearch::BranchAndBound {
   BeamEnds ends_;
   LikelihoodWindow likelihoods_;
   PriorCost prior_cost_;
-  std::vector<SearchBlock> roots_;  // With their exact bounds, from the first search on.
+  std::vector<SearchBlock> roots_;  // Those with bounds above the floor below.
+  double floor_of_roots_ = std::numeric_limits<double>::infinity();
   std::optional<ExcludedDisk> excluded_;
   double floor_ = 0.0;  // Score of the best pose met so far.
   std::optional<SearchBlock> best_;

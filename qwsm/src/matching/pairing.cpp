@@ -80,7 +80,7 @@ NormalEquations Pairing::Linearize(const Pose2& T_map_cur, const AnnealedError& 
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const ScanPoint& point = points_[i];
     Pair& pair = pairs_[i];
-    if (!IsPaired(R * point.normal_robot, pair)) continue;
+    if (!IsPaired(R, point, pair)) continue;
     ++equations.pairs;
     equations.sum_of_distances_m += std::sqrt(pair.nearest->distance_m2);
     if (options_.weighting == PairWeighting::kIdentity) {
@@ -118,8 +118,9 @@ void Pairing::FindNearest(const Pose2& T_map_cur, const AnnealedError& start_err
 }
 
 // Whether there is a surface to pair a point with; if so, it is looked up.
-bool Pairing::IsPaired(const Eigen::Vector2d& normal_map, Pair& pair) const {
+bool Pairing::IsPaired(const Eigen::Matrix2d& R_map_cur, const ScanPoint& point, Pair& pair) const {
   if (pair.nearest && pair.nearest->id == pair.id) return true;
+  const Eigen::Vector2d normal_map = R_map_cur * point.normal_robot;
   if (pair.nearest && !MayPair(pair.nearest->id, normal_map)) {
     pair.nearest = NearestThatMayPair(normal_map, pair);
   }

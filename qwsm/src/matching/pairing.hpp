@@ -92,7 +92,7 @@ class Pairing {
   };
 
   void FindNearest(const Pose2& T_map_cur, const AnnealedError& start_error);
-  bool IsPaired(const Eigen::Vector2d& normal_map, Pair& pair) const;
+  bool IsPaired(const Eigen::Matrix2d& R_map_cur, const ScanPoint& point, Pair& pair) const;
   void AddLine(const Eigen::Matrix2d& R_map_cur,
                const ScanPoint& point,
                Pair& pair,

@@ -9,6 +9,8 @@ namespace qwsm {
 // Level of the blocks that a search begins with.
 inline constexpr int kRootLevel = LikelihoodPyramid::kLevels - 1;
 inline constexpr int kRootSide = 1 << LikelihoodTile::ShiftOf(kRootLevel);
+// So many finer blocks are in each, along each axis.
+inline constexpr int kBlocksOfRoot = kRootSide / LikelihoodWindow::kBlockSide;
 
 // A square block of cell offsets at one heading.
 struct SearchBlock {

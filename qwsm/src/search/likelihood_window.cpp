@@ -44,6 +44,26 @@ SixteenBytes MaximumOfThreeByThree(const std::uint8_t* cell, int stride) {
   return maximum;
 }
 
+struct TileRow {
+  SixteenBytes left;
+  SixteenBytes right;
+};
+static_assert(sizeof(TileRow) == Tile::kSide);
+
+// A row of a tile's finest cells, 0 where all has drifted too much.
+TileRow WithoutDrifted(const Tile& tile, int y, std::uint8_t max_drift_code) {
+  static_assert(Tile::DriftShiftOf(0) == 1);
+  SixteenBytes drift;
+  std::memcpy(&drift, tile.drift_codes(0) + (y / 2) * (Tile::kSide / 2), sizeof(drift));
+  const auto kept = std::bit_cast<SixteenBytes>(drift <= max_drift_code);
+  TileRow row;
+  std::memcpy(&row, tile.likelihoods(0) + y * Tile::kSide, sizeof(row));
+  row.left &= __builtin_shufflevector(kept, kept, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7);
+  row.right &= __builtin_shufflevector(
+      kept, kept, 8, 8, 9, 9, 10, 10, 11, 11, 12, 12, 13, 13, 14, 14, 15, 15);
+  return row;
+}
+
 // The sums of up to kMostSummands blocks of bytes, of so many rows each: no more fit 16 bits.
 template <int kRows = kSide>
 class ShortSums {
@@ -256,12 +276,11 @@ void LikelihoodWindow::Copy(GridCell tile_at, GridCell to, FinestReach& reach) {
   if (tile_at.x >= size_.x + 2 || tile_at.y >= size_.y + 2) return;
   const Tile* tile = tiles_[IndexOf(tile_at.x, tile_at.y)];
   if (tile == nullptr) return;
-  if (max_drift_code_ != LikelihoodPyramid::kUnmapped) tile = &WithoutDrifted(*tile);
-  const std::uint8_t* from = tile->likelihoods(0);
   const int rows = std::min(Tile::kSide, FinestReach::kSide - to.y);
-  for (int y = to.y; y < to.y + rows; ++y, from += Tile::kSide) {
-    to.x == 0 ? std::memcpy(reach.At(0, y), from, Tile::kSide)
-              : std::memcpy(reach.At(to.x, y), from, kSide);
+  for (int y = 0; y < rows; ++y) {
+    const TileRow row = WithoutDrifted(*tile, y, max_drift_code_);
+    to.x == 0 ? std::memcpy(reach.At(0, to.y + y), &row, sizeof(row))
+              : std::memcpy(reach.At(to.x, to.y + y), &row, kSide);
   }
 }
 
@@ -299,23 +318,6 @@ LikelihoodWindow::PairReach& LikelihoodWindow::OwnPairsOf(int column, int row) {
     std::memcpy(own->At(0, y / kPairSide), &every_other, sizeof(every_other));
   }
   return *own;
-}
-
-// The tile without what has drifted too much, until the next call.
-const Tile& LikelihoodWindow::WithoutDrifted(const Tile& tile) {
-  static_assert(Tile::DriftShiftOf(0) == 1);
-  constexpr int kPairs = Tile::kSide / 2;
-  kept_ = tile;
-  std::uint8_t* likelihood = kept_.likelihoods(0);
-  for (int y = 0; y < Tile::kSide; ++y, likelihood += Tile::kSide) {
-    const std::uint8_t* drift = tile.drift_codes(0) + (y / 2) * kPairs;
-    for (int i = 0; i < kPairs; ++i) {
-      const std::uint8_t kept = drift[i] > max_drift_code_ ? 0x00 : 0xff;
-      likelihood[2 * i] &= kept;
-      likelihood[2 * i + 1] &= kept;
-    }
-  }
-  return kept_;
 }
 
 }  // namespace qwsm

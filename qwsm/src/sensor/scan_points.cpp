@@ -48,7 +48,6 @@ class PointsAround {
   }
 
   int count() const { return count_; }
-  Eigen::Vector2d mean_m() const { return sum_m_ / count_; }
   PrincipalAxes axes() const {
     const double scale = 1.0 / count_;
     const Eigen::Vector2d mean = scale * sum_m_;
@@ -63,6 +62,21 @@ class PointsAround {
   double xx_m2_ = 0.0;
   double xy_m2_ = 0.0;
   double yy_m2_ = 0.0;
+};
+
+// Where the mean of points about one of them lies.
+class MeanAround {
+ public:
+  void Add(const Eigen::Vector2d& offset_m) {
+    ++count_;
+    sum_m_ += offset_m;
+  }
+
+  Eigen::Vector2d mean_m() const { return sum_m_ / count_; }
+
+ private:
+  int count_ = 1;  // The one itself.
+  Eigen::Vector2d sum_m_ = Eigen::Vector2d::Zero();
 };
 
 // What lies about a point of a scan: its surface, of which the normal is wanted, and what of it
@@ -94,7 +108,7 @@ class SurfaceAround {
   }
 
   const PointsAround& surface() const { return surface_; }
-  const PointsAround& close() const { return close_; }
+  const MeanAround& close() const { return close_; }
 
  private:
   // The next point on the way outwards. @return whether the surface goes on there.
@@ -113,7 +127,7 @@ class SurfaceAround {
   SurfaceLimits close_limits_;
   bool is_close_ = true;  // All the way so far.
   PointsAround surface_;
-  PointsAround close_;
+  MeanAround close_;
 };
 
 Eigen::Vector2d NormalOf(const PointsAround& neighbors) {

@@ -148,7 +148,6 @@ class LikelihoodWindow {
   PairReach& OwnPairsOf(int column, int row);
   void Copy(GridCell tile_at, GridCell to, FinestReach& reach);
   void Copy(GridCell tile_at, GridCell to, PairReach& reach);
-  const LikelihoodTile& WithoutDrifted(const LikelihoodTile& tile);
 
   std::uint8_t max_drift_code_;
   GridCell first_tile_;  // Its column and row.
@@ -160,7 +159,6 @@ class LikelihoodWindow {
   std::vector<Known> known_;   // By tile.
   std::deque<FinestReach> finest_;
   std::deque<PairReach> pairs_;
-  LikelihoodTile kept_;
 };
 
 }  // namespace qwsm
