@@ -10,7 +10,6 @@
 #include <limits>
 #include <vector>
 
-#include "qwsm/mapping/relocalization.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/simulated_drive.hpp"
 
@@ -131,22 +130,6 @@ TEST(Mapper, LocalizesWithoutExtendingTheMap) {
   const auto steps = MapAll(again.observations, localizer);
   EXPECT_EQ(localizer.map().surfaces().quadtree().size(), points);
   EXPECT_LT(ErrorAtTheEnd_m(again, steps), 0.05);
-}
-
-TEST(Relocalize, FindsWhereAScanWasTakenInTheWholeMap) {
-  const SimulatedDrive drive = RoomDrive(80);
-  Mapper mapper;
-  const auto steps = MapAll(drive.observations, mapper);
-  for (const std::size_t i : {5, 25, 45, 65}) {
-    SCOPED_TRACE(i);
-    const auto place = Relocalize(mapper.map(), ToPoints(drive.observations[i].scan));
-    ASSERT_TRUE(place);
-    const Pose2 off = steps[i].map_robot.T_a_b.Inverse() * place->best.T_map_robot;
-    EXPECT_LT(off.translation_m().norm(), 0.2);
-    EXPECT_LT(std::abs(off.theta_rad), 0.1);
-  }
-  EXPECT_FALSE(Relocalize(mapper.map(), {}));
-  EXPECT_FALSE(Relocalize(ScanMap(), ToPoints(drive.observations[0].scan)));
 }
 
 TEST(LocalSubmap, KeepsTheLastOnesOnePointPerCell) {
