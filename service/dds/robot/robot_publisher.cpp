@@ -13,6 +13,7 @@
 #include "service/dds/entities/writer.hpp"
 #include "service/dds/wire/transform_sample.hpp"
 #include "service/dds/wire/wire_kind.hpp"
+#include "service/team/session/deskewing.hpp"
 
 namespace qwsm::dds {
 
@@ -55,11 +56,12 @@ class BasicRobotPublisher<Kind>::Topics {
     return sensors_.back().frame;
   }
 
-  bool Publish(const Observation& observation) {
+  bool Publish(const Observation& observation, const std::optional<Pose>& T_odom_end) {
     const std::string& frame = PlaceSensor(OnWire<Kind>::Mounting(observation.scan));
     if (odometry_ && observation.T_odom_robot) {
       PublishOdometry(observation.scan.stamp, *observation.T_odom_robot);
     }
+    if (odometry_ && T_odom_end) PublishOdometry(team::EndOf(observation.scan), *T_odom_end);
     const typename OnWire<Kind>::Sample sample(observation.scan, frame);
     return scans_->Write(sample.sample());
   }
@@ -153,8 +155,9 @@ bool BasicRobotPublisher<Kind>::WaitForListener(const Pose& T_robot_sensor,
 }
 
 template <class Kind>
-bool BasicRobotPublisher<Kind>::Publish(const Observation& observation) {
-  return topics_->Publish(observation);
+bool BasicRobotPublisher<Kind>::Publish(const Observation& observation,
+                                        const std::optional<Pose>& T_odom_end) {
+  return topics_->Publish(observation, T_odom_end);
 }
 
 template <class Kind>
