@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "service/apps/command.hpp"
 #include "service/apps/network.hpp"
@@ -76,15 +77,17 @@ std::string RecordBag(const RecordArguments& arguments, const dds::Participant& 
 }
 
 /// The scans of one robot, each with its odometry.
-std::string RecordLog(const RecordArguments& arguments, const dds::Participant& participant) {
+std::string RecordLog(const RecordArguments& arguments,
+                      const dds::Participant& participant,
+                      const std::vector<std::string>& scan_topics) {
   io::AtomicFile file(arguments.recording);
   io::CarmenWriter log(file.stream());
   pipeline::ScanRecorder recorder([&log](const io::LogRecord& record) { log.Write(record); });
   dds::Refusals refusals([](const std::string& text) { messages::Warn(text); });
   const dds::RobotNames names(arguments.robot);
-  dds::RobotFeed feed(participant, names, refusals);
+  dds::RobotFeed feed(participant, names, scan_topics, refusals);
   const pipeline::Interruption interruption;
-  messages::Info("recording {}", names.Topic(dds::kScanTopic));
+  for (const std::string& topic : scan_topics) messages::Info("recording {}", names.Topic(topic));
   RecordKeeping(file.KeepUnfinished(), [&] {
     while (!interruption.requested() && !IsEnough(arguments, recorder.scans())) {
       feed.Deliver(100ms, recorder);
@@ -100,8 +103,10 @@ std::string RecordLog(const RecordArguments& arguments, const dds::Participant& 
 ExitCode RunRecord(const RecordArguments& arguments) {
   const NetworkSession session(arguments.network);
   const dds::Participant participant(session.options().network);
-  const std::string recorded = IsLog(arguments.recording) ? RecordLog(arguments, participant)
-                                                          : RecordBag(arguments, participant);
+  const std::string recorded =
+      IsLog(arguments.recording)
+          ? RecordLog(arguments, participant, team::ScanTopicsOf(session.options().team))
+          : RecordBag(arguments, participant);
   if (!arguments.network.verbosity.quiet) {
     Print("recorded       {} in {}\n", recorded, arguments.recording.string());
   }
@@ -117,7 +122,9 @@ Command AddRecordCommand(CLI::App& program) {
       "  qwsm record drive                     all topics, until Ctrl-C: a folder of rosbag2\n"
       "  qwsm record drive.mcap                the same as one file; or .db3\n"
       "  qwsm record drive --robot robot1      /robot1/..., /tf and /tf_static\n"
-      "  qwsm record drive.log                 scans of /scan with their odometry, for CARMEN");
+      "  qwsm record drive.log                 scans of /scan with their odometry, for CARMEN;\n"
+      "                                        of several lasers' topics: --set "
+      "team.scans=scan,rear/scan");
   parser
       ->add_option("RECORDING",
                    arguments->recording,

@@ -31,6 +31,8 @@ qwsm::LaserGeometry GeometryOf(const LaserOptions& options) {
 
 Laser::Laser(const LaserOptions& options, std::uint64_t seed) : options_(options), random_(seed) {
   scan_.geometry = GeometryOf(options);
+  scan_.sweep =
+      std::chrono::round<std::chrono::nanoseconds>(std::chrono::duration<double>(options.sweep_s));
 }
 
 void Laser::Begin(const PhysicsWorld& world, BodyId robot, qwsm::Timestamp now) {

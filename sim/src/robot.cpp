@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "qwsm/sensor/deskew.hpp"
+
 namespace sim {
 namespace {
 
@@ -30,6 +32,13 @@ double FreeAlong(const PhysicsWorld& world,
 }
 
 }  // namespace
+
+qwsm::Observation ObservationOf(const Reading& reading) {
+  const bool has_skew = reading.scan.sweep.count() > 0;
+  return {.scan = has_skew ? qwsm::Deskewed(reading.scan, reading.T_first_last) : reading.scan,
+          .T_odom_robot = reading.T_odom_robot,
+          .gyro_rad = reading.gyro_rad};
+}
 
 Robot::Robot(const RobotPlacement& placement, std::uint64_t seed, PhysicsWorld& world)
     : options_(placement.options),
@@ -74,8 +83,19 @@ void Robot::Scan(const PhysicsWorld& world, qwsm::Timestamp now, std::vector<Rea
     std::optional<qwsm::LaserScan> scan = mounted.laser.Take();
     if (!scan) continue;
     completed.push_back(mounted.reading);
-    completed.back().scan = std::move(*scan);
+    EndScan(std::move(*scan), now, completed.back());
   }
+}
+
+// The last beam may have been cast before the end of a step: the motion is even.
+void Robot::EndScan(qwsm::LaserScan scan, qwsm::Timestamp now, Reading& reading) const {
+  reading.scan = std::move(scan);
+  const std::chrono::duration<double> sweep = reading.scan.sweep;
+  if (sweep.count() <= 0.0) return;
+  qwsm::Pose2 motion = reading.T_odom_robot.Inverse() * odometry_.T_odom_robot();
+  if (reading.gyro_rad) motion.theta_rad = gyro_.turned_rad() - *reading.gyro_rad;
+  const double share = sweep / std::chrono::duration<double>(now - reading.scan.stamp);
+  reading.T_first_last = {share * motion.x_m, share * motion.y_m, share * motion.theta_rad};
 }
 
 void Robot::Mount(const LaserOptions& options, std::uint64_t seed) {

@@ -5,12 +5,15 @@
 // several, and answers each scan.
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <map>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "service/dds/entities/writer.hpp"
 #include "service/dds/wire/transform_sample.hpp"
+#include "tests/support/replay.hpp"
 #include "tests/support/robot_in_room.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -61,6 +64,40 @@ TEST_F(DdsLasers, AreHeardOnTopicsOfTheirOwn) {
   const Outcome served = service.End();
   EXPECT_EQ(served.exit_code, 0);
   EXPECT_EQ(served.output.find("rear"), std::string::npos) << "is no robot: " << served.output;
+}
+
+TEST_F(DdsLasers, OfALogGiveItsPathBitForBit) {
+  std::ofstream(Path("two.yaml")) << "layout: {kind: rubble}\n"
+                                     "robots:\n"
+                                     "  - laser: {mount_x_m: 0.2}\n"
+                                     "    more_lasers:\n"
+                                     "      - {mount_x_m: -0.2, mount_heading_deg: 180,"
+                                     " first_scan_s: 0.05}\n";
+  const Outcome simulated =
+      RunProgram({"sim", Path("two.yaml"), "--duration", "20", "--output", Path("drive")});
+  ASSERT_EQ(simulated.exit_code, 0) << simulated.errors;
+  ASSERT_NO_FATAL_FAILURE(
+      MapOverNetworkAndFromFile(network_, Path("drive/robot.log"), folder_.path()));
+  const std::string expected = ReadFile(Path("mapped/trajectory_live.tum"));
+  ASSERT_GT(expected.size(), 10'000U);
+  EXPECT_TRUE(ReadFile(Path("served/trajectory.tum")) == expected);
+}
+
+TEST_F(DdsLasers, TellWhoListensLateWhereAllOfThemSit) {
+  RobotInRoom robot(network_);
+  Observation observation = robot.NextObservation();
+  robot.Publish(observation);
+  observation.scan.geometry.T_robot_laser = kRear;
+  robot.Publish(observation);
+
+  const dds::Reader<dds::wire::TFMessage> late(
+      robot.participant(), dds::kStaticTransformsTopic, dds::Profile::kStaticTransforms);
+  std::size_t told = 0;
+  for (int i = 0; i < 1000 && told == 0; ++i) {
+    std::this_thread::sleep_for(10ms);
+    late.TakeAll([&](const dds::wire::TFMessage& sample) { told += sample.transforms._length; });
+  }
+  EXPECT_EQ(told, 2U);
 }
 
 TEST_F(DdsLasers, TopicsThatAreNoneAreRefused) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <set>
 #include <string>
 #include <utility>
@@ -60,6 +61,29 @@ INSTANTIATE_TEST_SUITE_P(All,
                          DdsRecordOfEachForm,
                          testing::Values("recorded.log", "recorded"),
                          [](const auto& tested) { return "Form" + std::to_string(tested.index); });
+
+TEST_F(DdsRecord, KeepsSeveralLasersOfALogApart) {
+  std::ofstream(Path("two.yaml")) << "layout: {kind: rubble}\n"
+                                     "robots:\n"
+                                     "  - laser: {mount_x_m: 0.2}\n"
+                                     "    more_lasers:\n"
+                                     "      - {mount_x_m: -0.2, mount_heading_deg: 180,"
+                                     " first_scan_s: 0.05}\n";
+  const Outcome simulated =
+      RunProgram({"sim", Path("two.yaml"), "--duration", "10", "--output", Path("drive")});
+  ASSERT_EQ(simulated.exit_code, 0) << simulated.errors;
+  const std::filesystem::path recording = Path("recorded.log");
+  Daemon recorder(network_.Join({"record", recording, "--verbose"}));
+  ASSERT_TRUE(recorder.WaitUntilItSays("recording"));
+  const Outcome replay = network_.Run({"replay", Path("drive/robot.log"), "--rate", "10"});
+  ASSERT_EQ(replay.exit_code, 0) << replay.errors;
+  const Outcome recorded = recorder.End(SIGINT);
+  EXPECT_EQ(recorded.exit_code, 0) << recorded.errors;
+
+  const std::string expected = TrajectoryOf(Path("drive/robot.log"));
+  ASSERT_GT(expected.size(), 10'000U);
+  EXPECT_TRUE(TrajectoryOf(recording) == expected);
+}
 
 TEST_F(DdsRecord, LeavesOutOtherRobots) {
   const std::filesystem::path recording = Path("one.mcap");

@@ -125,6 +125,19 @@ TEST_F(WireScan, ComesBackAsItWas) {
   EXPECT_TRUE(std::isnan(back.ranges_m[3]));
 }
 
+TEST_F(WireScan, TellsHowLongItTook) {
+  LaserScan scan = Scan();
+  EXPECT_EQ(ToWire(scan, frame_).time_increment, 0.0F);
+  scan.sweep = std::chrono::milliseconds(30);
+  wire::LaserScan sample = ToWire(scan, frame_);
+  EXPECT_EQ(sample.time_increment, 0.01F);
+  EXPECT_NEAR(Seconds(FromWire(sample, {}).sweep), 0.03, 1e-8);
+  for (const float nonsense : {-0.01F, 0.5F, std::nanf(""), 1e30F}) {
+    sample.time_increment = nonsense;
+    EXPECT_EQ(FromWire(sample, {}).sweep.count(), 0);
+  }
+}
+
 TEST_F(WireScan, IsRefusedWhereItMakesNoSense) {
   const LaserScan scan = Scan();
   wire::LaserScan sample = ToWire(scan, frame_);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "qwsm/mapping/mapper.hpp"
+#include "qwsm/sensor/deskew.hpp"
 #include "service/io/maps/map_file.hpp"
 #include "tests/support/recording_sink.hpp"
 #include "tests/support/room_drive.hpp"
@@ -19,6 +20,8 @@
 
 namespace qwsm::team {
 namespace {
+
+using namespace std::chrono_literals;
 
 constexpr int kScans = 120;
 
@@ -97,6 +100,34 @@ TEST(TeamService, ThinsScansThatAreTooHeavyAndSaysSoOnce) {
   EXPECT_FALSE(
       sink.HasEvent("robot2: sends more readings in a scan than "
                     "team.session.max_readings: one in 1 is used"));
+}
+
+// A scan whose beams took 0.1 s while the robot turned, and the first one in the map.
+LaserScan ScanInMap(const LaserScan& scan, const Pose2& T_first_last, bool deskew) {
+  test::RecordingSink sink;
+  TeamServiceOptions options = LosslessOptions();
+  options.team.session.deskew = deskew;
+  TeamService service(options, sink);
+  service.Start();
+  service.robots().TakeOdometry("robot1", scan.stamp, {});
+  EXPECT_TRUE(service.robots().TakeScan("robot1", scan));
+  service.robots().TakeOdometry("robot1", scan.stamp + scan.sweep, T_first_last);
+  service.WaitUntilIdle();
+  service.Stop();
+  EXPECT_EQ(sink.relevant().size(), 1U);
+  return sink.relevant().front().scan;
+}
+
+TEST(TeamService, PutsBeamsWhereTheyWereMeasured) {
+  const Pose2 T_first_last{0.02, 0.0, 0.2};
+  LaserScan scan = test::ObservationInRoom(0).scan;
+  scan.sweep = 100ms;
+  const LaserScan expected = Deskewed(scan, T_first_last);
+  ASSERT_NE(expected.geometry, scan.geometry);
+  const LaserScan still = ScanInMap(scan, T_first_last, true);
+  EXPECT_EQ(still.geometry, expected.geometry);
+  EXPECT_EQ(still.sweep, 0ms);
+  EXPECT_EQ(ScanInMap(scan, T_first_last, false).geometry, scan.geometry);
 }
 
 TEST(TeamService, CountsEveryScanThatIsDroppedForNewerOnes) {

@@ -65,7 +65,7 @@ void ConfirmByOthers(std::span<FoundLoop> loops,
   for (std::size_t i = 0; i < loops.size(); ++i) {
     for (std::size_t j = i + 1; j < loops.size(); ++j) {
       const std::optional<std::size_t> apart =
-          chains.NodesBetween(loops[i].loop.edge.to, loops[j].loop.edge.to);
+          chains.TurnsBetween(loops[i].loop.edge.to, loops[j].loop.edge.to);
       if (!apart || *apart > kSamePass) break;
       if (*apart == 0 || !IsOfOneRobot(loops[i], loops[j], chains)) continue;
       std::vector<int>& count =

@@ -16,8 +16,8 @@ constexpr double kReach_m = 4.0;
 constexpr double kWindowSigmas = 3.0;
 constexpr double kMaxWindow_m = 5.0;
 constexpr double kMinOverlap = 0.65;
-// Fewer nodes after a submap the robot is still on the same pass.
-constexpr std::size_t kNodesBetweenPasses = 8;
+// Fewer turns of its lasers after a submap the robot is still on the same pass.
+constexpr std::size_t kTurnsBetweenPasses = 8;
 // What the error model does not know of: poses are never taken to be more certain.
 constexpr double kModelSigma_m = 0.1;
 constexpr double kModelSigma_rad = 0.02;
@@ -61,7 +61,7 @@ std::vector<FoundLoop> LoopFinder::AddThoseNear(NodeId first,
   for (const FoundLoop& old : last) {
     if (old.loop.edge.to >= first) continue;
     const bool is_near = std::ranges::any_of(news, [&](const FoundLoop& one) {
-      return chains_.NodesBetween(old.loop.edge.to, one.loop.edge.to).value_or(kSamePass + 1) <=
+      return chains_.TurnsBetween(old.loop.edge.to, one.loop.edge.to).value_or(kSamePass + 1) <=
              kSamePass;
     });
     (is_near ? found : settled).push_back(old);
@@ -138,8 +138,8 @@ std::vector<NodeId> LoopFinder::NodesInReach(NodeId first,
   std::vector<NodeId> nodes;
   const Eigen::Vector2d reference_m = estimate.T_map_node(submap.reference()).translation_m();
   for (NodeId node = std::max(first, submap.nodes.back()); node < nodes_.size(); ++node) {
-    const std::optional<std::size_t> behind = chains_.NodesBetween(submap.nodes.back(), node);
-    if (behind && *behind <= kNodesBetweenPasses) continue;
+    const std::optional<std::size_t> behind = chains_.TurnsBetween(submap.nodes.back(), node);
+    if (!chains_.CompletesTurn(node) || (behind && *behind <= kTurnsBetweenPasses)) continue;
     const Eigen::Vector2d apart_m = estimate.T_map_node(node).translation_m() - reference_m;
     if (apart_m.norm() <= kReach_m + kMaxWindow_m) nodes.push_back(node);
   }
@@ -171,8 +171,8 @@ std::optional<Loop> LoopFinder::Recognise(const Candidate& candidate,
   const Pose2& T_chain_reference = chains_.T_chain_node()[submap.reference()];
   UncertainPose2 expected = UncertainPose2{.T_a_b = T_chain_reference} * candidate.reference_node;
   expected.covariance += UncertainPose2::WithSigmas({}, kModelSigma_m, kModelSigma_rad).covariance;
-  const MatchResult match =
-      LocateAmong(surfaces, ToPoints(nodes_[candidate.node].scan), expected, locator_, matcher_);
+  const std::vector<ScanPoint> points = chains_.PointsAround(candidate.node, nodes_);
+  const MatchResult match = LocateAmong(surfaces, points, expected, locator_, matcher_);
   if (!IsRecognised(match, kMinOverlap)) return std::nullopt;
   Eigen::Matrix3d R_chain_reference = Eigen::Matrix3d::Identity();
   R_chain_reference.topLeftCorner<2, 2>() = T_chain_reference.Rotation();

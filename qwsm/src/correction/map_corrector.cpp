@@ -146,8 +146,8 @@ MapCorrector::MapCorrector(MapCorrector&&) noexcept = default;
 MapCorrector& MapCorrector::operator=(MapCorrector&&) noexcept = default;
 
 void MapCorrector::Add(ScanNode node) {
-  state_->chains.Add(node);
   state_->nodes.push_back(std::move(node));
+  state_->chains.Add(state_->nodes);
 }
 
 std::optional<std::vector<UncertainPose2>> MapCorrector::Propose() {

@@ -10,13 +10,16 @@
 namespace qwsm {
 namespace {
 
-constexpr NodeId kSubmapScans = 16;
-constexpr NodeId kSubmapStep = kSubmapScans / 2;
+constexpr std::size_t kSubmapTurns = 16;
+constexpr std::size_t kSubmapStep = kSubmapTurns / 2;
 // Submaps serve scans that are like those in them: few points tell as much as many.
 constexpr int kSubmapDensityPoints = 2;
 // Odometry between two relevant scans is never better than this.
 constexpr double kLeastSigma_m = 0.01;
 constexpr double kLeastSigma_rad = 0.003;
+// Between two scans of one turn the answers are better: what all lasers told is in them.
+constexpr double kTurnSigma_m = 0.001;
+constexpr double kTurnSigma_rad = 0.001;
 // What a slip of the wheels, or a push, may have done where a scan does not fit.
 constexpr double kSlipSigma_m = 0.4;
 constexpr double kSlipSigma_rad = 0.15;
@@ -58,23 +61,25 @@ ScanChains::ScanChains(const MapperOptions& options)
       locator_(options.locator),
       matcher_(options.locator.matcher) {}
 
-void ScanChains::Add(const ScanNode& node) {
+void ScanChains::Add(std::span<const ScanNode> nodes) {
   const auto id = static_cast<NodeId>(T_chain_node_.size());
-  const std::vector<ScanPoint> points = ToPoints(node.scan);
+  const ScanNode& node = nodes[id];
   Chain& chain = chains_[node.robot];
   position_.push_back(chain.nodes.size());
   robot_.push_back(node.robot);
+  parts_.push_back(chain.turns.Take(id, node.scan.geometry.T_robot_laser));
   if (chain.nodes.empty()) {
     Begin(node, chain);
   } else {
     const NodeId last = chain.nodes.back();
-    const UncertainPose2 found = Attach(node, points, chain);
+    const bool hangs = !parts_[id].completes && node.T_last_node;
+    const UncertainPose2 found = hangs ? Hang(node, chain) : Attach(id, nodes, chain);
     chain.edges.push_back(EdgeTo(last, id, T_chain_node_[last], found));
     T_chain_node_.push_back(found.T_a_b);
   }
   if (id > 0) edges_.push_back(chain.edges.back());
   chain.nodes.push_back(id);
-  InsertIntoSubmaps(id, points, chain);
+  InsertIntoSubmaps(id, ToPoints(node.scan), chain);
 }
 
 // What is known of where a further robot came in: its pose in the map.
@@ -86,14 +91,35 @@ void ScanChains::Begin(const ScanNode& node, Chain& chain) {
   chain.edges.push_back(EdgeTo(0, id, map_first_.T_a_b, entered));
 }
 
-// The last submap but one ends with the node before and began at least eight scans ago.
-UncertainPose2 ScanChains::Attach(const ScanNode& node,
-                                  std::span<const ScanPoint> points,
+UncertainPose2 ScanChains::Hang(const ScanNode& node, const Chain& chain) const {
+  const UncertainPose2 chain_last{.T_a_b = T_chain_node_[chain.nodes.back()]};
+  const UncertainPose2 answered{.T_a_b = *node.T_last_node, .covariance = node.odometry.covariance};
+  return AtLeast(chain_last * answered, kTurnSigma_m, kTurnSigma_rad);
+}
+
+std::vector<ScanPoint> ScanChains::PointsAround(NodeId node,
+                                                const Pose2& T_chain_robot,
+                                                std::span<const ScanNode> nodes) const {
+  std::vector<ScanPoint> points = ToPoints(nodes[node].scan);
+  for (const NodeId other : parts_[node].beside) {
+    const RigidTransform2 T_robot_other(T_chain_robot.Inverse() * T_chain_node_[other]);
+    for (const ScanPoint& point : ToPoints(nodes[other].scan)) {
+      points.push_back(T_robot_other * point);
+    }
+  }
+  return points;
+}
+
+// The last submap but one ends with the node before and began at least eight turns ago.
+UncertainPose2 ScanChains::Attach(NodeId id,
+                                  std::span<const ScanNode> nodes,
                                   const Chain& chain) const {
+  const ScanNode& node = nodes[id];
   const SurfaceMap& reference = chain.last_surfaces.front();
   const UncertainPose2 chain_last{.T_a_b = T_chain_node_[chain.nodes.back()]};
   UncertainPose2 predicted = AtLeast(chain_last * node.odometry, kLeastSigma_m, kLeastSigma_rad);
   if (node.T_last_node) predicted.T_a_b = chain_last.T_a_b * *node.T_last_node;
+  const std::vector<ScanPoint> points = PointsAround(id, predicted.T_a_b, nodes);
   MatchPrior prior{.predicted = predicted,
                    .start = predicted.T_a_b,
                    .start_error = {.translation_m = locator_.search_error_m}};
@@ -113,7 +139,7 @@ UncertainPose2 ScanChains::Attach(const ScanNode& node,
 }
 
 void ScanChains::InsertIntoSubmaps(NodeId id, std::span<const ScanPoint> points, Chain& chain) {
-  if (position_[id] % kSubmapStep == 0) {
+  if (parts_[id].begins && parts_[id].turn % kSubmapStep == 0) {
     const std::size_t ordinal = chain.submaps.size();
     chain.submaps.push_back(submaps_.size());
     submaps_.push_back({.robot = robot_[id], .ordinal = ordinal, .nodes = {}});

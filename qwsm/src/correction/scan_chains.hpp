@@ -14,10 +14,11 @@
 #include "qwsm/mapping/mapper_options.hpp"
 #include "qwsm/matching/surface_map.hpp"
 #include "qwsm/matching/weighted_scan_matcher.hpp"
+#include "scan_turns.hpp"
 
 namespace qwsm {
 
-/// A few scans in a row as one rigid body, in the frame of their chain.
+/// A few turns of scans in a row as one rigid body, in the frame of their chain.
 struct RigidSubmap {
   std::size_t robot = 0;      ///< Whose scans they are.
   std::size_t ordinal = 0;    ///< Among the submaps of that robot.
@@ -28,13 +29,15 @@ struct RigidSubmap {
 };
 
 /// The relevant scans of each robot in a row, each matched with those just before it, in a frame of
-/// their own that no closed loop bends: the backbone of the pose graph.
+/// their own that no closed loop bends: the backbone of the pose graph. Where several lasers take
+/// turns, what they see in a turn is matched as one; until a turn is complete its scans hang on
+/// each other as they were answered.
 class ScanChains {
  public:
   explicit ScanChains(const MapperOptions& options);
 
-  /// Adds the next node to the chain of its robot.
-  void Add(const ScanNode& node);
+  /// Adds the last of the nodes to the chain of its robot. @pre all before were added
+  void Add(std::span<const ScanNode> nodes);
 
   /// Poses of the nodes, each in the frame of its chain.
   std::span<const Pose2> T_chain_node() const { return T_chain_node_; }
@@ -44,10 +47,18 @@ class ScanChains {
   std::span<const RigidSubmap> submaps() const { return submaps_; }
   /// Whose chain a node belongs to.
   std::size_t RobotOf(NodeId node) const { return robot_[node]; }
-  /// How many nodes of its robot a node is behind an earlier one; none if they are two robots'.
-  std::optional<std::size_t> NodesBetween(NodeId from, NodeId to) const {
+  /// How many turns of its robot's lasers a node is behind an earlier one; none if they are two
+  /// robots'.
+  std::optional<std::size_t> TurnsBetween(NodeId from, NodeId to) const {
     if (robot_[from] != robot_[to]) return std::nullopt;
-    return position_[to] - position_[from];
+    return parts_[to].turn - parts_[from].turn;
+  }
+  /// Whether all lasers of its robot have scanned in a node's turn.
+  bool CompletesTurn(NodeId node) const { return parts_[node].completes; }
+  /// What was seen at a node, with what the robot's other lasers have just seen, in the frame of
+  /// the robot at that node. @param nodes all that were added
+  std::vector<ScanPoint> PointsAround(NodeId node, std::span<const ScanNode> nodes) const {
+    return PointsAround(node, T_chain_node_[node], nodes);
   }
 
   /// The surfaces that the scans of a submap show, in the frame of the chain. They are not kept:
@@ -63,25 +74,29 @@ class ScanChains {
  private:
   struct Chain {
     std::vector<NodeId> nodes;
+    ScanTurns turns;
     std::vector<PoseEdge> edges;           // To each node from the one before.
     std::vector<std::size_t> submaps;      // Indices of its own.
     std::deque<SurfaceMap> last_surfaces;  // Of the last two submaps, which still grow.
   };
 
   void Begin(const ScanNode& node, Chain& chain);
-  UncertainPose2 Attach(const ScanNode& node,
-                        std::span<const ScanPoint> points,
-                        const Chain& chain) const;
+  UncertainPose2 Hang(const ScanNode& node, const Chain& chain) const;
+  UncertainPose2 Attach(NodeId id, std::span<const ScanNode> nodes, const Chain& chain) const;
+  std::vector<ScanPoint> PointsAround(NodeId node,
+                                      const Pose2& T_chain_robot,
+                                      std::span<const ScanNode> nodes) const;
   void InsertIntoSubmaps(NodeId id, std::span<const ScanPoint> points, Chain& chain);
   void Insert(NodeId id, std::span<const ScanPoint> points, SurfaceMap& surfaces) const;
 
   ScanMapOptions map_options_;
   ScanLocatorOptions locator_;
   WeightedScanMatcher matcher_;
-  UncertainPose2 map_first_;           // Pose of the first node of all.
-  std::vector<Pose2> T_chain_node_;    // By node.
-  std::vector<std::size_t> position_;  // By node.
-  std::vector<std::size_t> robot_;     // By node.
+  UncertainPose2 map_first_;            // Pose of the first node of all.
+  std::vector<Pose2> T_chain_node_;     // By node.
+  std::vector<std::size_t> position_;   // By node.
+  std::vector<std::size_t> robot_;      // By node.
+  std::vector<ScanTurns::Part> parts_;  // By node.
   std::vector<PoseEdge> edges_;
   std::vector<RigidSubmap> submaps_;     // In the order they were begun.
   std::map<std::size_t, Chain> chains_;  // By robot.

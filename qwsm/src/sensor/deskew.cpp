@@ -93,7 +93,9 @@ void KeepWhatCannotMove(const LaserScan& scan, LaserScan& still) {
 }  // namespace
 
 LaserScan Deskewed(const LaserScan& scan, const Pose2& T_first_last) {
-  if (scan.size() < 2 || T_first_last == Pose2{}) return scan;
+  if (scan.size() < 2 || T_first_last == Pose2{}) {
+    return {.stamp = scan.stamp, .geometry = scan.geometry, .ranges_m = scan.ranges_m};
+  }
   constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
   LaserScan still{.stamp = scan.stamp,
                   .geometry = scan.geometry,

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/dds/robot/robot_feed.hpp"
 
-#include <string>
-
 #include "service/dds/entities/reader.hpp"
 #include "service/dds/entities/wait_set.hpp"
 #include "service/dds/robot/robot_inbox.hpp"
@@ -13,10 +11,13 @@ namespace qwsm::dds {
 
 class RobotFeed::Topics {
  public:
-  Topics(const Participant& participant, const RobotNames& names, Refusals& refusals)
+  Topics(const Participant& participant,
+         const RobotNames& names,
+         const std::vector<std::string>& scan_topics,
+         Refusals& refusals)
       : wait_set_(participant),
         static_transforms_(participant, kStaticTransformsTopic, Profile::kStaticTransforms),
-        inbox_(participant, names, refusals, {std::string(kScanTopic)}) {
+        inbox_(participant, names, refusals, scan_topics) {
     for (const Entity::Handle handle : inbox_.handles()) wait_set_.Add(handle);
   }
 
@@ -37,8 +38,11 @@ class RobotFeed::Topics {
   RobotInbox inbox_;
 };
 
-RobotFeed::RobotFeed(const Participant& participant, const RobotNames& names, Refusals& refusals)
-    : topics_(std::make_unique<Topics>(participant, names, refusals)) {}
+RobotFeed::RobotFeed(const Participant& participant,
+                     const RobotNames& names,
+                     const std::vector<std::string>& scan_topics,
+                     Refusals& refusals)
+    : topics_(std::make_unique<Topics>(participant, names, scan_topics, refusals)) {}
 
 RobotFeed::~RobotFeed() = default;
 

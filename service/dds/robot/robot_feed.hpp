@@ -4,6 +4,8 @@
 
 #include <chrono>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "service/dds/entities/participant.hpp"
 #include "service/dds/wire/refusals.hpp"
@@ -15,8 +17,12 @@ namespace qwsm::dds {
 /// Hears what one robot says, for programs that are not the service.
 class RobotFeed {
  public:
-  /// Subscribes to a robot's topics. @param participant and refusals outlive this.
-  RobotFeed(const Participant& participant, const RobotNames& names, Refusals& refusals);
+  /// Subscribes to a robot's topics.
+  /// @param scan_topics below its namespace. @param participant and refusals outlive this.
+  RobotFeed(const Participant& participant,
+            const RobotNames& names,
+            const std::vector<std::string>& scan_topics,
+            Refusals& refusals);
   ~RobotFeed();
 
   /// Waits until something has arrived, or for the timeout, and delivers it.

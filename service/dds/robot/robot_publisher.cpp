@@ -13,6 +13,7 @@
 #include "service/dds/entities/writer.hpp"
 #include "service/dds/wire/transform_sample.hpp"
 #include "service/dds/wire/wire_kind.hpp"
+#include "service/team/session/deskewing.hpp"
 
 namespace qwsm::dds {
 
@@ -50,16 +51,17 @@ class BasicRobotPublisher<Kind>::Topics {
     if (sensors_.size() == kMostSensors) sensors_.pop_front();
     std::string frame = names_.Frame(kLaserFrame);
     if (placements_++ > 0) frame += "_" + std::to_string(placements_);
-    static_transforms_.Write(
-        TransformSample({}, robot_frame_, frame, ToWire(T_robot_sensor)).sample());
-    return sensors_.emplace_back(Sensor{T_robot_sensor, std::move(frame)}).frame;
+    sensors_.push_back({T_robot_sensor, std::move(frame)});
+    TellSensors();
+    return sensors_.back().frame;
   }
 
-  bool Publish(const Observation& observation) {
+  bool Publish(const Observation& observation, const std::optional<Pose>& T_odom_end) {
     const std::string& frame = PlaceSensor(OnWire<Kind>::Mounting(observation.scan));
     if (odometry_ && observation.T_odom_robot) {
       PublishOdometry(observation.scan.stamp, *observation.T_odom_robot);
     }
+    if (odometry_ && T_odom_end) PublishOdometry(team::EndOf(observation.scan), *T_odom_end);
     const typename OnWire<Kind>::Sample sample(observation.scan, frame);
     return scans_->Write(sample.sample());
   }
@@ -94,6 +96,18 @@ class BasicRobotPublisher<Kind>::Topics {
     std::string frame;
   };
   static constexpr std::size_t kMostSensors = 16;  // More are mounted anew.
+  static constexpr std::chrono::nanoseconds kPatienceForMountings = std::chrono::milliseconds(100);
+
+  /// Tells where all sensors sit, in one message: of a latched topic the last one is kept for who
+  /// listens later. Who listens now is to know it before the sensor's first scan comes.
+  void TellSensors() {
+    TransformSample mountings;
+    for (const Sensor& sensor : sensors_) {
+      mountings.Add({}, robot_frame_, sensor.frame, ToWire(sensor.T_robot_sensor));
+    }
+    static_transforms_.Write(mountings.sample());
+    dds_wait_for_acks(static_transforms_.handle(), kPatienceForMountings.count());
+  }
 
   wire::Odometry OdometryOf(Timestamp stamp, const std::string& frame, const Pose& pose) const {
     wire::Odometry sample{};
@@ -141,8 +155,9 @@ bool BasicRobotPublisher<Kind>::WaitForListener(const Pose& T_robot_sensor,
 }
 
 template <class Kind>
-bool BasicRobotPublisher<Kind>::Publish(const Observation& observation) {
-  return topics_->Publish(observation);
+bool BasicRobotPublisher<Kind>::Publish(const Observation& observation,
+                                        const std::optional<Pose>& T_odom_end) {
+  return topics_->Publish(observation, T_odom_end);
 }
 
 template <class Kind>

@@ -33,8 +33,9 @@ class BasicRobotPublisher {
 
   /// Publishes a scan and its odometry, which goes first, so that it is there when its scan
   /// arrives.
+  /// @param T_odom_end odometry at the last beam of a scan whose beams have times.
   /// @returns false where a listener did not take it in time.
-  bool Publish(const Observation& observation);
+  bool Publish(const Observation& observation, const std::optional<Pose>& T_odom_end = {});
   /// Whether somebody listens to the scans.
   bool has_listener() const;
   /// Whether somebody listens to where the robot is told to be.

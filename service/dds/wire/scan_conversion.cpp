@@ -35,6 +35,17 @@ std::vector<float> Copy(const dds_sequence_float& ranges) {
   return {ranges._buffer, ranges._buffer + ranges._length};
 }
 
+// A scan that takes longer is none of a robot's, or its unit is not the second.
+constexpr double kLongestSweep_s = 1.0;
+
+double GapsOf(std::size_t beams) { return beams > 1 ? static_cast<double>(beams - 1) : 1.0; }
+
+std::chrono::nanoseconds SweepOf(const wire::LaserScan& sample) {
+  const double sweep_s = static_cast<double>(sample.time_increment) * GapsOf(sample.ranges._length);
+  return sweep_s > 0.0 && sweep_s <= kLongestSweep_s ? Nanoseconds(sweep_s)
+                                                     : std::chrono::nanoseconds{};
+}
+
 }  // namespace
 
 wire::LaserScan ToWire(const LaserScan& scan, const std::string& frame) {
@@ -44,6 +55,7 @@ wire::LaserScan ToWire(const LaserScan& scan, const std::string& frame) {
   sample.angle_min = geometry.first_bearing_rad;
   sample.angle_max = static_cast<float>(scan.size() > 0 ? geometry.Bearing(scan.size() - 1) : 0.0);
   sample.angle_increment = geometry.bearing_step_rad;
+  sample.time_increment = static_cast<float>(Seconds(scan.sweep) / GapsOf(scan.size()));
   sample.range_min = geometry.range_min_m;
   sample.range_max = geometry.range_max_m;
   sample.ranges = Borrow(scan.ranges_m);
@@ -62,7 +74,8 @@ LaserScan FromWire(const wire::LaserScan& sample, const Pose2& T_robot_laser) {
                        .range_min_m = sample.range_min,
                        .range_max_m = sample.range_max,
                        .T_robot_laser = T_robot_laser},
-          .ranges_m = Copy(sample.ranges)};
+          .ranges_m = Copy(sample.ranges),
+          .sweep = SweepOf(sample)};
 }
 
 wire::RelevantScan ToWire(const team::TeamScan& scan, const std::string& map_frame) {

@@ -2,34 +2,49 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "service/dds/wire/planar.hpp"
 
 namespace qwsm::dds {
 
-/// A message of one transform, to be written while the names of its frames live.
+/// A message of transforms, to be written while the names of their frames live.
 class TransformSample {
  public:
-  /// Makes the message. @param pose of the child in the parent.
+  TransformSample() = default;
+  /// Makes a message of one transform, see Add().
   TransformSample(Timestamp stamp,
                   const std::string& parent,
                   const std::string& child,
                   const wire::Pose& pose) {
-    transform_.header = HeaderOf(stamp, parent);
-    transform_.child_frame_id = Borrow(child);
-    transform_.transform.translation = {pose.position.x, pose.position.y, pose.position.z};
-    transform_.transform.rotation = pose.orientation;
-    message_.transforms = {._maximum = 1, ._length = 1, ._buffer = &transform_, ._release = false};
+    Add(stamp, parent, child, pose);
   }
   TransformSample(const TransformSample&) = delete;
   TransformSample& operator=(const TransformSample&) = delete;
 
-  const wire::TFMessage& sample() const { return message_; }
+  /// Adds a transform. @param pose of the child in the parent.
+  void Add(Timestamp stamp,
+           const std::string& parent,
+           const std::string& child,
+           const wire::Pose& pose) {
+    const auto& p = pose.position;
+    transforms_.push_back({.header = HeaderOf(stamp, parent),
+                           .child_frame_id = Borrow(child),
+                           .transform = {{p.x, p.y, p.z}, pose.orientation}});
+  }
+
+  /// The message, which points into this object.
+  wire::TFMessage sample() {
+    const auto size = static_cast<std::uint32_t>(transforms_.size());
+    return {
+        .transforms = {
+            ._maximum = size, ._length = size, ._buffer = transforms_.data(), ._release = false}};
+  }
 
  private:
-  wire::TransformStamped transform_{};
-  wire::TFMessage message_{};
+  std::vector<wire::TransformStamped> transforms_;
 };
 
 }  // namespace qwsm::dds

@@ -61,7 +61,9 @@ void NetworkRobot::Take(const sim::Reading& reading) {
   }
   publisher_.PublishTruth(reading.scan.stamp, reading.T_world_robot);
   if (!HasBegun(reading)) return;
-  publisher_.Publish({.scan = reading.scan, .T_odom_robot = reading.T_odom_robot});
+  std::optional<Pose2> T_odom_end;
+  if (reading.scan.sweep.count() > 0) T_odom_end = reading.T_odom_robot * reading.T_first_last;
+  publisher_.Publish({.scan = reading.scan, .T_odom_robot = reading.T_odom_robot}, T_odom_end);
   if (pace_ == NetworkPace::kFree) return;
   window_.NoteSent(reading.scan.stamp);
   if (!window_.WaitForRoom(kPatience)) {

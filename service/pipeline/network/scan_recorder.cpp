@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/network/scan_recorder.hpp"
 
+#include <algorithm>
 #include <utility>
+
+#include "service/team/session/deskewing.hpp"
 
 namespace qwsm::pipeline {
 namespace {
 
 constexpr auto kPatienceForOdometry = std::chrono::milliseconds(500);
+constexpr std::size_t kMostLasersOfLog = 5;
 
 }  // namespace
 
@@ -26,7 +30,7 @@ void ScanRecorder::WriteReady() {
   const Clock::time_point now = Clock::now();
   while (!waiting_.empty()) {
     const Waiting& first = waiting_.front();
-    const bool may_come = expects_odometry_ && !odometry_.Covers(first.scan.stamp) &&
+    const bool may_come = expects_odometry_ && !odometry_.Covers(team::EndOf(first.scan)) &&
                           now - first.arrived < kPatienceForOdometry;
     if (may_come) return;
     WriteFirst();
@@ -40,9 +44,21 @@ void ScanRecorder::Finish() {
 void ScanRecorder::WriteFirst() {
   LaserScan& scan = waiting_.front().scan;
   const std::optional<Pose2> T_odom_robot = odometry_.At(scan.stamp);
-  write_(io::ScanReading{.scan = std::move(scan), .T_odom_robot = T_odom_robot, .laser = "front"});
+  const Pose2 mounting = scan.geometry.T_robot_laser;
+  scan = team::AsFromOnePlace(std::move(scan), odometry_);
+  write_(io::ScanReading{
+      .scan = std::move(scan), .T_odom_robot = T_odom_robot, .laser = NameOf(mounting)});
   waiting_.pop_front();
   ++scans_;
+}
+
+// A log has five lasers: who is mounted anew more often goes by the last name.
+std::string ScanRecorder::NameOf(const Pose2& T_robot_laser) {
+  auto known = std::ranges::find(T_robot_laser_, T_robot_laser);
+  if (known == T_robot_laser_.end() && T_robot_laser_.size() == kMostLasersOfLog) --known;
+  if (known == T_robot_laser_.end()) known = T_robot_laser_.insert(known, T_robot_laser);
+  const auto number = known - T_robot_laser_.begin() + 1;
+  return number == 1 ? "front" : number == 2 ? "rear" : "laser" + std::to_string(number);
 }
 
 }  // namespace qwsm::pipeline

@@ -6,8 +6,10 @@
 #include <cstddef>
 #include <deque>
 #include <functional>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "qwsm/logs/log_record.hpp"
 #include "service/team/session/odometry_buffer.hpp"
@@ -15,7 +17,8 @@
 
 namespace qwsm::pipeline {
 
-/// Writes what a robot says as a log, each scan with the odometry of its moment.
+/// Writes what a robot says as a log, each scan with the odometry of its moment. Its lasers are
+/// told apart by where they sit, and named in the order they are heard.
 class ScanRecorder final : public team::RobotListener<team::Planar> {
  public:
   using Write = std::function<void(const io::LogRecord&)>;
@@ -43,11 +46,13 @@ class ScanRecorder final : public team::RobotListener<team::Planar> {
   };
 
   void WriteFirst();
+  std::string NameOf(const Pose2& T_robot_laser);
 
   Write write_;
   team::OdometryBuffer<Pose2> odometry_;
   bool expects_odometry_ = false;
   std::deque<Waiting> waiting_;
+  std::vector<Pose2> T_robot_laser_;  // Of the lasers heard.
   std::size_t scans_ = 0;
 };
 

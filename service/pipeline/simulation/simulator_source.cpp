@@ -8,9 +8,7 @@ std::optional<Observation> SimulatorSource::Next() {
   while (std::optional<sim::Reading> reading = simulation_.Next()) {
     if (reading->robot != robot_) continue;
     truth_.push_back({.stamp = reading->scan.stamp, .T_map_robot = reading->T_world_robot});
-    return Observation{.scan = std::move(reading->scan),
-                       .T_odom_robot = reading->T_odom_robot,
-                       .gyro_rad = reading->gyro_rad};
+    return sim::ObservationOf(*reading);
   }
   return std::nullopt;
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/team/scans/thinning.hpp"
 
+#include <cstdint>
+
 namespace qwsm::team {
 namespace {
 
@@ -14,6 +16,7 @@ std::size_t StepFor(std::size_t size, std::size_t most) {
 std::size_t Thin(LaserScan& scan, std::size_t most) {
   const std::size_t step = StepFor(scan.size(), most);
   if (step == 1) return step;
+  const auto gaps = static_cast<std::int64_t>(scan.size() - 1);
   std::size_t kept = 0;
   for (std::size_t beam = 0; beam < scan.size(); beam += step) {
     scan.ranges_m[kept++] = scan.ranges_m[beam];
@@ -21,6 +24,7 @@ std::size_t Thin(LaserScan& scan, std::size_t most) {
   scan.ranges_m.resize(kept);
   scan.ranges_m.shrink_to_fit();
   scan.geometry.bearing_step_rad *= static_cast<float>(step);
+  scan.sweep = scan.sweep * static_cast<std::int64_t>((kept - 1) * step) / gaps;
   return step;
 }
 

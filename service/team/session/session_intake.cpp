@@ -8,6 +8,7 @@
 
 #include "qwsm/sensor/scan_limits.hpp"
 #include "service/team/scans/thinning.hpp"
+#include "service/team/session/deskewing.hpp"
 
 namespace qwsm::team {
 namespace {
@@ -172,7 +173,7 @@ std::optional<Lane::Time> SessionIntake<Kind>::ReadyAt() const {
 // scans wait longer: they may have come just before who publishes odometry knew of this service.
 template <class Kind>
 Lane::Time SessionIntake<Kind>::AwaitsOdometryUntil(const Arrival& next) const {
-  const Timestamp stamp = next.scan.stamp;
+  const Timestamp stamp = options_.deskew ? EndOf(next.scan) : next.scan.stamp;
   if (!expects_odometry_ || odometry_.Covers(stamp)) return next.arrived;
   const auto wait = std::chrono::duration_cast<std::chrono::nanoseconds>(
       std::chrono::duration<double>(options_.odometry_wait_s));
@@ -187,6 +188,7 @@ std::optional<typename SessionIntake<Kind>::Work> SessionIntake<Kind>::Take() {
   DropScansBeforeOdometry();
   if (queue_.empty()) return std::nullopt;
   Arrival next = queue_.Pop();
+  if (options_.deskew) next.scan = AsFromOnePlace(std::move(next.scan), odometry_);
   Work work{.scan = std::move(next.scan),
             .arrived = next.arrived,
             .T_odom_robot = {},

@@ -31,6 +31,7 @@ struct SessionOptions {
   int queue_scans = 4;
   int max_readings = 5000;
   double odometry_wait_s = 0.05;
+  bool deskew = true;
   double max_speed_mps = 5.0;
   double max_turn_rate_radps = 10.0;
 };
@@ -50,6 +51,9 @@ void Describe(Visitor& visit, SessionOptions& o) {
   visit("odometry_wait_s",
         o.odometry_wait_s,
         {.help = "how long a scan waits for the odometry of its moment", .min = 0, .max = 10});
+  visit("deskew",
+        o.deskew,
+        {.help = "beams whose messages have times are put where they were measured, by odometry"});
   visit("max_speed_mps",
         o.max_speed_mps,
         {.help = "odometry that moves faster has jumped", .min = 0.01, .max = 1000});

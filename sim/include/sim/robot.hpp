@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "qwsm/mapping/observation.hpp"
 #include "sim/driver.hpp"
 #include "sim/gyro.hpp"
 #include "sim/laser.hpp"
@@ -70,10 +71,16 @@ struct Reading {
   std::size_t robot = 0;  ///< Index in the scenario.
   std::size_t laser = 0;  ///< 0, or that of more_lasers, counted from 1.
   qwsm::LaserScan scan;
-  qwsm::Pose2 T_odom_robot;        ///< Pose by the wheels, from where the robot started.
+  qwsm::Pose2 T_odom_robot;  ///< Pose by the wheels, from where the robot started.
+  /// Pose at the last beam as seen from that at the first, by the wheels and, where there is one,
+  /// the gyro.
+  qwsm::Pose2 T_first_last;
   qwsm::Pose2 T_world_robot;       ///< True pose.
   std::optional<double> gyro_rad;  ///< Angle turned since the start, by the gyro; not wrapped.
 };
+
+/// What a mapper is told of a reading: the scan as from the place of its first beam.
+qwsm::Observation ObservationOf(const Reading& reading);
 
 /// A robot, where it starts and the way it is to follow, if it follows one.
 struct RobotPlacement {
@@ -118,6 +125,7 @@ class Robot {
 
   void Mount(const LaserOptions& options, std::uint64_t seed);
   void BeginScan(const PhysicsWorld& world, qwsm::Timestamp now, MountedLaser& mounted);
+  void EndScan(qwsm::LaserScan scan, qwsm::Timestamp now, Reading& reading) const;
 
   RobotOptions options_;
   BodyId body_;

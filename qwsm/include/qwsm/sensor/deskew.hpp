@@ -13,6 +13,7 @@ namespace qwsm {
 /// between beams and nothing else; by how far it went, readings change and move to other beams.
 /// Beams that nothing moves to become kInvalid. A robot that stood gives the scan itself.
 /// @param T_first_last pose of the robot at the last beam, as seen from that at the first
+/// @return the scan, whose sweep counts no more
 LaserScan Deskewed(const LaserScan& scan, const Pose2& T_first_last);
 
 }  // namespace qwsm

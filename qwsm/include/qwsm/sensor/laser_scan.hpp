@@ -44,6 +44,8 @@ struct LaserScan {
   Timestamp stamp{};
   LaserGeometry geometry;
   std::vector<float> ranges_m;  ///< One reading per beam, in the order of the bearings.
+  /// Time from the first beam to the last; 0 where that is not known, or does not count any more.
+  std::chrono::nanoseconds sweep{};
 
   std::size_t size() const { return ranges_m.size(); }
 };
