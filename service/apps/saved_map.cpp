@@ -3,8 +3,11 @@
 #include "service/apps/saved_map.hpp"
 
 #include <functional>
+#include <span>
 #include <utility>
+#include <vector>
 
+#include "qwsm/correction/joint_correction.hpp"
 #include "qwsm/mapping/grid_survey.hpp"
 #include "service/io/maps/map_file.hpp"
 #include "service/io/maps/ros_map_file.hpp"
@@ -32,11 +35,39 @@ ExitCode ConcludeLost(const PlaceBelief& belief, std::size_t unplaced) {
   return ExitCode::kFailed;
 }
 
+/// Tells of a robot that is lost in the end.
+ExitCode ConcludeDrive(const pipeline::ReplayResult& end,
+                       const Localizer& localizer,
+                       const pipeline::LostAndFound& lost_and_found) {
+  if (end.end == pipeline::ReplayEnd::kExhausted && lost_and_found.held() > 0) {
+    return ConcludeLost(localizer.belief(), lost_and_found.held());
+  }
+  return Conclude(end);
+}
+
+/// The map of several drives and the path of the last one, corrected together.
+pipeline::CorrectedRun CorrectTogether(const ScanMap& map,
+                                       std::size_t first_scan,
+                                       std::span<const io::PathPose> path,
+                                       const MapperOptions& options) {
+  std::vector<StampedAnswer> answers;
+  for (const io::PathPose& pose : path) {
+    answers.push_back({.stamp = pose.stamp, .map_robot = pose.map_robot});
+  }
+  JointCorrection joint =
+      CorrectJointly(map, {.first_scan = first_scan, .answers = answers}, options);
+  return {.correction = std::move(joint.correction), .map = std::move(joint.map), .epochs = {}};
+}
+
 }  // namespace
 
-ScanMap OpenMap(const std::filesystem::path& path) {
+bool IsGrid(const std::filesystem::path& path) {
   const std::filesystem::path ending = path.extension();
-  if (ending != ".yaml" && ending != ".yml") {
+  return ending == ".yaml" || ending == ".yml";
+}
+
+ScanMap OpenMap(const std::filesystem::path& path) {
+  if (!IsGrid(path)) {
     ScanMap map = io::LoadMap(path);
     if (map.empty()) throw UsageError(path.string() + ": is a map without scans");
     return map;
@@ -62,10 +93,25 @@ ExitCode FollowInMap(const std::string& task,
   results.SetTitle(session.Title(task, end));
   results.Finish(localizer.map(), options.mapper.matcher, options.rendering);
   session.Summarize(results, localizer.map());
-  if (end.end == pipeline::ReplayEnd::kExhausted && lost_and_found.held() > 0) {
-    return ConcludeLost(localizer.belief(), lost_and_found.held());
-  }
-  return Conclude(end);
+  return ConcludeDrive(end, localizer, lost_and_found);
+}
+
+ContinuedMap CorrectAfterFollowing(Localizer& localizer,
+                                   pipeline::ScanSource& source,
+                                   const options::ProgramOptions& options,
+                                   const RunSession& session) {
+  const std::size_t scans_before = localizer.map().scans().size();
+  pipeline::ResultsWriter results(
+      session.folder(), {.trajectory = "trajectory_live.tum", .pictures = session.has_pictures()});
+  pipeline::LostAndFound lost_and_found(localizer, results);
+  const pipeline::ReplayResult end = session.Run(
+      "map", source, std::bind_front(&Localizer::Process, &localizer), {&lost_and_found});
+  results.SetTitle(session.Title("map", end));
+  pipeline::CorrectedRun corrected =
+      CorrectTogether(localizer.map(), scans_before, results.path(), options.mapper);
+  results.Finish(localizer.map(), options.mapper.matcher, corrected, options.rendering);
+  session.Summarize(results, corrected.map);
+  return {.code = ConcludeDrive(end, localizer, lost_and_found), .map = std::move(corrected.map)};
 }
 
 }  // namespace qwsm::apps

@@ -15,6 +15,9 @@ namespace qwsm::apps {
 /// @throws UsageError where there is nothing in it to localize by.
 ScanMap OpenMap(const std::filesystem::path& path);
 
+/// Whether a file is an occupancy grid of another program, by its name.
+bool IsGrid(const std::filesystem::path& path);
+
 /// Follows a robot through a map that was made before, and leaves the results.
 /// @param task as `localize`, for messages.
 /// @returns kFailed where the log ends and the robot is lost, which is told.
@@ -23,5 +26,17 @@ ExitCode FollowInMap(const std::string& task,
                      pipeline::ScanSource& source,
                      const options::ProgramOptions& options,
                      const RunSession& session);
+
+/// How a drive ended that went on with a map, and the map of both.
+struct ContinuedMap {
+  ExitCode code = ExitCode::kDone;
+  ScanMap map;
+};
+
+/// As FollowInMap() for `map`, then corrects the map that was made before and the drive together.
+ContinuedMap CorrectAfterFollowing(Localizer& localizer,
+                                   pipeline::ScanSource& source,
+                                   const options::ProgramOptions& options,
+                                   const RunSession& session);
 
 }  // namespace qwsm::apps
