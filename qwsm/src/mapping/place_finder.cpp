@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "qwsm/mapping/surface_hold.hpp"
 #include "qwsm/matching/mode_search.hpp"
 
 namespace qwsm {
@@ -37,6 +38,7 @@ constexpr int kMinLooks = 3;
 constexpr double kMinWay_m = 1.2;
 constexpr double kSureNats = 9.2;      // Wrong once in ten thousand.
 constexpr double kForetoldNats = 1.0;  // Of what comes into view while a place is followed.
+constexpr double kHeldShare = 0.2;     // Of the points, not counting any one surface.
 constexpr double kKnownNats = 4.6;     // Elsewhere once in a hundred.
 constexpr double kForgetNats = 15.0;   // Behind the best place, or behind being elsewhere.
 
@@ -152,6 +154,7 @@ void PlaceFinder::AddModes(const Sight& sight) {
 // @param news share of the points that no look before has seen.
 void PlaceFinder::Weigh(const Sight& sight, double news) {
   const double nats_per_score = NatsPerScore(sight.points.size(), locator_.options().search);
+  const bool is_held = ShareHoldingWithoutAnySurface(sight.points) >= kHeldShare;
   for (Hypothesis& one : hypotheses_) {
     double rival_score = sight.modes.floor_score;
     for (const Hypothesis& other : hypotheses_) {
@@ -162,6 +165,7 @@ void PlaceFinder::Weigh(const Sight& sight, double news) {
     const double fit_nats = evidence_.Weigh(sight.map, sight.points, match).Nats();
     one.nats += kNewInALook * (lead_nats + fit_nats);
     if (!one.is_new) one.foretold_nats += news * (lead_nats + fit_nats);
+    one.is_held = is_held;
     if (lead_nats > 0.0) {
       ++one.looks;
       one.map_robot = {.T_a_b = match.T_ref_cur, .covariance = match.covariance};
@@ -193,7 +197,8 @@ double PlaceFinder::LeadNats() const {
 bool PlaceFinder::IsFound() const {
   if (LeadNats() < kSureNats) return false;
   const Hypothesis& best = hypotheses_.front();
-  return best.looks >= kMinLooks && best.way_m >= kMinWay_m && best.foretold_nats >= kForetoldNats;
+  return best.looks >= kMinLooks && best.way_m >= kMinWay_m &&
+         (best.is_held || best.foretold_nats >= kForetoldNats);
 }
 
 PlaceBelief PlaceFinder::Belief() const {

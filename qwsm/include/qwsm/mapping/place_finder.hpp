@@ -44,8 +44,9 @@ struct PlaceBelief {
 /// taken, follows them from look to look, and weighs for each how well the scan fits by itself, and
 /// how much better than anywhere else. A place that is no more than the best of many wrong ones
 /// does neither for long: the next look is best explained somewhere else. What the robot had seen
-/// when it thought of a place is explained there, however often it looks: the place is not found
-/// before it has foretold what comes into view later.
+/// when it thought of a place is explained there, however often it looks: where one surface alone
+/// tells that place from others, which may be a surface that the map lacks elsewhere, it is not
+/// found before it has foretold what comes into view later.
 class PlaceFinder {
  public:
   explicit PlaceFinder(const MapperOptions& options = {});
@@ -66,9 +67,10 @@ class PlaceFinder {
     double nats = 0.0;   // Evidence of all looks against its being elsewhere.
     // What surfaces tell for it that nobody had seen when the place was thought of.
     double foretold_nats = 0.0;
-    int looks = 0;       // At which it was there.
-    double way_m = 0.0;  // That it was followed for.
-    bool is_new = true;  // Since the last look.
+    bool is_held = false;  // In the last look, by more than one surface.
+    int looks = 0;         // At which it was there.
+    double way_m = 0.0;    // That it was followed for.
+    bool is_new = true;    // Since the last look.
   };
   struct Sight;
 
