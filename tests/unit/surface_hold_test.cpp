@@ -19,20 +19,20 @@ double HoldOf(const std::vector<Eigen::Vector2d>& corners_m) {
     world.walls.push_back({.from_m = corners_m[i - 1], .to_m = corners_m[i]});
   }
   std::mt19937_64 random(1);
-  return ShareHoldingWithoutAnySurface(
+  return PointsHoldingWithoutAnySurface(
       ThinOut(ToPoints(Measure({.beams = 181}, world, {}, random)), 0.15));
 }
 
-TEST(SurfaceHold, IsNothingWithoutPoints) { EXPECT_EQ(ShareHoldingWithoutAnySurface({}), 0.0); }
+TEST(SurfaceHold, IsNothingWithoutPoints) { EXPECT_EQ(PointsHoldingWithoutAnySurface({}), 0.0); }
 
 TEST(SurfaceHold, IsNextToNothingAtTheEndOfACorridor) {
-  EXPECT_LT(HoldOf({{-5, -1}, {4, -1}, {4, 1}, {-5, 1}}), 0.1);
+  EXPECT_LT(HoldOf({{-5, -1}, {4, -1}, {4, 1}, {-5, 1}}), 4.0);
 }
 
 // Niches on both sides tell how far along the corridor one is, whatever its end is like.
 TEST(SurfaceHold, IsMuchWhereSeveralSurfacesFaceTheRobot) {
   EXPECT_GT(HoldOf({{-5, -1}, {2, -1}, {2, -3}, {4, -3}, {4, 1}, {3, 1}, {3, 3}, {1, 3}, {1, 1}}),
-            0.15);
+            8.0);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ constexpr int kMinLooks = 3;
 constexpr double kMinWay_m = 1.2;
 constexpr double kSureNats = 9.2;      // Wrong once in ten thousand.
 constexpr double kForetoldNats = 1.0;  // Of what comes into view while a place is followed.
-constexpr double kHeldShare = 0.2;     // Of the points, not counting any one surface.
+constexpr double kHeldPoints = 16.0;   // A fifth of all, those of any one surface not counted.
 constexpr double kKnownNats = 4.6;     // Elsewhere once in a hundred.
 constexpr double kForgetNats = 15.0;   // Behind the best place, or behind being elsewhere.
 
@@ -154,7 +154,7 @@ void PlaceFinder::AddModes(const Sight& sight) {
 // @param news share of the points that no look before has seen.
 void PlaceFinder::Weigh(const Sight& sight, double news) {
   const double nats_per_score = NatsPerScore(sight.points.size(), locator_.options().search);
-  const bool is_held = ShareHoldingWithoutAnySurface(sight.points) >= kHeldShare;
+  const bool is_held = PointsHoldingWithoutAnySurface(sight.points) >= kHeldPoints;
   for (Hypothesis& one : hypotheses_) {
     double rival_score = sight.modes.floor_score;
     for (const Hypothesis& other : hypotheses_) {

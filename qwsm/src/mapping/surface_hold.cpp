@@ -52,15 +52,14 @@ double HoldingAlong(const Eigen::Vector2d& direction, std::span<const NormalsOfS
 
 }  // namespace
 
-double ShareHoldingWithoutAnySurface(std::span<const ScanPoint> points) {
-  if (points.empty()) return 0.0;
+double PointsHoldingWithoutAnySurface(std::span<const ScanPoint> points) {
   const std::vector<NormalsOfSurface> surfaces = SurfacesAmong(points);
   auto fewest = static_cast<double>(points.size());
   for (int i = 0; i < kDirections; ++i) {
     const double angle_rad = std::numbers::pi * i / kDirections;
     fewest = std::min(fewest, HoldingAlong({std::cos(angle_rad), std::sin(angle_rad)}, surfaces));
   }
-  return fewest / static_cast<double>(points.size());
+  return fewest;
 }
 
 }  // namespace qwsm

@@ -8,10 +8,10 @@
 
 namespace qwsm {
 
-/// The share of points that hold a scan in place, in the direction in which the fewest do, if the
+/// How many points hold a scan in place, in the direction in which the fewest do, if the
 /// one surface that holds it best there is left out: in a corridor none but those of its end tell
 /// how far along it the robot is.
 /// @param points thinned out.
-double ShareHoldingWithoutAnySurface(std::span<const ScanPoint> points);
+double PointsHoldingWithoutAnySurface(std::span<const ScanPoint> points);
 
 }  // namespace qwsm
