@@ -177,7 +177,8 @@ ExitCode MapAll(const MapArguments& arguments,
   const Mapper& mapper = correcting ? correcting->mapper() : incremental;
   if (correcting) {
     corrected = pipeline::CorrectAtTheEnd(*correcting);
-    results.Finish(mapper, *corrected, options.rendering, source.truth());
+    results.Finish(
+        mapper.map(), mapper.options().matcher, *corrected, options.rendering, source.truth());
     if (arguments.bag) answers.Correct(corrected->correction.map_robot);
   } else {
     results.Finish(mapper.map(), mapper.options().matcher, options.rendering, source.truth());
@@ -200,16 +201,26 @@ ExitCode MapAll(const MapArguments& arguments,
   return Conclude(end);
 }
 
-/// Goes on in a map that was made before, once the robot is recognised in it.
+/// Goes on in a map that was made before, once the robot is recognised in it. Where that is a grid
+/// nothing is corrected: nobody drove where its walls are surveyed from.
 ExitCode ContinueMap(const MapArguments& arguments,
                      const options::ProgramOptions& options,
                      KnownMap known,
                      pipeline::ScanSource& source,
                      const RunSession& session) {
   Localizer localizer(options.mapper, std::move(known.map));
-  pipeline::JournalMarks marks(arguments.run.logs, known.marks);
-  const ExitCode code = FollowInMap("map", {localizer, marks}, source, options, session);
-  if (arguments.save_map) pipeline::SaveMap(*arguments.save_map, localizer.map(), marks.Placed({}));
+  if (!Corrects(options) || IsGrid(*arguments.continued)) {
+    pipeline::JournalMarks marks(arguments.run.logs, known.marks);
+    const ExitCode code = FollowInMap("map", {localizer, marks}, source, options, session);
+    if (arguments.save_map) {
+      pipeline::SaveMap(*arguments.save_map, localizer.map(), marks.Placed({}));
+    }
+    return code;
+  }
+  pipeline::JournalMarks marks(arguments.run.logs);
+  const auto [code, map, all_marks] =
+      CorrectAfterFollowing({localizer, marks}, known.marks, source, options, session);
+  if (arguments.save_map) pipeline::SaveMap(*arguments.save_map, map, all_marks);
   return code;
 }
 
@@ -296,7 +307,7 @@ Command AddMapCommand(CLI::App& program) {
           "--continue",
           arguments->continued,
           "go on with a map that was saved, or a map.yaml of ROS, wherever in it the robot "
-          "starts; nothing is corrected in the end")
+          "starts; both are corrected together in the end")
       ->type_name("MAP");
   AddViewFlag(*parser, arguments->view);
   parser->add_flag("--bag", arguments->bag, "poses, /tf and map as answers.mcap, too, for ROS 2");

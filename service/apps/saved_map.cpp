@@ -2,9 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/apps/saved_map.hpp"
 
+#include <algorithm>
 #include <functional>
+#include <iterator>
+#include <span>
 #include <utility>
+#include <vector>
 
+#include "qwsm/correction/joint_correction.hpp"
 #include "qwsm/mapping/grid_survey.hpp"
 #include "service/io/maps/map_file.hpp"
 #include "service/io/maps/ros_map_file.hpp"
@@ -34,11 +39,53 @@ ExitCode ConcludeLost(const PlaceBelief& belief, std::size_t unplaced) {
   return ExitCode::kFailed;
 }
 
+/// Tells of a robot that is lost in the end.
+ExitCode ConcludeDrive(const pipeline::ReplayResult& end,
+                       const Localizer& localizer,
+                       const pipeline::LostAndFound& lost_and_found) {
+  if (end.end == pipeline::ReplayEnd::kExhausted && lost_and_found.held() > 0) {
+    return ConcludeLost(localizer.belief(), lost_and_found.held());
+  }
+  return Conclude(end);
+}
+
+/// Marks on a map that is corrected: each goes with the scan that was taken next to it.
+std::vector<team::Mark> MovedWithScans(std::vector<team::Mark> marks,
+                                       std::span<const RelevantScan> scans,
+                                       std::span<const UncertainPose2> map_node) {
+  for (team::Mark& mark : marks) {
+    const auto away_m = [&](const RelevantScan& scan) {
+      return (scan.map_robot.T_a_b.translation_m() - mark.p_map_m).norm();
+    };
+    const RelevantScan& next = *std::ranges::min_element(scans, {}, away_m);
+    mark.p_map_m = map_node[next.id].T_a_b * (next.map_robot.T_a_b.Inverse() * mark.p_map_m);
+  }
+  return marks;
+}
+
+/// The map of several drives and the path of the last one, corrected together.
+pipeline::CorrectedRun CorrectTogether(const ScanMap& map,
+                                       std::size_t first_scan,
+                                       std::span<const io::PathPose> path,
+                                       const MapperOptions& options) {
+  std::vector<StampedAnswer> answers;
+  for (const io::PathPose& pose : path) {
+    answers.push_back({.stamp = pose.stamp, .map_robot = pose.map_robot});
+  }
+  JointCorrection joint =
+      CorrectJointly(map, {.first_scan = first_scan, .answers = answers}, options);
+  return {.correction = std::move(joint.correction), .map = std::move(joint.map), .epochs = {}};
+}
+
 }  // namespace
 
-KnownMap OpenMap(const std::filesystem::path& path) {
+bool IsGrid(const std::filesystem::path& path) {
   const std::filesystem::path ending = path.extension();
-  if (ending != ".yaml" && ending != ".yml") {
+  return ending == ".yaml" || ending == ".yml";
+}
+
+KnownMap OpenMap(const std::filesystem::path& path) {
+  if (!IsGrid(path)) {
     ScanMap map = io::LoadMap(path);
     if (map.empty()) throw UsageError(path.string() + ": is a map without scans");
     return {.map = std::move(map), .marks = pipeline::MarksOfMap(path)};
@@ -66,10 +113,34 @@ ExitCode FollowInMap(const std::string& task,
   results.Finish(localizer.map(), options.mapper.matcher, options.rendering);
   pipeline::WriteMarks(session.folder().path(), robot.marks.Placed({}));
   session.Summarize(results, localizer.map());
-  if (end.end == pipeline::ReplayEnd::kExhausted && lost_and_found.held() > 0) {
-    return ConcludeLost(localizer.belief(), lost_and_found.held());
-  }
-  return Conclude(end);
+  return ConcludeDrive(end, localizer, lost_and_found);
+}
+
+ContinuedMap CorrectAfterFollowing(const RobotInMap& robot,
+                                   const std::vector<team::Mark>& marks_before,
+                                   pipeline::ScanSource& source,
+                                   const options::ProgramOptions& options,
+                                   const RunSession& session) {
+  Localizer& localizer = robot.localizer;
+  const std::size_t scans_before = localizer.map().scans().size();
+  pipeline::ResultsWriter results(
+      session.folder(), {.trajectory = "trajectory_live.tum", .pictures = session.has_pictures()});
+  pipeline::LostAndFound lost_and_found(localizer, {&results, &robot.marks});
+  const pipeline::ReplayResult end = session.Run(
+      "map", source, std::bind_front(&Localizer::Process, &localizer), {&lost_and_found});
+  results.SetTitle(session.Title("map", end));
+  pipeline::CorrectedRun corrected =
+      CorrectTogether(localizer.map(), scans_before, results.path(), options.mapper);
+  results.Finish(localizer.map(), options.mapper.matcher, corrected, options.rendering);
+  session.Summarize(results, corrected.map);
+  const Correction& correction = corrected.correction;
+  std::vector<team::Mark> marks =
+      MovedWithScans(marks_before, localizer.map().scans(), correction.map_node);
+  std::ranges::move(robot.marks.Placed(correction.map_robot), std::back_inserter(marks));
+  pipeline::WriteMarks(session.folder().path(), marks);
+  return {.code = ConcludeDrive(end, localizer, lost_and_found),
+          .map = std::move(corrected.map),
+          .marks = std::move(marks)};
 }
 
 }  // namespace qwsm::apps

@@ -29,6 +29,9 @@ struct RobotInMap {
   pipeline::JournalMarks& marks;
 };
 
+/// Whether a file is an occupancy grid of another program, by its name.
+bool IsGrid(const std::filesystem::path& path);
+
 /// Follows a robot through a map that was made before, and leaves the results.
 /// @param task as `localize`, for messages.
 /// @returns kFailed where the log ends and the robot is lost, which is told.
@@ -37,5 +40,20 @@ ExitCode FollowInMap(const std::string& task,
                      pipeline::ScanSource& source,
                      const options::ProgramOptions& options,
                      const RunSession& session);
+
+/// How a drive ended that went on with a map, and the map of both.
+struct ContinuedMap {
+  ExitCode code = ExitCode::kDone;
+  ScanMap map;
+  std::vector<team::Mark> marks{};
+};
+
+/// As FollowInMap() for `map`, then corrects the map that was made before and the drive together.
+/// @param robot with the marks of the log alone. @param marks_before of the map.
+ContinuedMap CorrectAfterFollowing(const RobotInMap& robot,
+                                   const std::vector<team::Mark>& marks_before,
+                                   pipeline::ScanSource& source,
+                                   const options::ProgramOptions& options,
+                                   const RunSession& session);
 
 }  // namespace qwsm::apps

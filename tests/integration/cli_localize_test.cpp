@@ -136,6 +136,9 @@ TEST_F(LocalizeCommand, HasTheMapContinued) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   ExpectOnThePath();
   EXPECT_GT(fs::file_size(joint), fs::file_size(map_));
+  for (const char* left : {"trajectory_live.tum", "loops.csv", "graph.g2o"}) {
+    EXPECT_TRUE(fs::exists(results_ / left)) << left;
+  }
   const Outcome again = RunProgram({"localize", "--map", joint, part_, "-o", results_, "--force"});
   EXPECT_EQ(again.exit_code, 0) << again.errors;
 }

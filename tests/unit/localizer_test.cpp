@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "tests/support/scenes.hpp"
@@ -100,6 +101,26 @@ TEST(Localizer, ClaimsNoPlaceInACorridorThatIsEverywhereAlike) {
   for (const Answer& answer : Localized(again, localizer)) {
     EXPECT_TRUE(IsLost(answer) || answer.off_m < 1.0) << answer.off_m;
   }
+}
+
+/// A corridor of 24 m by 2 m, the ends of which are alike.
+Scene AlikeEnds(std::vector<Eigen::Vector2d> route_m) {
+  Scene scene{.world = {}, .route_m = std::move(route_m)};
+  const std::vector<Eigen::Vector2d> corners_m = {{0, 0}, {24, 0}, {24, 2}, {0, 2}, {0, 0}};
+  for (std::size_t i = 1; i < corners_m.size(); ++i) {
+    scene.world.walls.push_back({.from_m = corners_m[i - 1], .to_m = corners_m[i]});
+  }
+  return scene;
+}
+
+// Whoever mapped the corridor began with his back to one of its ends, and never saw it. To the
+// robot that looks at it, it is like the other one, as long as nothing else comes into view.
+TEST(Localizer, ClaimsNoPlaceByWhatItSawFromTheBeginning) {
+  const ScanMap map = MapOf(DriveThrough(AlikeEnds({{1, 1}, {22, 1}}), {}));
+  const SimulatedDrive back = DriveThrough(AlikeEnds({{7, 1}, {1.5, 1}}), {.seed = 2});
+  Localizer localizer(InTheMapAsItIs(), map);
+  for (const Answer& answer : Localized(back, localizer)) EXPECT_TRUE(IsLost(answer));
+  EXPECT_GT(localizer.belief().looks, 3);
 }
 
 // Somebody carries the robot elsewhere; its wheels do not turn meanwhile.

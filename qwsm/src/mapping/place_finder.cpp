@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "qwsm/mapping/surface_hold.hpp"
 #include "qwsm/matching/mode_search.hpp"
 
 namespace qwsm {
@@ -35,9 +36,11 @@ constexpr double kOnePlace_rad = 0.2;
 constexpr double kNewInALook = 0.4;
 constexpr int kMinLooks = 3;
 constexpr double kMinWay_m = 1.2;
-constexpr double kSureNats = 9.2;     // Wrong once in ten thousand.
-constexpr double kKnownNats = 4.6;    // Elsewhere once in a hundred.
-constexpr double kForgetNats = 15.0;  // Behind the best place, or behind being elsewhere.
+constexpr double kSureNats = 9.2;      // Wrong once in ten thousand.
+constexpr double kForetoldNats = 1.0;  // Of what comes into view while a place is followed.
+constexpr double kHeldPoints = 16.0;   // A fifth of all, those of any one surface not counted.
+constexpr double kKnownNats = 4.6;     // Elsewhere once in a hundred.
+constexpr double kForgetNats = 15.0;   // Behind the best place, or behind being elsewhere.
 
 std::vector<ScanPoint> SpreadOut(std::span<const ScanPoint> points) {
   constexpr double kSparser = 1.3;
@@ -105,7 +108,7 @@ const PlaceBelief& PlaceFinder::Look(const ScanMap& map,
   const Sight sight(map, points);
   if (T_local_last_) Follow(sight, T_local_last_->Inverse() * T_local_robot);
   AddModes(sight);
-  Weigh(sight);
+  Weigh(sight, seen_.TakeNews(points, T_local_robot));
   ForgetUnlikely();
   T_local_last_ = T_local_robot;
   const bool is_promising = !hypotheses_.empty() && hypotheses_.front().nats > 0.0;
@@ -149,8 +152,10 @@ void PlaceFinder::AddModes(const Sight& sight) {
 
 // For a place speaks that the scan fits there, and that it fits better than at the best of the
 // places where the robot cannot have been before: that is what chance would bring.
-void PlaceFinder::Weigh(const Sight& sight) {
+// @param news share of the points that no look before has seen.
+void PlaceFinder::Weigh(const Sight& sight, double news) {
   const double nats_per_score = NatsPerScore(sight.points.size(), locator_.options().search);
+  const bool is_held = PointsHoldingWithoutAnySurface(sight.points) >= kHeldPoints;
   for (Hypothesis& one : hypotheses_) {
     double rival_score = sight.modes.floor_score;
     for (const Hypothesis& other : hypotheses_) {
@@ -160,6 +165,8 @@ void PlaceFinder::Weigh(const Sight& sight) {
     const double lead_nats = nats_per_score * (one.score - rival_score);
     const double fit_nats = evidence_.Weigh(sight.map, sight.points, match).Nats();
     one.nats += kNewInALook * (lead_nats + fit_nats);
+    if (!one.is_new) one.foretold_nats += news * (lead_nats + fit_nats);
+    one.is_held = is_held;
     if (lead_nats > 0.0) {
       ++one.looks;
       one.map_robot = {.T_a_b = match.T_ref_cur, .covariance = match.covariance};
@@ -188,8 +195,16 @@ double PlaceFinder::LeadNats() const {
   return hypotheses_.front().nats - std::max(0.0, next_nats);
 }
 
+bool PlaceFinder::IsFound() const {
+  if (LeadNats() < kSureNats) return false;
+  const Hypothesis& best = hypotheses_.front();
+  return best.looks >= kMinLooks && best.way_m >= kMinWay_m &&
+         (best.is_held || best.foretold_nats >= kForetoldNats);
+}
+
 PlaceBelief PlaceFinder::Belief() const {
   PlaceBelief belief;
+  belief.looks = looks_;
   const double best_nats = hypotheses_.empty() ? 0.0 : std::max(0.0, hypotheses_.front().nats);
   const double elsewhere = std::exp(-best_nats);
   double sum = elsewhere;
@@ -198,8 +213,7 @@ PlaceBelief PlaceFinder::Belief() const {
     belief.places.push_back(
         {.map_robot = one.map_robot, .probability = std::exp(one.nats - best_nats) / sum});
   }
-  if (LeadNats() >= kSureNats && hypotheses_.front().looks >= kMinLooks &&
-      hypotheses_.front().way_m >= kMinWay_m) {
+  if (IsFound()) {
     belief.verdict = PlaceVerdict::kFound;
   } else if (std::log(sum / elsewhere) >= kKnownNats) {
     belief.verdict = PlaceVerdict::kOneOfThese;

@@ -55,7 +55,8 @@ void ResultsWriter::Finish(const ScanMap& map,
   Draw({.map = map, .overlay = history_.Overlay()}, rendering);
 }
 
-void ResultsWriter::Finish(const Mapper& mapper,
+void ResultsWriter::Finish(const ScanMap& map_live,
+                           MatcherKind matcher,
                            const CorrectedRun& corrected,
                            const OccupancyGridOptions& rendering,
                            const Trajectory& truth) {
@@ -73,11 +74,11 @@ void ResultsWriter::Finish(const Mapper& mapper,
   io::WriteKittiFile(folder_ / kKittiFile, trajectory);
   WriteLoops(folder_, corrected);
   WriteFigures({.map = corrected.map,
-                .matcher = mapper.options().matcher,
+                .matcher = matcher,
                 .path = overlay.path,
                 .loops = CountLoops(corrected)},
                truth);
-  if (has_pictures_) drawing.before = RenderOrWarn(mapper.map(), rendering);
+  if (has_pictures_) drawing.before = RenderOrWarn(map_live, rendering);
   Draw(std::move(drawing), rendering);
 }
 

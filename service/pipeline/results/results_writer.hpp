@@ -51,11 +51,14 @@ class ResultsWriter final : public StepSink {
               const Trajectory& truth = {});
   /// Writes what can only be known at the end of a corrected run: the corrected poses are the
   /// trajectory, and the map is that of the scans there; the map as it was goes into map_live.png.
-  void Finish(const Mapper& mapper,
+  void Finish(const ScanMap& map_live,
+              MatcherKind matcher,
               const CorrectedRun& corrected,
               const OccupancyGridOptions& rendering,
               const Trajectory& truth = {});
 
+  /// The poses as they were answered.
+  const std::vector<io::PathPose>& path() const { return history_.path(); }
   const RunStatistics& statistics() const { return statistics_; }
   /// Counts of loops, after Finish() of a corrected run.
   const std::optional<LoopCounts>& loops() const { return loops_; }

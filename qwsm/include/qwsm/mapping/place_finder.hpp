@@ -12,6 +12,7 @@
 #include "qwsm/mapping/place_evidence.hpp"
 #include "qwsm/mapping/scan_locator.hpp"
 #include "qwsm/mapping/scan_map.hpp"
+#include "qwsm/mapping/seen_surfaces.hpp"
 
 namespace qwsm {
 
@@ -34,6 +35,7 @@ struct Place {
 struct PlaceBelief {
   PlaceVerdict verdict = PlaceVerdict::kNotFound;
   std::vector<Place> places;  ///< The most probable one first; what is missing to 1 is elsewhere.
+  int looks = 0;              ///< How many there were so far.
 };
 
 /// Finds where in a map a robot is that may be anywhere in it, or outside (global localization).
@@ -41,7 +43,10 @@ struct PlaceBelief {
 /// Now and then it looks around: it searches the whole map for places where the scan may have been
 /// taken, follows them from look to look, and weighs for each how well the scan fits by itself, and
 /// how much better than anywhere else. A place that is no more than the best of many wrong ones
-/// does neither for long: the next look is best explained somewhere else.
+/// does neither for long: the next look is best explained somewhere else. What the robot had seen
+/// when it thought of a place is explained there, however often it looks: where one surface alone
+/// tells that place from others, which may be a surface that the map lacks elsewhere, it is not
+/// found before it has foretold what comes into view later.
 class PlaceFinder {
  public:
   explicit PlaceFinder(const MapperOptions& options = {});
@@ -62,22 +67,27 @@ class PlaceFinder {
     UncertainPose2 map_robot;
     double score = 0.0;  // Of the last look.
     double nats = 0.0;   // Evidence of all looks against its being elsewhere.
-    int looks = 0;       // At which it was there.
-    double way_m = 0.0;  // That it was followed for.
-    bool is_new = true;  // Since the last look.
+    // What surfaces tell for it that nobody had seen when the place was thought of.
+    double foretold_nats = 0.0;
+    bool is_held = false;  // In the last look, by more than one surface.
+    int looks = 0;         // At which it was there.
+    double way_m = 0.0;    // That it was followed for.
+    bool is_new = true;    // Since the last look.
   };
   struct Sight;
 
   bool HasMovedOn(const Pose2& T_local_robot) const;
   void Follow(const Sight& sight, const Pose2& T_last_robot);
   void AddModes(const Sight& sight);
-  void Weigh(const Sight& sight);
+  void Weigh(const Sight& sight, double news);
   void ForgetUnlikely();
   double LeadNats() const;
+  bool IsFound() const;
   PlaceBelief Belief() const;
 
   ScanLocator locator_;
   PlaceEvidence evidence_;
+  SeenSurfaces seen_;                   // By the looks so far, in the local frame.
   std::vector<Hypothesis> hypotheses_;  // The most likely one first.
   std::optional<Pose2> T_local_last_;   // At the last look.
   int vain_looks_ = 0;                  // Since one that spoke for some place.

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "qwsm/correction/joint_correction.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "tests/support/bent_drive.hpp"
+
+namespace qwsm::test {
+namespace {
+
+ScanMap MapOf(const std::vector<MappingStep>& relevant) {
+  ScanMap map;
+  for (const MappingStep& step : relevant) {
+    map.Insert(step.relevant_scan, ToPoints(step.relevant_scan), step.map_relevant);
+  }
+  return map;
+}
+
+// Of the first drive nothing is known but the map; the second one comes back to where it began.
+TEST(JointCorrection, MendsAMapThatAnotherDriveWentOnWith) {
+  Answers all = Drive(OfficeLoop());
+  Bend(all.steps, 0.0003);
+  const Answers relevant = Relevant(all);
+  const ScanMap map = MapOf(relevant.steps);
+  const std::size_t half = map.scans().size() / 2;
+  Answers second;
+  std::vector<StampedAnswer> answers;
+  for (std::size_t i = 0; i < all.steps.size(); ++i) {
+    if (all.steps[i].stamp < map.scans()[half].scan.stamp) continue;
+    answers.push_back({.stamp = all.steps[i].stamp, .map_robot = all.steps[i].map_robot});
+    second.T_map_true.push_back(all.T_map_true[i]);
+  }
+
+  const JointCorrection joint = CorrectJointly(map, {.first_scan = half, .answers = answers});
+  const double before_m = WorstError_m(PathOf(relevant.steps), relevant.T_map_true);
+  ASSERT_GT(before_m, 0.5);
+  EXPECT_LT(WorstError_m(joint.correction.map_node, relevant.T_map_true), 0.2 * before_m);
+  ASSERT_EQ(joint.correction.map_robot.size(), answers.size());
+  EXPECT_LT(WorstError_m(joint.correction.map_robot, second.T_map_true), 0.2 * before_m);
+  ASSERT_EQ(joint.map.scans().size(), map.scans().size());
+  EXPECT_EQ(joint.map.scans().back().map_robot.T_a_b, joint.correction.map_node.back().T_a_b);
+  const auto accepted =
+      std::ranges::count(joint.correction.loops, LoopVerdict::kAccepted, &Loop::verdict);
+  EXPECT_GT(accepted, 3);
+}
+
+TEST(JointCorrection, LeavesAMapToWhichNothingWasAdded) {
+  const Answers relevant = BentOfficeLoop();
+  const ScanMap map = MapOf(relevant.steps);
+  const JointCorrection joint =
+      CorrectJointly(map, {.first_scan = map.scans().size(), .answers = {}});
+  EXPECT_TRUE(joint.correction.loops.empty());
+  EXPECT_TRUE(joint.correction.map_robot.empty());
+  ASSERT_EQ(joint.map.scans().size(), map.scans().size());
+  EXPECT_EQ(joint.map.scans().back().map_robot.T_a_b, map.scans().back().map_robot.T_a_b);
+}
+
+}  // namespace
+}  // namespace qwsm::test
