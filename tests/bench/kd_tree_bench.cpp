@@ -52,8 +52,8 @@ Times Replay(const ScanPair& pair, const KdTreeOptions& tree, const NanoflannTre
 
   const std::size_t size = cur.points.size();
   CachedSearch root(
-      ref.tree, size, {.max_distance_m = kMaxDistance_m, .start = SearchStart::kRoot});
-  CachedSearch cached(ref.tree, size, {.max_distance_m = kMaxDistance_m});
+      ref.tree, cur.points, {.max_distance_m = kMaxDistance_m, .start = SearchStart::kRoot});
+  CachedSearch cached(ref.tree, cur.points, {.max_distance_m = kMaxDistance_m});
   std::vector<double> distances2_m2(size);
   Times times;
   for (const Pose3& T_ref_cur : trace) {
@@ -68,8 +68,14 @@ Times Replay(const ScanPair& pair, const KdTreeOptions& tree, const NanoflannTre
       times.nanoflann_ms += ms;
       if (first) times.nanoflann_first_ms = ms;
     }
-    times.root_ms += Milliseconds([&] { root.Find(queries, 0, size); });
-    const double ms = Milliseconds([&] { times.cached += cached.Find(queries, 0, size); });
+    times.root_ms += Milliseconds([&] {
+      root.MoveTo(T_ref_cur);
+      root.Find(0, size);
+    });
+    const double ms = Milliseconds([&] {
+      cached.MoveTo(T_ref_cur);
+      times.cached += cached.Find(0, size);
+    });
     times.cached_ms += ms;
     if (first) times.cached_first_ms = ms;
     if (nanoflann != nullptr) times.wrong += CountWrong(distances2_m2, root, cached);

@@ -145,13 +145,13 @@ TEST(KdTree3, ApproximateSearchKeepsItsErrorBoundAndVisitsFewerLeaves) {
   EXPECT_GT(worse, 0);
 }
 
-/// Queries that move as in a registration, except that now and then they jump anywhere.
-PointCloud Moved(const PointCloud& queries, int step, std::mt19937& random) {
+/// A pose that moves on as in a registration, except that now and then it jumps anywhere.
+Pose3 Moved(const Pose3& pose, int step, std::mt19937& random) {
   const bool jump = step % 7 == 6;
   const double size = jump ? 30.0 : std::exp2(-step);
   const Pose3 motion{.rotation = RotationFromVector(Draw(random, 0.1 * size)),
                      .translation_m = Draw(random, size)};
-  return motion * queries;
+  return motion * pose;
 }
 
 void ExpectBruteForce(const PointCloud& cloud,
@@ -177,14 +177,18 @@ TEST(CachedSearch3, EqualsBruteForceForAnyMotion) {
     const KdTree tree(cloud,
                       {.bucket_size = 1 + static_cast<int>(seed % 9), .simd = kLevels[seed % 3]});
     const double max_distance_m = seed % 2 == 0 ? 3.0 : kInfinity;
-    PointCloud queries = DrawCloud(kShapes[seed % 6], 203, random);
-    CachedSearch search(tree, queries.size(), {.max_distance_m = max_distance_m});
+    // Floats are off by centimetres there.
+    const Eigen::Vector3d far_off_m = Eigen::Vector3d::UnitX() * (seed % 5 == 0 ? 3e5 : 0.0);
+    const PointCloud queries = DrawCloud(kShapes[seed % 6], 203, random);
+    CachedSearch search(tree, queries, {.max_distance_m = max_distance_m});
+    Pose3 pose{.translation_m = far_off_m};
     for (int step = 0; step < 20; ++step) {
       SCOPED_TRACE(step);
-      total += search.Find(queries, 0, 101);
-      total += search.Find(queries, 101, queries.size());
-      ExpectBruteForce(cloud, queries, max_distance_m, search);
-      queries = Moved(queries, step, random);
+      search.MoveTo(pose);
+      total += search.Find(0, 104);
+      total += search.Find(104, queries.size());
+      ExpectBruteForce(cloud, pose * queries, max_distance_m, search);
+      pose = Moved(pose, step, random);
     }
   }
   EXPECT_EQ(total.queries, 24U * 20U * 203U);
@@ -197,29 +201,52 @@ TEST(CachedSearch3, ProvesThatNeighborsOfStandingQueriesAreUnchanged) {
   const PointCloud cloud = DrawCloud(Shape::kSurface, 2000, random);
   const KdTree tree(cloud);
   const PointCloud queries = DrawCloud(Shape::kSurface, 500, random);
-  CachedSearch search(tree, queries.size(), {});
-  EXPECT_EQ(search.Find(queries, 0, queries.size()).proven_unchanged, 0U);
-  const SearchStatistics again = search.Find(queries, 0, queries.size());
+  CachedSearch search(tree, queries, {});
+  search.MoveTo({});
+  EXPECT_EQ(search.Find(0, queries.size()).proven_unchanged, 0U);
+  const SearchStatistics again = search.Find(0, queries.size());
   EXPECT_EQ(again.proven_unchanged, queries.size());
   EXPECT_EQ(again.leaves_visited, 0U);
+}
+
+TEST(CachedSearch3, TellsApartWhatFloatsDoNot) {
+  std::mt19937 random(5);
+  PointCloud cloud;
+  for (int i = 0; i < 300; ++i) {
+    const Eigen::Vector3d place_m = DrawPoint(Shape::kBlob, random);
+    for (int k = 0; k < 4; ++k) cloud.push_back(place_m + Draw(random, 1e-7));
+  }
+  const PointCloud queries = DrawCloud(Shape::kBlob, 400, random);
+  for (const SimdLevel level : kLevels) {
+    const KdTree tree(cloud, {.simd = level});
+    CachedSearch search(tree, queries, {});
+    Pose3 pose;
+    for (int step = 0; step < 6; ++step) {
+      search.MoveTo(pose);
+      search.Find(0, queries.size());
+      ExpectBruteForce(cloud, pose * queries, kInfinity, search);
+      pose = Moved(pose, step, random);
+    }
+  }
 }
 
 TEST(CachedSearch3, GivesTheSameBitsAtEveryWidth) {
   std::mt19937 random(4);
   const PointCloud cloud = DrawCloud(Shape::kGrid, 3000, random);
-  const PointCloud start = DrawCloud(Shape::kBlob, 300, random);
+  const PointCloud queries = DrawCloud(Shape::kBlob, 300, random);
   std::vector<std::size_t> expected;
   for (const SimdLevel level : kLevels) {
     const KdTree tree(cloud, {.simd = level});
     std::mt19937 motion(9);
-    PointCloud queries = start;
-    CachedSearch search(tree, queries.size(), {});
+    Pose3 pose;
+    CachedSearch search(tree, queries, {});
     std::vector<std::size_t> neighbors;
     for (int step = 0; step < 12; ++step) {
-      search.Find(queries, 0, queries.size());
+      search.MoveTo(pose);
+      search.Find(0, queries.size());
       for (std::size_t i = 0; i < queries.size(); ++i)
         neighbors.push_back(search.neighbor_index(i));
-      queries = Moved(queries, step, motion);
+      pose = Moved(pose, step, motion);
     }
     if (expected.empty()) expected = neighbors;
     EXPECT_EQ(neighbors, expected);
@@ -229,17 +256,19 @@ TEST(CachedSearch3, GivesTheSameBitsAtEveryWidth) {
 TEST(CachedSearch3, FindsNothingInAnEmptyTreeAndSurvivesQueriesThatAreNoNumbers) {
   const KdTree empty(PointCloud{});
   PointCloud queries(20);
-  CachedSearch nothing(empty, queries.size(), {});
-  nothing.Find(queries, 0, queries.size());
+  CachedSearch nothing(empty, queries, {});
+  nothing.MoveTo({});
+  nothing.Find(0, queries.size());
   EXPECT_FALSE(nothing.found(3));
 
   std::mt19937 random(6);
   const PointCloud cloud = DrawCloud(Shape::kBlob, 100, random);
   const KdTree tree(cloud);
   queries.Set(3, {std::nan(""), 0.0, 0.0});
-  CachedSearch search(tree, queries.size(), {});
+  CachedSearch search(tree, queries, {});
   for (int i = 0; i < 3; ++i) {
-    search.Find(queries, 0, queries.size());
+    search.MoveTo({});
+    search.Find(0, queries.size());
     EXPECT_FALSE(search.found(3));
     EXPECT_EQ(search.distance2_m2(4), BruteForce2(cloud, queries[4], kInfinity));
   }

@@ -7,7 +7,7 @@
 
 #include "slam6d/src/algebra/decompositions.hpp"
 #include "slam6d/src/parallel.hpp"
-#include "slam6d/src/search/kd_tree_kernel.hpp"
+#include "slam6d/src/search/kernel_views.hpp"
 
 namespace slam6d {
 namespace {
@@ -81,10 +81,9 @@ PointPairs::PointPairs(const ScanModel& ref, const ScanModel& cur, const IcpOpti
     : cur_(cur.points),
       options_(options),
       search_(ref.tree,
-              cur.points.size(),
+              cur.points,
               {.max_distance_m = options.max_distance_m, .start = options.search}),
       simd_(ref.tree.simd()),
-      cur_ref_(cur.points.size()),
       origin_m_(MiddleOf(ref.tree)),
       counted_distance2_m2_(search_.max_distance2_m2()) {}
 
@@ -93,17 +92,16 @@ PointSums PointPairs::Collect(const Pose3& T_ref_cur, int iteration) {
     const double limit_m = options_.max_rms_ratio * rms_residual_m_;
     counted_distance2_m2_ = std::min(search_.max_distance2_m2(), limit_m * limit_m);
   }
-  center_ref_m_ = T_ref_cur.translation_m;
+  T_ref_cur_ = T_ref_cur;
+  search_.MoveTo(T_ref_cur);
   const std::size_t chunks = (cur_.size() + kPointsPerChunk - 1) / kPointsPerChunk;
   std::vector<PairSums> sums(chunks);
   std::vector<SearchStatistics> statistics(chunks);
   const auto work = [&](std::size_t chunk, std::size_t first, std::size_t last) {
-    TransformRange(T_ref_cur, cur_, first, last, cur_ref_);
-    statistics[chunk] = search_.Find(cur_ref_, first, last);
-    const PointCloud& ref = search_.neighbors();
-    const PairRange pairs{.ref_m = {ref.x_m(), ref.y_m(), ref.z_m()},
-                          .cur_m = {cur_ref_.x_m(), cur_ref_.y_m(), cur_ref_.z_m()},
-                          .distance2_m2 = search_.distances2_m2(),
+    statistics[chunk] = search_.Find(first, last);
+    const PairRange pairs{.ref = ViewOf(search_.neighbors()),
+                          .cur = ViewOf(cur_),
+                          .T_ref_cur = ViewOf(T_ref_cur),
                           .max_distance2_m2 = counted_distance2_m2_,
                           .origin_m = {origin_m_.x(), origin_m_.y(), origin_m_.z()},
                           .first = first,
@@ -130,10 +128,10 @@ IcpStep PointPairs::Step(const Sums& sums, const PoseAndGuess&, const IcpOptions
 Matrix6d PointPairs::Information() const {
   // Residual m - (R d + t), small rotations about the origin of cur: J = [I | -[R d]x].
   Matrix6d information = Matrix6d::Zero();
-  for (std::size_t i = 0; i < cur_ref_.size(); ++i) {
+  for (std::size_t i = 0; i < cur_.size(); ++i) {
     if (!(search_.distance2_m2(i) < counted_distance2_m2_)) continue;
     Eigen::Matrix<double, 3, 6> J;
-    J << Eigen::Matrix3d::Identity(), -Skew(cur_ref_[i] - center_ref_m_);
+    J << Eigen::Matrix3d::Identity(), -Skew(search_.query_m(i) - T_ref_cur_.translation_m);
     information.noalias() += J.transpose() * J;
   }
   return information;

@@ -39,9 +39,7 @@ class PointPairs {
   const IcpOptions options_;
   CachedSearch search_;
   SimdLevel simd_;
-  PointCloud cur_ref_;  ///< The current points in the frame ref.
-  /// The scanner's place among the reference's points.
-  Eigen::Vector3d center_ref_m_ = Eigen::Vector3d::Zero();
+  Pose3 T_ref_cur_;  ///< Where pairs were collected last.
   Eigen::Vector3d origin_m_;
   double counted_distance2_m2_;  ///< Pairs as far apart as this do not count.
   double rms_residual_m_ = 0.0;

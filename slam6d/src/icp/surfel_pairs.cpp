@@ -146,10 +146,7 @@ SurfelPairs::SurfelPairs(const ScanModel& ref, const ScanModel& cur, const IcpOp
       cur_surfels_(options.metric == IcpMetric::kPlaneToPlane ? &cur.surfels : nullptr),
       options_(options),
       cur_(cur_surfels_ != nullptr ? MeansOf(*cur_surfels_) : cur.points),
-      search_(ref.tree,
-              cur_.size(),
-              {.max_distance_m = options.max_distance_m, .start = options.search}),
-      cur_ref_(cur_.size()),
+      search_(ref.tree, cur_, {.max_distance_m = options.max_distance_m, .start = options.search}),
       residuals_m_(cur_.size(), kUnpaired),
       scale_m_(kFirstScaleShare * options.max_distance_m) {}
 
@@ -174,7 +171,7 @@ void SurfelPairs::AddPair(const Rules& rules, std::size_t i, NormalEquations& eq
   } else if (IsBackOf(ref, rules.T_ref_cur.translation_m)) {
     return;
   }
-  const Eigen::Vector3d point_m = cur_ref_[i];
+  const Eigen::Vector3d point_m = search_.query_m(i);
   const Eigen::Vector3d offset_m = ref.mean_m - point_m;
   const double residual_m = normal.dot(offset_m);
   residuals_m_[i] = residual_m;
@@ -229,12 +226,12 @@ bool SurfelPairs::ShrinkScale() {
 NormalEquations SurfelPairs::Collect(const Pose3& T_ref_cur, int iteration) {
   const bool settled = iteration > 1 && !ShrinkScale();
   const Rules rules{.T_ref_cur = T_ref_cur, .scale2_m2 = scale_m_ * scale_m_};
+  search_.MoveTo(T_ref_cur);
   const std::size_t chunks = (cur_.size() + kSurfelsPerChunk - 1) / kSurfelsPerChunk;
   std::vector<NormalEquations> sums(chunks);
   std::vector<SearchStatistics> statistics(chunks);
   const auto work = [&](std::size_t chunk, std::size_t first, std::size_t last) {
-    TransformRange(T_ref_cur, cur_, first, last, cur_ref_);
-    statistics[chunk] = search_.Find(cur_ref_, first, last);
+    statistics[chunk] = search_.Find(first, last);
     sums[chunk] = SumClusters(rules, first, last);
   };
   ForChunks(cur_.size(), kSurfelsPerChunk, options_.threads, work);

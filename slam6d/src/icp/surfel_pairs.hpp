@@ -69,7 +69,6 @@ class SurfelPairs {
   const IcpOptions options_;
   PointCloud cur_;
   CachedSearch search_;
-  PointCloud cur_ref_;
   /// Residuals of the current points in the last iteration, or NaN.
   std::vector<double> residuals_m_;
   double scale_m_;  ///< Residuals well above this lose their weight.

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "slam6d/src/search/kd_tree_kernel.hpp"
+#include "slam6d/src/search/kernel_views.hpp"
 
 namespace slam6d {
 namespace {
@@ -31,8 +31,9 @@ struct Subtree {
   int depth;
 };
 
-Box EverywhereBox() {
-  return {{-kInfinity, -kInfinity, -kInfinity, 0.0}, {kInfinity, kInfinity, kInfinity, 0.0}};
+Cell Everywhere() {
+  constexpr float kFar = std::numeric_limits<float>::infinity();
+  return {{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}, 0, KdTreeLayout::kNoPair};
 }
 
 Box LimitsOf(std::span<const IndexedPoint> points) {
@@ -85,7 +86,11 @@ class Builder {
 
   /// Returns the number of different points.
   std::size_t Build(std::span<IndexedPoint> points) {
-    AddNode(0, EverywhereBox());
+    const Box all = LimitsOf(points);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      layout_.origin_m[axis] = 0.5 * all.low_m[axis] + 0.5 * all.high_m[axis];
+    }
+    AddNode(0, Everywhere());
     std::vector<Subtree> open{{points, 0, 0}};
     while (!open.empty()) {
       const Subtree subtree = open.back();
@@ -104,14 +109,40 @@ class Builder {
         Cut(subtree, axis, open);
       }
     }
+    FillPairs();
     return size_;
   }
 
  private:
-  void AddNode(std::uint32_t parent, const Box& cell) {
-    layout_.nodes.push_back({.parent = parent});
-    layout_.limits.push_back({});
+  float ToFloat(double coordinate_m, std::size_t axis) const {
+    return static_cast<float>(coordinate_m - layout_.origin_m[axis]);
+  }
+
+  FloatPoint ToFloats(const IndexedPoint& point) const {
+    return {ToFloat(point.at_m[0], 0), ToFloat(point.at_m[1], 1), ToFloat(point.at_m[2], 2)};
+  }
+
+  void FillPairs() {
+    layout_.pairs.resize(layout_.nodes.size() / 2);
+    for (std::uint32_t child = 1; child < layout_.nodes.size(); ++child) {
+      const KdNode& node = layout_.nodes[child];
+      const bool is_leaf = node.axis == KdNode::kLeaf;
+      ChildPair& pair = layout_.pairs[KdTreeLayout::PairOf(child)];
+      const std::size_t side = (child - 1) % 2;
+      pair.first[side] = is_leaf ? node.first : KdTreeLayout::PairOf(node.first);
+      pair.point_count[side] = node.point_count;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        pair.low_m[side][axis] = ToFloat(layout_.limits[child].low_m[axis], axis);
+        pair.high_m[side][axis] = ToFloat(layout_.limits[child].high_m[axis], axis);
+      }
+    }
+  }
+
+  void AddNode(std::uint32_t parent, const Cell& cell) {
+    layout_.nodes.emplace_back();
+    layout_.limits.emplace_back();
     layout_.cells.push_back(cell);
+    layout_.cells.back().parent = parent;
   }
 
   void AppendOrder(std::span<const IndexedPoint> points) {
@@ -141,10 +172,11 @@ class Builder {
     node.split_m = cut_m;
     node.axis = static_cast<std::uint32_t>(axis);
     node.first = left;
-    Box left_cell = layout_.cells[subtree.node];
-    Box right_cell = left_cell;
-    left_cell.high_m[axis] = cut_m;
-    right_cell.low_m[axis] = cut_m;
+    Cell left_cell = layout_.cells[subtree.node];
+    Cell right_cell = left_cell;
+    layout_.cells[subtree.node].pair = KdTreeLayout::PairOf(left);
+    left_cell.high_m[axis] = ToFloat(cut_m, axis);
+    right_cell.low_m[axis] = ToFloat(cut_m, axis);
     AddNode(subtree.node, left_cell);
     AddNode(subtree.node, right_cell);
     open.push_back({subtree.points.subspan(left_size), left + 1, subtree.depth + 1});
@@ -165,6 +197,7 @@ class Builder {
       block.x_m[slot % kLanes] = filled ? points[slot].at_m[0] : kInfinity;
       block.y_m[slot % kLanes] = filled ? points[slot].at_m[1] : kInfinity;
       block.z_m[slot % kLanes] = filled ? points[slot].at_m[2] : kInfinity;
+      layout_.float_points.push_back(filled ? ToFloats(points[slot]) : FloatPoint{});
       layout_.index_of_slot.push_back(filled ? points[slot].index : KdTreeLayout::kNoSlot);
     }
     size_ += points.size();
@@ -219,9 +252,7 @@ std::optional<Neighbor> KdTree::FindNearestApproximately(const Eigen::Vector3d& 
   const double limit2_m2 = max_distance_m * max_distance_m;
   const SearchRequest request{
       .query_m = {query_m.x(), query_m.y(), query_m.z()},
-      .start_node = 0,
       .limit2_m2 = limit2_m2,
-      .known_slot = KdTreeLayout::kNoSlot,
       .prune_scale = 1.0 / ((1.0 + relative_error) * (1.0 + relative_error)),
   };
   SearchAnswer answer{};

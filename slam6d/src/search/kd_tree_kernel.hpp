@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What the searches ask of the innermost loops, which are compiled once per SimdLevel from
-// kd_tree_kernel.inc. Plain structs and pointers only: a library template instantiated in those
+// sum_pairs.inc. Plain structs and pointers only: a library template instantiated in those
 // files could be linked into the rest of the program and fail on machines without the instructions.
 #pragma once
 
@@ -18,47 +18,63 @@ namespace slam6d {
 struct KdTreeView {
   const KdNode* nodes;
   const Box* limits;
-  const Box* cells;
   const PointBlock* blocks;
   const std::uint32_t* leaf_of_block;
+  double origin_m[3];
+  const ChildPair* pairs;
+  const Cell* cells;
+  const FloatPoint* float_points;
 };
 
 /// One search. A subtree is left out when its squared distance is at least that of the best point
 /// so far times `prune_scale`; a scale below 1 makes the search approximate.
 struct SearchRequest {
   double query_m[3];
-  std::uint32_t start_node;  ///< Nothing outside its cell can be the answer.
-  double limit2_m2;          ///< Points farther than this are of no interest.
-  std::uint32_t known_slot;  ///< A point known to be at `limit2_m2`, or kNoSlot.
+  double limit2_m2;  ///< Points farther than this are of no interest.
   double prune_scale = 1.0;
 };
 
 struct SearchAnswer {
   double distance2_m2;  ///< `limit2_m2` when nothing is nearer.
-  std::uint32_t slot;   ///< `known_slot` when nothing is nearer.
-  double others2_m2;    ///< No other point in the start node's cell is nearer than this.
+  std::uint32_t slot;   ///< kNoSlot when nothing is nearer.
+  double others2_m2;    ///< No other point is nearer than this.
   std::uint32_t leaves_visited;
+};
+
+/// As Pose3, in plain numbers.
+struct RigidMotion {
+  double rotation[3][3];
+  double translation_m[3];
+};
+
+/// Points by coordinate.
+struct CloudView {
+  const double* x_m;
+  const double* y_m;
+  const double* z_m;
+};
+
+/// So many queries, which stand next to each other, share one path.
+inline constexpr std::size_t kPathBlock = kLanes;
+
+/// Views how far the blocks of queries have moved in all.
+struct PathView {
+  CloudView middles;       ///< Of the blocks, in the frame of the queries.
+  const double* radius_m;  ///< How far their queries are from the middle at most.
+  double* path_m;
+  std::size_t count;
 };
 
 /// Views what CachedSearch remembers of its queries.
 struct CacheView {
-  double* searched_x_m;
-  double* searched_y_m;
-  double* searched_z_m;
-  double* others_m;
+  /// Per query, how near no other point was when the tree was last searched, and the path by then:
+  /// the path since then is how much nearer one may be now.
+  float* others_m;
   double* neighbor_x_m;
   double* neighbor_y_m;
   double* neighbor_z_m;
-  double* distance2_m2;
   std::uint32_t* slot;
-};
-
-struct QueryRange {
-  const double* x_m;
-  const double* y_m;
-  const double* z_m;
-  std::size_t first;
-  std::size_t last;
+  const double* path_m;  ///< Per block of queries.
 };
 
 struct CacheRules {
@@ -77,15 +93,18 @@ struct RangeCounts {
 struct RangeSearch {
   KdTreeView tree;
   CacheRules rules;
-  QueryRange queries;
+  CloudView queries;
+  RigidMotion T_tree_queries;
   CacheView cache;
+  std::size_t first;
+  std::size_t last;
 };
 
-/// Pairs (m_i, d_i) by coordinate, both in the frame ref.
+/// Pairs (m_i, d_i) by coordinate, the first in the frame ref.
 struct PairRange {
-  const double* ref_m[3];
-  const double* cur_m[3];
-  const double* distance2_m2;
+  CloudView ref;  ///< Infinity where there is no pair.
+  CloudView cur;
+  RigidMotion T_ref_cur;
   double max_distance2_m2;  ///< Pairs as far apart as this do not count.
   double origin_m[3];       ///< Subtracted from all points, against cancellation.
   std::size_t first;
@@ -101,19 +120,12 @@ struct PairSums {
 /// The loops of one SimdLevel.
 struct KdTreeKernel {
   void (*search)(const KdTreeView& tree, const SearchRequest& request, SearchAnswer& answer);
+  void (*lengthen_paths)(const PathView& paths, const RigidMotion& change, double magnitude_m);
   void (*search_range)(const RangeSearch& range, RangeCounts& counts);
   void (*sum_pairs)(const PairRange& pairs, PairSums& sums);
 };
 
 /// The loops of a level. @pre `level` is available on this machine and not kBest.
 const KdTreeKernel& KernelFor(SimdLevel level);
-
-inline KdTreeView ViewOf(const KdTreeLayout& layout) {
-  return {.nodes = layout.nodes.data(),
-          .limits = layout.limits.data(),
-          .cells = layout.cells.data(),
-          .blocks = layout.blocks.data(),
-          .leaf_of_block = layout.leaf_of_block.data()};
-}
 
 }  // namespace slam6d

@@ -8,12 +8,13 @@
 
 namespace slam6d {
 namespace {
-#include "slam6d/src/search/kd_tree_kernel.inc"
 #include "slam6d/src/search/sum_pairs.inc"
 }  // namespace
 
 extern const KdTreeKernel kAvx2Kernel;
-const KdTreeKernel kAvx2Kernel{
-    .search = Search, .search_range = SearchRange, .sum_pairs = SumPairs};
+const KdTreeKernel kAvx2Kernel{.search = Search,
+                               .lengthen_paths = LengthenPaths,
+                               .search_range = SearchRange,
+                               .sum_pairs = SumPairs};
 
 }  // namespace slam6d

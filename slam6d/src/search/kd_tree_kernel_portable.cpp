@@ -8,12 +8,13 @@
 
 namespace slam6d {
 namespace {
-#include "slam6d/src/search/kd_tree_kernel.inc"
 #include "slam6d/src/search/sum_pairs.inc"
 }  // namespace
 
 extern const KdTreeKernel kPortableKernel;
-const KdTreeKernel kPortableKernel{
-    .search = Search, .search_range = SearchRange, .sum_pairs = SumPairs};
+const KdTreeKernel kPortableKernel{.search = Search,
+                                   .lengthen_paths = LengthenPaths,
+                                   .search_range = SearchRange,
+                                   .sum_pairs = SumPairs};
 
 }  // namespace slam6d

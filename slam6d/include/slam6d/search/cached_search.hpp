@@ -25,26 +25,33 @@ struct CachedSearchOptions {
 /// The nearest neighbours of a cloud that moves a little between calls: the cached kd-tree search
 /// of Nüchter et al. (2007), section 4.1.
 ///
-/// For every query it keeps where the query was when the tree was last searched, the neighbour
-/// found then, and a distance no *other* point was nearer than. While
-///   |q - neighbour| + |q - q_then| <= others,
+/// For every query it keeps the neighbour found when the tree was last searched, and a distance no
+/// *other* point was nearer than. While
+///   |q - neighbour| + path since then <= others,
 /// the triangle inequality proves the neighbour unchanged and the tree is not touched. Otherwise
 /// the search starts from the neighbour's leaf. For any motion the distances are those of brute
 /// force.
 class CachedSearch {
  public:
-  /// Searches for `query_count` queries in a tree, which must outlive the search.
-  CachedSearch(const KdTree& tree, std::size_t query_count, const CachedSearchOptions& options);
+  /// Searches for the queries in a tree; both must outlive the search. Queries near each other
+  /// should stand near each other.
+  CachedSearch(const KdTree& tree, const PointCloud& queries, const CachedSearchOptions& options);
 
-  /// Finds the neighbours of the queries [first, last). Different ranges may be searched by
-  /// different threads at a time. Queries near each other should stand near each other.
-  SearchStatistics Find(const PointCloud& queries, std::size_t first, std::size_t last);
+  /// Moves the queries to where they are by this pose in the frame of the tree.
+  void MoveTo(const Pose3& T_tree_queries);
+
+  /// Finds the neighbours of the queries [first, last), where they are. @pre they were moved there.
+  /// Different ranges may be searched by different threads at a time, if blocks of eight are not
+  /// torn apart.
+  SearchStatistics Find(std::size_t first, std::size_t last);
 
   std::size_t size() const { return slot_.size(); }
 
+  /// Query i where it is, in the frame of the tree, to the last bit as it was searched.
+  Eigen::Vector3d query_m(std::size_t i) const;
   /// Whether query i has a neighbour nearer than the maximum distance.
-  bool found(std::size_t i) const { return distance2_m2_[i] < max_distance2_m2_; }
-  double distance2_m2(std::size_t i) const { return distance2_m2_[i]; }
+  bool found(std::size_t i) const { return distance2_m2(i) < max_distance2_m2_; }
+  double distance2_m2(std::size_t i) const;
   /// Place of query i's neighbour in the cloud. @pre found(i)
   std::size_t neighbor_index(std::size_t i) const {
     return tree_->layout().index_of_slot[slot_[i]];
@@ -55,17 +62,24 @@ class CachedSearch {
 
   /// The neighbours of all queries, stored by coordinate; infinity where none is known.
   const PointCloud& neighbors() const { return neighbor_; }
-  const double* distances2_m2() const { return distance2_m2_.data(); }
   double max_distance2_m2() const { return max_distance2_m2_; }
 
  private:
+  void LayOutBlocks();
+
   const KdTree* tree_;
+  const PointCloud* queries_;
   CachedSearchOptions options_;
   double max_distance2_m2_;
-  PointCloud searched_;
+  Pose3 T_tree_queries_;
+  bool is_placed_ = false;
+  /// Blocks of eight queries: their middles, how far their queries are from them, and how far they
+  /// have moved in all.
+  PointCloud middles_;
+  std::vector<double> radius_m_;
+  std::vector<double> path_m_;
   PointCloud neighbor_;
-  std::vector<double> others_m_;
-  std::vector<double> distance2_m2_;
+  std::vector<float> others_m_;
   std::vector<std::uint32_t> slot_;
 };
 

@@ -24,6 +24,31 @@ struct alignas(64) Box {
   double high_m[4];
 };
 
+/// A point relative to the tree's origin. Empty places hold zeros and are never read.
+struct FloatPoint {
+  float x_m;
+  float y_m;
+  float z_m;
+};
+
+/// Both children of an inner node as searches of several queries read them: one cache line. Boxes
+/// are those of the points really in them, by x, y, z relative to the tree's origin.
+struct alignas(64) ChildPair {
+  float low_m[2][3];
+  float high_m[2][3];
+  std::uint32_t first[2];        ///< The pair of a child's own children, or its first block.
+  std::uint32_t point_count[2];  ///< Points of a leaf; 0 for an inner node.
+};
+
+/// The part of space that the cuts leave a node, relative to the tree's origin, and the way up from
+/// it and down: half a cache line.
+struct alignas(32) Cell {
+  float low_m[3];
+  float high_m[3];
+  std::uint32_t parent;  ///< The root is its own parent.
+  std::uint32_t pair;    ///< Of the node's children; kNoPair for a leaf.
+};
+
 /// A node of the tree: two children side by side, or a leaf with its blocks of points.
 struct KdNode {
   static constexpr std::uint32_t kLeaf = 3;
@@ -32,7 +57,6 @@ struct KdNode {
   std::uint32_t axis = kLeaf;     ///< 0, 1, 2 = x, y, z.
   std::uint32_t first = 0;        ///< The left child, or the leaf's first block.
   std::uint32_t point_count = 0;  ///< Points of a leaf; they fill its blocks in order.
-  std::uint32_t parent = 0;       ///< The root is its own parent.
 };
 
 /// A kd-tree as the searches read it: with the limits of its points and a pointer to the
@@ -40,19 +64,27 @@ struct KdNode {
 /// 0 is the root; slot s is place s % 8 of block s / 8.
 struct KdTreeLayout {
   static constexpr std::uint32_t kNoSlot = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint32_t kNoPair = std::numeric_limits<std::uint32_t>::max();
   /// Most nodes on a path from the root; the searches' stacks rely on it.
   static constexpr int kMaxDepth = 96;
 
   std::vector<KdNode> nodes;
   std::vector<Box> limits;  ///< Per node, the box of the points really in it.
-  /// Per node, the part of space its cuts leave it; the root's is all of space.
-  std::vector<Box> cells;
   std::vector<PointBlock> blocks;
   std::vector<std::uint32_t> index_of_slot;  ///< Per slot, its point's place in the cloud.
   std::vector<std::uint32_t> leaf_of_block;
   /// Places in the cloud of all finite points, equal ones too, leaf by leaf: points near each other
   /// stand near each other.
   std::vector<std::uint32_t> order;
+
+  /// What searches in floats read. The origin is the middle of the points.
+  double origin_m[3] = {};
+  std::vector<Cell> cells;               ///< Per node; the root's is all of space.
+  std::vector<ChildPair> pairs;          ///< Per inner node, at PairOf its left child.
+  std::vector<FloatPoint> float_points;  ///< Per slot.
+
+  /// Children are numbered two by two behind the root.
+  static constexpr std::uint32_t PairOf(std::uint32_t left_child) { return (left_child - 1) / 2; }
 };
 
 }  // namespace slam6d
