@@ -42,7 +42,7 @@ void Give(TeamService& service, const std::string& robot, int first, int count) 
   }
 }
 
-RobotStatus StatusOf(TeamService& service, const std::string& robot) {
+RobotStatus StatusOf(const TeamService& service, const std::string& robot) {
   for (const RobotStatus& status : service.Status().robots) {
     if (status.name == robot) return status;
   }

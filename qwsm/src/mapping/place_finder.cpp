@@ -111,6 +111,7 @@ const PlaceBelief& PlaceFinder::Look(const ScanMap& map,
   Weigh(sight, seen_.TakeNews(points, T_local_robot));
   ForgetUnlikely();
   T_local_last_ = T_local_robot;
+  ++looks_;
   const bool is_promising = !hypotheses_.empty() && hypotheses_.front().nats > 0.0;
   vain_looks_ = is_promising ? 0 : vain_looks_ + 1;
   return belief_ = Belief();

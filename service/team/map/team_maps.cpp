@@ -9,6 +9,11 @@ TeamMaps::TeamMaps(MapSharing sharing, const ScanMapOptions& options)
   if (sharing_ == MapSharing::kTeam) MapNamed("");
 }
 
+std::string TeamMaps::NameOf(std::string_view robot) const {
+  const std::lock_guard lock(mutex_);
+  return HomeOf(robot);
+}
+
 MapComponent TeamMaps::Of(std::string_view robot) {
   const std::lock_guard lock(mutex_);
   const std::string name = HomeOf(robot);

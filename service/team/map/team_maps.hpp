@@ -32,6 +32,8 @@ class TeamMaps {
 
   MapSharing sharing() const { return sharing_; }
 
+  /// Name of the component that the robot is in.
+  std::string NameOf(std::string_view robot) const;
   /// The component that the robot is in.
   MapComponent Of(std::string_view robot);
   /// The component of that name; an empty one if there is none.

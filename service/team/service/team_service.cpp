@@ -136,9 +136,9 @@ void TeamService::Keep(io::JournalEntry entry, const std::function<void()>& sett
   host_.journal().Append(std::move(entry), settled);
 }
 
-TeamStatus TeamService::Status() {
+TeamStatus TeamService::Status() const {
   TeamStatus status = host_.Status(StatusOfMaps());
-  for (RobotStatus& robot : status.robots) robot.component = atlas_.maps().Of(robot.name).name;
+  for (RobotStatus& robot : status.robots) robot.component = atlas_.maps().NameOf(robot.name);
   return status;
 }
 

@@ -87,7 +87,7 @@ class TeamService {
   /// what one service has is never lost to the team.
   void OfferTakenIn();
 
-  TeamStatus Status();
+  TeamStatus Status() const;
   /// The map a robot is matched against; the team's where all share one.
   std::shared_ptr<const TeamMap> MapOf(std::string_view robot) {
     return atlas_.maps().Of(robot).map;

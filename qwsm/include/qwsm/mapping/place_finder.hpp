@@ -90,6 +90,7 @@ class PlaceFinder {
   SeenSurfaces seen_;                   // By the looks so far, in the local frame.
   std::vector<Hypothesis> hypotheses_;  // The most likely one first.
   std::optional<Pose2> T_local_last_;   // At the last look.
+  int looks_ = 0;
   int vain_looks_ = 0;                  // Since one that spoke for some place.
   PlaceBelief belief_;
 };
