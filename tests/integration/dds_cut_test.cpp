@@ -170,7 +170,7 @@ TEST_F(DdsCut, ServicesThatWereApartHaveOneMap) {
     EXPECT_EQ(ScansOf(Path("left.db")), ScansOf(Path("right.db")));
     const std::string map = ReadFile(Path("left/map.pgm"));
     EXPECT_FALSE(map.empty());
-    EXPECT_EQ(map, ReadFile(Path("right/map.pgm")));
+    EXPECT_TRUE(map == ReadFile(Path("right/map.pgm")));
   }
 }
 

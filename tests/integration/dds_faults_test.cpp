@@ -240,7 +240,7 @@ TEST(DdsMounting, IsTakenFromWhoComesBackAndContestedWhileHeDrives) {
   const PrivateNetwork network;
   const dds::Participant participant({.interface = "lo", .tag = network.tag()});
   dds::Refusals refusals([](const std::string&) {});
-  dds::RobotFeed feed(participant, dds::RobotNames("robot1"), refusals);
+  dds::RobotFeed feed(participant, dds::RobotNames("robot1"), {"scan"}, refusals);
   Mountings heard;
   const auto hear = [&] {
     for (int i = 0; i < 20; ++i) feed.Deliver(10ms, heard);

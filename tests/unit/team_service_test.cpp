@@ -211,48 +211,6 @@ TEST(TeamService, LetsALostRobotComeBackWhereItLeftThoughItsOdometryBeganAnew) {
   EXPECT_LT(error.translation_m().norm(), 0.05);
 }
 
-TEST(TeamService, AnswersARobotThatNobodyPlacedInAComponentUntilItIsFoundInTheMap) {
-  test::RecordingSink sink;
-  TeamService service(LosslessOptions(), sink);
-  service.Start();
-  Give(service, "robot1", 0, 126);
-  service.WaitUntilIdle();
-  EXPECT_EQ(sink.components("robot1"), std::vector<std::string>{""});
-  for (int scan = 30; scan < 110; ++scan) {
-    Give(service, "robot2", scan, 1);
-    service.WaitUntilIdle();
-  }
-  EXPECT_TRUE(
-      sink.HasEvent("robot2: begins a map of its own, map_robot2: nobody knows where in the team's "
-                    "it is"));
-  EXPECT_TRUE(sink.HasEvent("service: map_robot2 was found in map: its scans are there now"));
-  const RobotStatus status = StatusOf(service, "robot2");
-  EXPECT_EQ(status.counts.answered, 80U);  // At once, from the first one on.
-  EXPECT_EQ(sink.components("robot2"), (std::vector<std::string>{"robot2", ""}));
-  const Pose2 error = test::PoseInRoom(109).Inverse() * status.map_robot.T_a_b;
-  EXPECT_LT(error.translation_m().norm(), 0.05);
-  EXPECT_EQ(service.MapOf("robot2"), service.MapOf("robot1"));
-}
-
-TEST(TeamService, TakesARobotOutOfTheMapThatWasToldItsStartWronglyAndFindsIt) {
-  test::RecordingSink sink;
-  TeamServiceOptions options = LosslessOptions();
-  options.team.robots.push_back({.name = "robot2", .x_m = 1.5, .y_m = 1.0, .heading_rad = 2.0});
-  TeamService service(options, sink);
-  service.Start();
-  Give(service, "robot1", 0, 126);
-  service.WaitUntilIdle();
-  for (int scan = 30; scan < 150; ++scan) {
-    Give(service, "robot2", scan, 1);
-    service.WaitUntilIdle();
-  }
-  const RobotStatus status = StatusOf(service, "robot2");
-  EXPECT_EQ(status.counts.answered, 120U);
-  const Pose2 error = test::PoseInRoom(149).Inverse() * status.map_robot.T_a_b;
-  EXPECT_LT(error.translation_m().norm(), 0.05);
-  EXPECT_EQ(service.MapOf("robot2"), service.MapOf("robot1"));
-}
-
 TEST(TeamService, LeavesOutScansFromBeforeTheOdometryThatIsPublished) {
   test::RecordingSink sink;
   TeamService service(LosslessOptions(), sink);

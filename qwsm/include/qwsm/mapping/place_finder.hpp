@@ -91,7 +91,7 @@ class PlaceFinder {
   std::vector<Hypothesis> hypotheses_;  // The most likely one first.
   std::optional<Pose2> T_local_last_;   // At the last look.
   int looks_ = 0;
-  int vain_looks_ = 0;                  // Since one that spoke for some place.
+  int vain_looks_ = 0;  // Since one that spoke for some place.
   PlaceBelief belief_;
 };
 

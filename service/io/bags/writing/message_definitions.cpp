@@ -83,11 +83,12 @@ constexpr std::array kDefinitions{
           "std_msgs/Header header\nuint32 generation\nfloat32 resolution\nfloat64 x\nfloat64 y\n"
           "uint32 width\nuint32 height\nuint8[] runs\n"},
     Entry{"qwsm_msgs/MovedScan",
-          "string origin\nstring robot\nuint64 sequence_number\nqwsm_msgs/Pose2D before\n"
-          "qwsm_msgs/Pose2D pose\nfloat64[9] covariance\n"},
-    Entry{"qwsm_msgs/MovedRobot", "string robot\nqwsm_msgs/Pose2D correction\n"},
+          "string origin\nstring robot\nuint64 sequence_number\nstring frame_before\n"
+          "qwsm_msgs/Pose2D before\nstring frame\nqwsm_msgs/Pose2D pose\nfloat64[9] covariance\n"},
+    Entry{"qwsm_msgs/MovedRobot",
+          "string robot\nstring frame_before\nstring frame\nqwsm_msgs/Pose2D correction\n"},
     Entry{"qwsm_msgs/MapEpoch",
-          "std_msgs/Header header\nstring origin\nstring map_of\nuint64 number\n"
+          "std_msgs/Header header\nstring origin\nuint64 number\n"
           "qwsm_msgs/MovedRobot[] robots\nqwsm_msgs/MovedScan[] scans\n"},
     Entry{"qwsm_msgs/Mark",
           "std_msgs/Header header\nstring id\nstring kind\nstring text\nstring author\n"

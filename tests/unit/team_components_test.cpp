@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Robots that nobody placed, or that were placed wrongly, are in a component of the map of their
+// own until they are found in the one that the team shares.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "service/io/maps/map_file.hpp"
+#include "service/team/service/team_service.hpp"
+#include "tests/support/recording_sink.hpp"
+#include "tests/support/room_drive.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace qwsm::team {
+namespace {
+
+TeamServiceOptions Patient() {
+  TeamServiceOptions options;
+  options.merges_beside = false;
+  options.team.session.queue_scans = 1000;
+  options.team.session.odometry_wait_s = 10.0;
+  options.team.map_period_s = 0.0;
+  return options;
+}
+
+/// Drives a robot through the room, scan by scan.
+void Drive(TeamService& service, const std::string& robot, int first, int count) {
+  for (int scan = first; scan < first + count; ++scan) {
+    const Observation observation = test::ObservationInRoom(scan);
+    service.robots().TakeOdometry(robot, observation.scan.stamp, *observation.T_odom_robot);
+    EXPECT_TRUE(service.robots().TakeScan(robot, observation.scan));
+    service.WaitUntilIdle();
+  }
+}
+
+RobotStatus StatusOf(const TeamService& service, const std::string& robot) {
+  for (const RobotStatus& status : service.Status().robots) {
+    if (status.name == robot) return status;
+  }
+  return {};
+}
+
+double ErrorAfter_m(const RobotStatus& status, int scan) {
+  return (test::PoseInRoom(scan).Inverse() * status.map_robot.T_a_b).translation_m().norm();
+}
+
+TEST(TeamComponents, AnswerARobotThatNobodyPlacedUntilItIsFoundInTheMap) {
+  test::RecordingSink sink;
+  TeamService service(Patient(), sink);
+  service.Start();
+  Drive(service, "robot1", 0, 126);
+  EXPECT_EQ(sink.components("robot1"), std::vector<std::string>{""});
+  Drive(service, "robot2", 30, 80);
+  EXPECT_TRUE(
+      sink.HasEvent("robot2: begins a map of its own, map_robot2: nobody knows where in the team's "
+                    "it is"));
+  EXPECT_TRUE(sink.HasEvent("service: map_robot2 was found in map: its scans are there now"));
+  const RobotStatus status = StatusOf(service, "robot2");
+  EXPECT_EQ(status.counts.answered, 80U);  // At once, from the first one on.
+  EXPECT_EQ(status.component, "");
+  EXPECT_EQ(sink.components("robot2"), (std::vector<std::string>{"robot2", ""}));
+  EXPECT_LT(ErrorAfter_m(status, 109), 0.05);
+  EXPECT_EQ(service.MapOf("robot2"), service.MapOf("robot1"));
+}
+
+TEST(TeamComponents, TellJointsAsEpochsThatNameAllScansWithTheirFrames) {
+  test::RecordingSink sink;
+  TeamService service(Patient(), sink);
+  service.Start();
+  Drive(service, "robot1", 0, 126);
+  Drive(service, "robot2", 30, 80);
+  const std::vector<TeamEpoch> epochs = sink.epochs();
+  ASSERT_FALSE(epochs.empty());
+  std::size_t joined = 0;
+  for (const MovedScan& scan : epochs.front().scans) {
+    EXPECT_EQ(scan.component, "");
+    EXPECT_EQ(scan.component_before, scan.key.robot == "robot2" ? "robot2" : "");
+    joined += scan.key.robot == "robot2" ? 1 : 0;
+  }
+  EXPECT_GT(joined, 0U);
+  EXPECT_LT(joined, epochs.front().scans.size());
+}
+
+TEST(TeamComponents, ComeBackFromTheJournalApartOrJoinedAsTheyWere) {
+  test::TemporaryFolder folder;
+  const auto maps_after = [&](int scans, const std::string& journal) {
+    std::vector<std::string> before;
+    {
+      test::RecordingSink sink;
+      TeamService service(Patient(), sink, folder.path() / journal);
+      service.Start();
+      Drive(service, "robot1", 0, 126);
+      Drive(service, "robot2", 30, scans);
+      for (const char* robot : {"robot1", "robot2"}) {
+        before.push_back(io::EncodeMap(service.MapOf(robot)->Read()->map));
+      }
+    }
+    test::RecordingSink sink;
+    TeamService again(Patient(), sink, folder.path() / journal);
+    again.Start();
+    for (const char* robot : {"robot1", "robot2"}) {
+      EXPECT_EQ(io::EncodeMap(again.MapOf(robot)->Read()->map), before.front()) << robot;
+      before.erase(before.begin());
+    }
+    return again.MapOf("robot1") == again.MapOf("robot2") ? 1 : 2;
+  };
+  EXPECT_EQ(maps_after(5, "apart.db"), 2);
+  EXPECT_EQ(maps_after(80, "joined.db"), 1);
+}
+
+TEST(TeamComponents, AreTheSameForAServiceThatOnlyHearsOfThem) {
+  test::RecordingSink told;
+  TeamService finds(Patient(), told);
+  finds.Start();
+  Drive(finds, "robot1", 0, 126);
+  Drive(finds, "robot2", 30, 80);
+  ASSERT_FALSE(told.epochs().empty());
+  const auto is_same = [&](TeamService& hears) {
+    return hears.MapOf("robot1") == hears.MapOf("robot2") &&
+           hears.MapOf("robot1")->Scans().size() == finds.MapOf("robot1")->Scans().size();
+  };
+  test::RecordingSink sink;
+  TeamService scans_first(Patient(), sink);
+  scans_first.TakeIn(told.relevant());
+  scans_first.TakeIn(told.epochs().back());
+  EXPECT_TRUE(is_same(scans_first));
+  TeamService epoch_first(Patient(), sink);
+  epoch_first.TakeIn(told.epochs().back());
+  epoch_first.TakeIn(told.relevant());
+  EXPECT_TRUE(is_same(epoch_first));
+  const std::optional<TeamScan> last = finds.MapOf("")->LastOf("robot2");
+  EXPECT_EQ(scans_first.MapOf("")->LastOf("robot2")->map_robot.T_a_b, last->map_robot.T_a_b);
+  EXPECT_EQ(epoch_first.MapOf("")->LastOf("robot2")->map_robot.T_a_b, last->map_robot.T_a_b);
+}
+
+TEST(TeamComponents, TakeARobotOutOfTheMapThatWasToldItsStartWrongly) {
+  test::RecordingSink sink;
+  TeamServiceOptions options = Patient();
+  options.team.robots.push_back({.name = "robot2", .x_m = 1.5, .y_m = 1.0, .heading_rad = 2.0});
+  TeamService service(options, sink);
+  service.Start();
+  Drive(service, "robot1", 0, 126);
+  Drive(service, "robot2", 30, 120);
+  const RobotStatus status = StatusOf(service, "robot2");
+  EXPECT_EQ(status.counts.answered, 120U);
+  EXPECT_TRUE(sink.HasEvent("robot2: is not where it was told: what it sees there, others do not"));
+  EXPECT_LT(ErrorAfter_m(status, 149), 0.05);
+  EXPECT_EQ(service.MapOf("robot2"), service.MapOf("robot1"));
+}
+
+TEST(TeamComponents, AreLeftByARobotThatIsToldWhereItIs) {
+  test::RecordingSink sink;
+  TeamService service(Patient(), sink);
+  service.Start();
+  Drive(service, "robot1", 0, 126);
+  Drive(service, "robot2", 30, 3);
+  service.robots().PlaceAt("robot2", UncertainPose2::WithSigmas(test::PoseInRoom(33), 0.05, 0.02));
+  Drive(service, "robot2", 33, 2);
+  EXPECT_EQ(sink.components("robot2"), (std::vector<std::string>{"robot2", ""}));
+  EXPECT_LT(ErrorAfter_m(StatusOf(service, "robot2"), 34), 0.05);
+}
+
+}  // namespace
+}  // namespace qwsm::team
