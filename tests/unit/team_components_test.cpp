@@ -152,6 +152,27 @@ TEST(TeamComponents, TakeARobotOutOfTheMapThatWasToldItsStartWrongly) {
   EXPECT_EQ(service.MapOf("robot2"), service.MapOf("robot1"));
 }
 
+TEST(TeamComponents, AreNoneWhereEachRobotHasAMap) {
+  test::TemporaryFolder folder;
+  TeamServiceOptions options = Patient();
+  options.team.map = MapSharing::kEachRobot;
+  std::string before;
+  {
+    test::RecordingSink sink;
+    TeamService service(options, sink, folder.path() / "each.db");
+    service.Start();
+    Drive(service, "robot1", 0, 20);
+    Drive(service, "robot2", 10, 20);
+    EXPECT_EQ(sink.components("robot2"), std::vector<std::string>{""});
+    EXPECT_EQ(StatusOf(service, "robot2").component, "");
+    before = io::EncodeMap(service.MapOf("robot2")->Read()->map);
+  }
+  test::RecordingSink sink;
+  TeamService again(options, sink, folder.path() / "each.db");
+  EXPECT_EQ(io::EncodeMap(again.MapOf("robot2")->Read()->map), before);
+  EXPECT_NE(again.MapOf("robot1"), again.MapOf("robot2"));
+}
+
 TEST(TeamComponents, AreLeftByARobotThatIsToldWhereItIs) {
   test::RecordingSink sink;
   TeamService service(Patient(), sink);

@@ -33,8 +33,7 @@ void TeamMapOutbox::TakeNewPoints(const team::NewPoints& points) {
 }
 
 void TeamMapOutbox::TakeMap(const team::MapPicture& map) {
-  const std::string frame = team::FrameOf(map.component);
-  MapOf(map.component)->Write(MapSample(map.grid, map.stamp, frame).sample());
+  MapOf(map.component)->Write(MapSample(map.grid, map.stamp, map.frame).sample());
 }
 
 void TeamMapOutbox::TakeEpoch(const team::TeamEpoch& epoch) {

@@ -15,6 +15,7 @@
 #include "service/dds/service/service_outbox.hpp"
 #include "service/dds/service/team_map_outbox.hpp"
 #include "service/dds/wire/diagnostics.hpp"
+#include "service/dds/wire/robot_names.hpp"
 #include "service/pipeline/text/messages.hpp"
 #include "service/view/live_view.hpp"
 
@@ -161,7 +162,8 @@ void LiveRun::Correct(const MapEpoch& epoch, const ScanMap& map) {
 void LiveRun::ShowMap() const {
   const OccupancyGridResult drawn = painter_.Grid();
   if (drawn.status != RenderStatus::kRendered) return;
-  topics_->Show(team::MapPicture{.component = {}, .stamp = newest_, .grid = drawn.grid});
+  topics_->Show(team::MapPicture{
+      .component = {}, .frame = dds::kMapFrame, .stamp = newest_, .grid = drawn.grid});
 }
 
 void LiveRun::ShowHealth() const {

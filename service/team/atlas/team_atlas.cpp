@@ -39,11 +39,11 @@ TeamAtlas::TeamAtlas(const TeamAtlasOptions& options, AtlasSurroundings surround
 
 void TeamAtlas::Restore(TeamScan scan, const std::string& component) {
   const std::lock_guard lock(extension_);
-  const MapComponent home = maps_.Named(component);
+  const MapComponent home = IsTeams() ? maps_.Named(component) : maps_.Of(scan.key.robot);
   if (!home.map->Insert(scan, ToPoints(scan.scan))) return;
-  maps_.Put(scan.key.robot, component);
+  maps_.Put(scan.key.robot, home.name);
   maps_.Reserve(scan.component);
-  if (options_.corrects) CorrectorOf(component).Take(scan);
+  if (options_.corrects) CorrectorOf(home.name).Take(scan);
 }
 
 // Nobody hears of a relevant scan before it is safe: who has heard of it may rely on it.
@@ -68,14 +68,13 @@ bool TeamAtlas::Extend(const TeamScan& scan,
 
 bool TeamAtlas::TakeIn(TeamScan scan) {
   const std::lock_guard lock(extension_);
-  std::string name = options_.sharing == MapSharing::kTeam ? scan.component : scan.key.robot;
-  Settle(scan, name);
-  const MapComponent component = maps_.Named(name);
+  Settle(scan);
+  const MapComponent component = IsTeams() ? maps_.Named(scan.component) : maps_.Of(scan.key.robot);
   if (!component.map->Insert(scan, ToPoints(scan.scan))) return false;
-  maps_.Put(scan.key.robot, name);
+  maps_.Put(scan.key.robot, component.name);
   surroundings_.keep(ToJournal(scan), [] {});
   if (options_.corrects) {
-    CorrectorOf(name).Take(scan);
+    CorrectorOf(component.name).Take(scan);
     CorrectIfDue(component);
   }
   of_others_.push_back(std::move(scan));
@@ -83,23 +82,22 @@ bool TeamAtlas::TakeIn(TeamScan scan) {
 }
 
 // Scans may be heard of after what has become of them.
-void TeamAtlas::Settle(TeamScan& scan, std::string& component) const {
+void TeamAtlas::Settle(TeamScan& scan) const {
   if (const auto told = told_.find(scan.key); told != told_.end()) {
-    component = told->second.component;
+    scan.component = told->second.component;
     scan.map_robot = told->second.map_robot;
     return;
   }
-  for (auto joined = joined_.find(component); joined != joined_.end();
-       joined = joined_.find(component)) {
-    component = joined->second.component;
+  for (auto joined = joined_.find(scan.component); joined != joined_.end();
+       joined = joined_.find(scan.component)) {
+    scan.component = joined->second.component;
     scan.map_robot = UncertainPose2{.T_a_b = joined->second.T_into_from} * scan.map_robot;
   }
 }
 
 void TeamAtlas::TakeIn(const TeamEpoch& epoch) {
   const std::lock_guard lock(extension_);
-  const bool is_wanted = options_.corrects && options_.sharing == MapSharing::kTeam;
-  if (!is_wanted || epoch.rank <= epoch_) return;
+  if (!options_.corrects || !IsTeams() || epoch.rank <= epoch_) return;
   told_.clear();
   for (const MovedScan& scan : epoch.scans) {
     told_[scan.key] = {.component = scan.component, .map_robot = scan.map_robot};
@@ -237,6 +235,12 @@ void TeamAtlas::Tidy() {
 }
 
 void TeamAtlas::Tell(TeamEpoch epoch) {
+  if (!IsTeams()) {  // Each map's frame is called like that of the team's.
+    for (MovedScan& scan : epoch.scans) {
+      scan.component.clear();
+      scan.component_before.clear();
+    }
+  }
   TellAsEvent(epoch);
   std::map<ScanKey, const MovedScan*> moved;
   for (const MovedScan& scan : epoch.scans) moved[scan.key] = &scan;

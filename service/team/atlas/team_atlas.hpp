@@ -104,7 +104,8 @@ class TeamAtlas {
   std::optional<TeamMap::Insertion> Insert(const MapComponent& component,
                                            const TeamScan& scan,
                                            std::span<const ScanPoint> points);
-  void Settle(TeamScan& scan, std::string& component) const;
+  bool IsTeams() const { return options_.sharing == MapSharing::kTeam; }
+  void Settle(TeamScan& scan) const;
   TeamCorrector& CorrectorOf(const std::string& component);
   void CorrectIfDue(const MapComponent& component);
   EpochRank Next(const EpochRank& last) const;

@@ -84,7 +84,7 @@ void RobotSession::Answer(Work& work,
   component_.map->robots().Report(name(), step.map_robot.T_a_b.translation_m(), answered);
   const RobotAnswer answer{.robot = name(),
                            .step = step,
-                           .component = component_.name,
+                           .component = ComponentName(),
                            .T_odom_robot = work.T_odom_robot,
                            .told = easing_.Tell(step, work.T_odom_robot),
                            .matching = answered - begun,
@@ -138,14 +138,14 @@ void RobotSession::Extend(ContestedTracker::Tracked& tracked) {
 
 // While the scan was matched, others may have corrected the map.
 void RobotSession::ExtendWith(TeamScan& scan) {
-  scan.component = component_.name;
+  scan.component = ComponentName();
   const std::vector<ScanPoint> points = ToPoints(scan.scan);
   while (!context_.atlas.Extend(scan, points, version_)) {
     const UncertainPose2 robot_scan{.T_a_b = tracker_.map_robot().T_a_b.Inverse() *
                                              scan.map_robot.T_a_b};
     FollowCorrections();
     if (!is_placed_) return;
-    scan.component = component_.name;
+    scan.component = ComponentName();
     scan.map_robot.T_a_b = (tracker_.map_robot() * robot_scan).T_a_b;
   }
   last_relevant_ = scan.key;
@@ -207,17 +207,20 @@ void RobotSession::Place() {
 // stays there until that is found in the map, too.
 void RobotSession::TakeUp(const UncertainPose2& told) {
   context_.merger.HearPlaceOf(name());
-  TeamMaps& maps = context_.atlas.maps();
-  const bool is_apart = maps.sharing() == MapSharing::kTeam && !component_.name.empty();
-  if (is_apart) {
-    maps.Put(name(), "");
-    component_ = maps.Of(name());
+  if (IsApart()) {
+    context_.atlas.maps().Put(name(), "");
+    component_ = context_.atlas.maps().Of(name());
     BeginAnewAt(told);
   } else if (is_placed_) {
     tracker_.PlaceAsTold(told);
   } else {
     tracker_.PlaceAt(told);
   }
+}
+
+// Where each robot has a map of its own there is none that it could be apart from.
+bool RobotSession::IsApart() const {
+  return context_.atlas.maps().sharing() == MapSharing::kTeam && !component_.name.empty();
 }
 
 void RobotSession::BeginComponent() {

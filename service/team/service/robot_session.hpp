@@ -72,6 +72,8 @@ class RobotSession final : public Lane {
   void ExtendWith(TeamScan& scan);
   void Place();
   void TakeUp(const UncertainPose2& told);
+  bool IsApart() const;
+  std::string ComponentName() const { return IsApart() ? component_.name : std::string(); }
   void BeginComponent();
   void BeginAnewAt(const UncertainPose2& map_robot);
   void TellWhatIsSeen(const MappingStep& step, std::span<const ScanPoint> points);

@@ -138,6 +138,7 @@ void TeamService::Keep(io::JournalEntry entry, const std::function<void()>& sett
 
 TeamStatus TeamService::Status() const {
   TeamStatus status = host_.Status(StatusOfMaps());
+  if (options_.team.map != MapSharing::kTeam) return status;
   for (RobotStatus& robot : status.robots) robot.component = atlas_.maps().NameOf(robot.name);
   return status;
 }
@@ -183,7 +184,10 @@ void TeamService::TellMap(const std::string& component, MapPainter& painter) {
   const std::optional<OccupancyGrid> grid = painter.Grid();
   if (grid) {
     sinks_.Tell(&TeamSink::TakeMap,
-                {.component = component, .stamp = painter.newest(), .grid = *grid});
+                {.component = component,
+                 .frame = FrameOf(options_.team.map == MapSharing::kTeam ? component : ""),
+                 .stamp = painter.newest(),
+                 .grid = *grid});
   }
   if (painter.trouble().empty()) return;
   const std::string text = FrameOf(component) + ": " + painter.trouble();

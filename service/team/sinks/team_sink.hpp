@@ -24,6 +24,7 @@ struct NewPoints {
 /// A drawn map.
 struct MapPicture {
   std::string_view component;  ///< Of the team's map; empty for the one that all share.
+  std::string frame;           ///< Of the map.
   Timestamp stamp{};           ///< Stamp of the newest scan in the map.
   const OccupancyGrid& grid;
 };
