@@ -51,7 +51,7 @@ struct Fate {
   std::vector<Eigen::Vector2d> path_world_m;
   double way_m = 0.0;
   std::map<std::size_t, double> in_common_m;  // With other robots, while they were apart.
-  double found_in_common_m = 0.0;             // The most of those with whom it was found.
+  double found_in_common_m = 0.0;  // The most of those with whom it was found, or is not.
   bool is_found = false;
   double found_off_m = 0.0;
   std::vector<std::size_t> steps;  // When it was in the team's map.
@@ -120,7 +120,12 @@ class Trial {
       fate.in_common_m[other] += way_m;
       of_other.in_common_m[reading.robot] += way_m;
     }
-    if (!component_[reading.robot].empty()) return;
+    if (!component_[reading.robot].empty()) {
+      for (const auto& [other, with_m] : fate.in_common_m) {
+        fate.found_in_common_m = std::max(fate.found_in_common_m, with_m);
+      }
+      return;
+    }
     const Pose2 error =
         reading.T_world_robot.Inverse() * answers_.Of(NameOf(reading.robot)).step.map_robot.T_a_b;
     if (!std::exchange(fate.is_found, true)) {
@@ -172,10 +177,7 @@ struct Sum {
 void Print(int seed, std::size_t robot, const Fate& fate, const Fate& told, Sum& sum) {
   constexpr double kInTime_m = 10.0;
   const bool is_wrong = fate.is_found && fate.found_off_m > kWrong_m;
-  const bool had_time =
-      fate.is_found || std::ranges::any_of(fate.in_common_m, [](const auto& with) {
-        return with.second > kInTime_m;
-      });
+  const bool had_time = fate.is_found || fate.found_in_common_m > kInTime_m;
   ++sum.robots;
   sum.found += fate.is_found;
   sum.with_enough_in_common += had_time;
