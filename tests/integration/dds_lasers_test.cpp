@@ -16,6 +16,7 @@
 #include "tests/support/replay.hpp"
 #include "tests/support/robot_in_room.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/two_lasers.hpp"
 
 namespace qwsm::test {
 namespace {
@@ -67,12 +68,7 @@ TEST_F(DdsLasers, AreHeardOnTopicsOfTheirOwn) {
 }
 
 TEST_F(DdsLasers, OfALogGiveItsPathBitForBit) {
-  std::ofstream(Path("two.yaml")) << "layout: {kind: rubble}\n"
-                                     "robots:\n"
-                                     "  - laser: {mount_x_m: 0.2}\n"
-                                     "    more_lasers:\n"
-                                     "      - {mount_x_m: -0.2, mount_heading_deg: 180,"
-                                     " first_scan_s: 0.05}\n";
+  std::ofstream(Path("two.yaml")) << kTwoLasers;
   const Outcome simulated =
       RunProgram({"sim", Path("two.yaml"), "--duration", "20", "--output", Path("drive")});
   ASSERT_EQ(simulated.exit_code, 0) << simulated.errors;

@@ -17,6 +17,7 @@
 #include "service/io/bags/containers/bag_files.hpp"
 #include "tests/support/network.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/two_lasers.hpp"
 
 namespace qwsm::test {
 namespace {
@@ -63,12 +64,7 @@ INSTANTIATE_TEST_SUITE_P(All,
                          [](const auto& tested) { return "Form" + std::to_string(tested.index); });
 
 TEST_F(DdsRecord, KeepsSeveralLasersOfALogApart) {
-  std::ofstream(Path("two.yaml")) << "layout: {kind: rubble}\n"
-                                     "robots:\n"
-                                     "  - laser: {mount_x_m: 0.2}\n"
-                                     "    more_lasers:\n"
-                                     "      - {mount_x_m: -0.2, mount_heading_deg: 180,"
-                                     " first_scan_s: 0.05}\n";
+  std::ofstream(Path("two.yaml")) << kTwoLasers;
   const Outcome simulated =
       RunProgram({"sim", Path("two.yaml"), "--duration", "10", "--output", Path("drive")});
   ASSERT_EQ(simulated.exit_code, 0) << simulated.errors;

@@ -5,7 +5,6 @@
 // own until they are found in the one that the team shares.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <string>
 #include <vector>
 
@@ -13,35 +12,21 @@
 #include "service/team/service/team_service.hpp"
 #include "tests/support/recording_sink.hpp"
 #include "tests/support/room_drive.hpp"
+#include "tests/support/team_in_room.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace qwsm::team {
 namespace {
 
-TeamServiceOptions Patient() {
-  TeamServiceOptions options;
-  options.merges_beside = false;
-  options.team.session.queue_scans = 1000;
-  options.team.session.odometry_wait_s = 10.0;
-  options.team.map_period_s = 0.0;
-  return options;
-}
+using test::LosslessOptions;
+using test::StatusOf;
 
 /// Drives a robot through the room, scan by scan.
 void Drive(TeamService& service, const std::string& robot, int first, int count) {
   for (int scan = first; scan < first + count; ++scan) {
-    const Observation observation = test::ObservationInRoom(scan);
-    service.robots().TakeOdometry(robot, observation.scan.stamp, *observation.T_odom_robot);
-    EXPECT_TRUE(service.robots().TakeScan(robot, observation.scan));
+    test::Give(service, robot, scan, 1);
     service.WaitUntilIdle();
   }
-}
-
-RobotStatus StatusOf(const TeamService& service, const std::string& robot) {
-  for (const RobotStatus& status : service.Status().robots) {
-    if (status.name == robot) return status;
-  }
-  return {};
 }
 
 double ErrorAfter_m(const RobotStatus& status, int scan) {
@@ -50,7 +35,7 @@ double ErrorAfter_m(const RobotStatus& status, int scan) {
 
 TEST(TeamComponents, AnswerARobotThatNobodyPlacedUntilItIsFoundInTheMap) {
   test::RecordingSink sink;
-  TeamService service(Patient(), sink);
+  TeamService service(LosslessOptions(), sink);
   service.Start();
   Drive(service, "robot1", 0, 126);
   EXPECT_EQ(sink.components("robot1"), std::vector<std::string>{""});
@@ -69,7 +54,7 @@ TEST(TeamComponents, AnswerARobotThatNobodyPlacedUntilItIsFoundInTheMap) {
 
 TEST(TeamComponents, TellJointsAsEpochsThatNameAllScansWithTheirFrames) {
   test::RecordingSink sink;
-  TeamService service(Patient(), sink);
+  TeamService service(LosslessOptions(), sink);
   service.Start();
   Drive(service, "robot1", 0, 126);
   Drive(service, "robot2", 30, 80);
@@ -91,7 +76,7 @@ TEST(TeamComponents, ComeBackFromTheJournalApartOrJoinedAsTheyWere) {
     std::vector<std::string> before;
     {
       test::RecordingSink sink;
-      TeamService service(Patient(), sink, folder.path() / journal);
+      TeamService service(LosslessOptions(), sink, folder.path() / journal);
       service.Start();
       Drive(service, "robot1", 0, 126);
       Drive(service, "robot2", 30, scans);
@@ -100,7 +85,7 @@ TEST(TeamComponents, ComeBackFromTheJournalApartOrJoinedAsTheyWere) {
       }
     }
     test::RecordingSink sink;
-    TeamService again(Patient(), sink, folder.path() / journal);
+    TeamService again(LosslessOptions(), sink, folder.path() / journal);
     again.Start();
     for (const char* robot : {"robot1", "robot2"}) {
       EXPECT_EQ(io::EncodeMap(again.MapOf(robot)->Read()->map), before.front()) << robot;
@@ -114,7 +99,7 @@ TEST(TeamComponents, ComeBackFromTheJournalApartOrJoinedAsTheyWere) {
 
 TEST(TeamComponents, AreTheSameForAServiceThatOnlyHearsOfThem) {
   test::RecordingSink told;
-  TeamService finds(Patient(), told);
+  TeamService finds(LosslessOptions(), told);
   finds.Start();
   Drive(finds, "robot1", 0, 126);
   Drive(finds, "robot2", 30, 80);
@@ -124,11 +109,11 @@ TEST(TeamComponents, AreTheSameForAServiceThatOnlyHearsOfThem) {
            hears.MapOf("robot1")->Scans().size() == finds.MapOf("robot1")->Scans().size();
   };
   test::RecordingSink sink;
-  TeamService scans_first(Patient(), sink);
+  TeamService scans_first(LosslessOptions(), sink);
   scans_first.TakeIn(told.relevant());
   scans_first.TakeIn(told.epochs().back());
   EXPECT_TRUE(is_same(scans_first));
-  TeamService epoch_first(Patient(), sink);
+  TeamService epoch_first(LosslessOptions(), sink);
   epoch_first.TakeIn(told.epochs().back());
   epoch_first.TakeIn(told.relevant());
   EXPECT_TRUE(is_same(epoch_first));
@@ -139,7 +124,7 @@ TEST(TeamComponents, AreTheSameForAServiceThatOnlyHearsOfThem) {
 
 TEST(TeamComponents, TakeARobotOutOfTheMapThatWasToldItsStartWrongly) {
   test::RecordingSink sink;
-  TeamServiceOptions options = Patient();
+  TeamServiceOptions options = LosslessOptions();
   options.team.robots.push_back({.name = "robot2", .x_m = 1.5, .y_m = 1.0, .heading_rad = 2.0});
   TeamService service(options, sink);
   service.Start();
@@ -154,7 +139,7 @@ TEST(TeamComponents, TakeARobotOutOfTheMapThatWasToldItsStartWrongly) {
 
 TEST(TeamComponents, AreNoneWhereEachRobotHasAMap) {
   test::TemporaryFolder folder;
-  TeamServiceOptions options = Patient();
+  TeamServiceOptions options = LosslessOptions();
   options.team.map = MapSharing::kEachRobot;
   std::string before;
   {
@@ -175,7 +160,7 @@ TEST(TeamComponents, AreNoneWhereEachRobotHasAMap) {
 
 TEST(TeamComponents, AreLeftByARobotThatIsToldWhereItIs) {
   test::RecordingSink sink;
-  TeamService service(Patient(), sink);
+  TeamService service(LosslessOptions(), sink);
   service.Start();
   Drive(service, "robot1", 0, 126);
   Drive(service, "robot2", 30, 3);

@@ -16,6 +16,7 @@
 #include "service/io/maps/map_file.hpp"
 #include "tests/support/recording_sink.hpp"
 #include "tests/support/room_drive.hpp"
+#include "tests/support/team_in_room.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace qwsm::team {
@@ -23,31 +24,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
+using test::Give;
+using test::LosslessOptions;
+using test::StatusOf;
+
 constexpr int kScans = 120;
-
-TeamServiceOptions LosslessOptions() {
-  TeamServiceOptions options;
-  options.merges_beside = false;
-  options.team.session.queue_scans = 1000;
-  options.team.session.odometry_wait_s = 10.0;
-  options.team.map_period_s = 0.0;
-  return options;
-}
-
-void Give(TeamService& service, const std::string& robot, int first, int count) {
-  for (int scan = first; scan < first + count; ++scan) {
-    const Observation observation = test::ObservationInRoom(scan);
-    service.robots().TakeOdometry(robot, observation.scan.stamp, *observation.T_odom_robot);
-    EXPECT_TRUE(service.robots().TakeScan(robot, observation.scan));
-  }
-}
-
-RobotStatus StatusOf(const TeamService& service, const std::string& robot) {
-  for (const RobotStatus& status : service.Status().robots) {
-    if (status.name == robot) return status;
-  }
-  return {};
-}
 
 TEST(TeamService, AnswersARobotBitForBitAsTheMapperDoes) {
   test::RecordingSink sink;
