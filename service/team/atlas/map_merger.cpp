@@ -93,7 +93,7 @@ std::optional<MisplacedRobot> MapMerger::FindMisplaced(
     for (const MapComponent& component : components) {
       const std::size_t scans_of_robot = component.map->CountOf(robot);
       if (scans_of_robot < scans_to_judge) continue;
-      const MapVersion version = component.map->VersionOf(*component.map->Read());
+      const MapVersion version = component.map->version();
       const double nats = NatsOfPlace(component.map->Scans(), robot);
       const std::lock_guard lock(mutex_);
       const bool is_refuted = nats < kRefutedNats;

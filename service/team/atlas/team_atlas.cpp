@@ -52,7 +52,7 @@ bool TeamAtlas::Extend(const TeamScan& scan,
                        const MapVersion& answered_in) {
   const std::lock_guard lock(extension_);
   const MapComponent component = maps_.Of(scan.key.robot);
-  if (component.map->VersionOf(*component.map->Read()) != answered_in) return false;
+  if (component.map->version() != answered_in) return false;
   const std::optional<TeamMap::Insertion> insertion = component.map->Insert(scan, points);
   if (!insertion) return true;
   surroundings_.keep(ToJournal(scan), [this, shared = std::make_shared<TeamScan>(scan), insertion] {
@@ -67,10 +67,11 @@ bool TeamAtlas::Extend(const TeamScan& scan,
 }
 
 bool TeamAtlas::TakeIn(TeamScan scan) {
+  const std::vector<ScanPoint> points = ToPoints(scan.scan);
   const std::lock_guard lock(extension_);
   Settle(scan);
   const MapComponent component = IsTeams() ? maps_.Named(scan.component) : maps_.Of(scan.key.robot);
-  if (!component.map->Insert(scan, ToPoints(scan.scan))) return false;
+  if (!component.map->Insert(scan, points)) return false;
   maps_.Put(scan.key.robot, component.name);
   surroundings_.keep(ToJournal(scan), [] {});
   if (options_.corrects) {
@@ -79,6 +80,11 @@ bool TeamAtlas::TakeIn(TeamScan scan) {
   }
   of_others_.push_back(std::move(scan));
   return true;
+}
+
+// Whether a component is what it was: it may be none any more.
+bool TeamAtlas::IsStill(const std::string& component, const MapVersion& version) {
+  return maps_.Has(component) && maps_.Named(component).map->version() == version;
 }
 
 // Scans may be heard of after what has become of them.
@@ -115,13 +121,7 @@ std::vector<TeamScan> TeamAtlas::TakenIn() {
 
 bool TeamAtlas::Join(const ComponentPlace& place) {
   const std::lock_guard lock(extension_);
-  const auto is_as_found = [this](const std::string& name, const MapVersion& found) {
-    const MapComponent component = maps_.Named(name);
-    return component.map->VersionOf(*component.map->Read()) == found;
-  };
-  if (!is_as_found(place.from_name, place.from) || !is_as_found(place.into_name, place.into)) {
-    return false;
-  }
+  if (!IsStill(place.from_name, place.from) || !IsStill(place.into_name, place.into)) return false;
   Rearrangement wanted = AsTheyAre(maps_);
   for (Placement& one : wanted.wanted.at(place.from_name)) {
     one = {.component = place.into_name, .map_robot = place.into_from * one.map_robot};
@@ -135,8 +135,8 @@ bool TeamAtlas::Part(const std::string& robot,
                      const MapVersion& from,
                      const std::string& from_name) {
   const std::lock_guard lock(extension_);
+  if (!IsStill(from_name, from)) return false;
   const MapComponent component = maps_.Named(from_name);
-  if (component.map->VersionOf(*component.map->Read()) != from) return false;
   Rearrangement wanted = AsTheyAre(maps_);
   std::optional<Pose2> T_own_map;
   const std::string own = maps_.NewNameFor(robot);

@@ -2,17 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <span>
 #include <string>
-#include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include "qwsm/mapping/mapper_options.hpp"
@@ -101,10 +97,8 @@ class TeamAtlas {
     std::map<std::string, std::string> home_of_robot;           // That changes.
   };
 
-  std::optional<TeamMap::Insertion> Insert(const MapComponent& component,
-                                           const TeamScan& scan,
-                                           std::span<const ScanPoint> points);
   bool IsTeams() const { return options_.sharing == MapSharing::kTeam; }
+  bool IsStill(const std::string& component, const MapVersion& version);
   void Settle(TeamScan& scan) const;
   TeamCorrector& CorrectorOf(const std::string& component);
   void CorrectIfDue(const MapComponent& component);

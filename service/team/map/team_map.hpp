@@ -61,6 +61,7 @@ class TeamMap {
   /// The map as it is now; see TwinState::View.
   State::View Read() const { return state_.Read(); }
   MapVersion VersionOf(const Contents& contents) const { return {this, contents.epoch}; }
+  MapVersion version() const { return VersionOf(*Read()); }
 
   /// A scan that was added.
   struct Insertion {

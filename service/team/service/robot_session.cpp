@@ -67,14 +67,15 @@ void RobotSession::Answer(Work& work,
   const Observation observation{.scan = std::move(work.scan), .T_odom_robot = work.T_odom_robot};
   work.scan.stamp = observation.scan.stamp;
   is_placed_ = is_placed_ && !work.was_elsewhere;
-  FollowCorrections();
-  Place();
-  // Odometry that moves faster than any robot has begun anew; after an interruption it may have.
-  const bool may_be_new = work.odometry_goes_on && work.is_interrupted;
-  if (work.odometry_jumped || may_be_new) tracker_.SuspectOdometryReset();
   ContestedTracker::Tracked tracked;
   {
-    const TeamMap::State::View contents = component_.map->Read();
+    TeamMap::State::View contents = FollowCorrections();
+    const MapComponent before = component_;  // Lives as long as the view of it.
+    Place();
+    if (component_.map != before.map) contents = component_.map->Read();
+    // Odometry that moves faster than any robot has begun anew; after an interruption it may have.
+    const bool may_be_new = work.odometry_goes_on && work.is_interrupted;
+    if (work.odometry_jumped || may_be_new) tracker_.SuspectOdometryReset();
     tracked = tracker_.Track(contents->map, observation, points, claimed_mounting);
   }
   const auto answered = steady_clock::now();
@@ -98,18 +99,18 @@ void RobotSession::Answer(Work& work,
 }
 
 // The robot keeps its place beside its last relevant scan, also where that has become part of
-// another component.
-void RobotSession::FollowCorrections() {
+// another component. The map as it is then is what the next scan has to be matched with.
+TeamMap::State::View RobotSession::FollowCorrections() {
   const std::string component_before = component_.name;
   component_ = context_.atlas.maps().Of(name());
-  const TeamMap::State::View contents = component_.map->Read();
+  TeamMap::State::View contents = component_.map->Read();
   const MapVersion now = component_.map->VersionOf(*contents);
-  if (std::exchange(version_, now) == now || !last_relevant_) return;
+  if (std::exchange(version_, now) == now || !last_relevant_) return contents;
   const std::optional<ScanId> last = component_.map->Find(*last_relevant_);
   if (!last) {  // Another service has answered the robot since, elsewhere.
     last_relevant_.reset();
     is_placed_ = false;
-    return;
+    return contents;
   }
   const UncertainPose2& map_last = contents->map.scans()[*last].map_robot;
   const Pose2 T_before_robot = tracker_.map_robot().T_a_b;
@@ -120,6 +121,7 @@ void RobotSession::FollowCorrections() {
     easing_.Forget();  // Between frames there is no way.
   }
   nodes_.Follow(map_last);
+  return contents;
 }
 
 void RobotSession::Extend(ContestedTracker::Tracked& tracked) {
@@ -232,7 +234,7 @@ void RobotSession::BeginComponent() {
 }
 
 void RobotSession::BeginAnewAt(const UncertainPose2& map_robot) {
-  version_ = component_.map->VersionOf(*component_.map->Read());
+  version_ = component_.map->version();
   last_relevant_.reset();
   nodes_ = {};
   is_new_start_ = true;

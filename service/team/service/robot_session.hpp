@@ -67,7 +67,7 @@ class RobotSession final : public Lane {
   void Answer(Work& work,
               std::span<const ScanPoint> points,
               const std::optional<Pose2>& claimed_mounting);
-  void FollowCorrections();
+  TeamMap::State::View FollowCorrections();
   void Extend(ContestedTracker::Tracked& tracked);
   void ExtendWith(TeamScan& scan);
   void Place();
