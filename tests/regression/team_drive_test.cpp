@@ -10,10 +10,12 @@
 #include <chrono>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "qwsm/mapping/mapper.hpp"
 #include "qwsm/metrics/error_statistics.hpp"
 #include "service/config/options_io.hpp"
 #include "service/team/service/team_service.hpp"
@@ -58,18 +60,35 @@ std::vector<sim::Reading> WithTheOthersLater(const std::vector<sim::Reading>& re
 
 std::string NameOf(std::size_t robot) { return "robot" + std::to_string(robot + 1); }
 
-UncertainPose2 StartOf(const sim::Reading& first, const ToldStart& told, std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  // Zero would be a claim that nobody can keep, and next to it there is no error to speak of.
+// Zero would be a claim that nobody can keep, and next to this there is no error to speak of.
+UncertainPose2 ExactStart(const sim::Reading& first) {
   constexpr double kExact = 1e-3;
+  return UncertainPose2::WithSigmas(first.T_world_robot, kExact, kExact);
+}
+
+UncertainPose2 StartOf(const sim::Reading& first, const ToldStart& told, std::mt19937_64& random) {
   const bool is_told_poorly = first.robot > 0 && told.sigma_m > 0.0;
-  const double sigma_m = is_told_poorly ? told.sigma_m : kExact;
-  const double sigma_rad = is_told_poorly ? told.sigma_rad : kExact;
-  Pose2 error;
-  if (is_told_poorly) {
-    error = {sigma_m * normal(random), sigma_m * normal(random), sigma_rad * normal(random)};
-  }
-  return UncertainPose2::WithSigmas(first.T_world_robot * error, sigma_m, sigma_rad);
+  if (!is_told_poorly) return ExactStart(first);
+  std::normal_distribution<double> normal;
+  const Pose2 error{told.sigma_m * normal(random),
+                    told.sigma_m * normal(random),
+                    told.sigma_rad * normal(random)};
+  return UncertainPose2::WithSigmas(first.T_world_robot * error, told.sigma_m, told.sigma_rad);
+}
+
+TeamServiceOptions SharedBy(MapSharing sharing) {
+  TeamServiceOptions options;
+  options.team.map = sharing;
+  options.team.threads = 1;
+  options.team.map_period_s = 0.0;
+  return options;
+}
+
+void Give(TeamService& service, const sim::Reading& reading) {
+  const std::string robot = NameOf(reading.robot);
+  service.robots().TakeOdometry(robot, reading.scan.stamp, reading.T_odom_robot);
+  service.robots().TakeScan(robot, reading.scan);
+  service.WaitUntilIdle();
 }
 
 /// The root mean square of the errors of each robot's positions, in the frame of the world.
@@ -77,11 +96,7 @@ std::array<double, kRobots> Errors_m(const std::vector<sim::Reading>& readings,
                                      MapSharing sharing,
                                      const ToldStart& told = {}) {
   test::RecordingSink sink;
-  TeamServiceOptions options;
-  options.team.map = sharing;
-  options.team.threads = 1;
-  options.team.map_period_s = 0.0;
-  TeamService service(options, sink);
+  TeamService service(SharedBy(sharing), sink);
   service.Start();
   std::mt19937_64 random(7);
   std::array<std::vector<double>, kRobots> errors_m;
@@ -91,9 +106,7 @@ std::array<double, kRobots> Errors_m(const std::vector<sim::Reading>& readings,
     if (!std::exchange(is_placed[reading.robot], true)) {
       service.robots().PlaceAt(robot, StartOf(reading, told, random));
     }
-    service.robots().TakeOdometry(robot, reading.scan.stamp, reading.T_odom_robot);
-    service.robots().TakeScan(robot, reading.scan);
-    service.WaitUntilIdle();
+    Give(service, reading);
     const Pose2 error = reading.T_world_robot.Inverse() * sink.last_step(robot).map_robot.T_a_b;
     errors_m[reading.robot].push_back(error.translation_m().norm());
   }
@@ -118,6 +131,44 @@ TEST(TeamDrive, OneMapForAllIsAsAccurateAsOneEach) {
   }
   // Of twelve robots, for which of them is lucky alone changes with every seed.
   EXPECT_LT(Summarize(all_shared_m).median, Summarize(all_each_m).median);
+}
+
+// Another robot goes along, ten metres ahead: in the corridor it is what tells most of how far the
+// robot has gone, and that is nothing. Two metres it was behind in the end.
+TEST(TeamDrive, WhoGoesAlongInACorridorHoldsNoRobotBack) {
+  std::optional<Mapper> mapper;
+  double error_m = 0.0;
+  for (const sim::Reading& reading : Drive(8, 12)) {
+    if (reading.robot != 0) continue;
+    if (!mapper) {
+      mapper.emplace(MapperOptions{}, ScanMap{}, ExactStart(reading));
+    }
+    const MappingStep step = mapper->Process(sim::ObservationOf(reading));
+    const Pose2 error = reading.T_world_robot.Inverse() * step.map_robot.T_a_b;
+    error_m = error.translation_m().norm();
+  }
+  EXPECT_LT(error_m, 0.05);
+}
+
+TEST(TeamDrive, RobotsThatNobodyPlacedAreFoundInTheMap) {
+  test::RecordingSink sink;
+  TeamServiceOptions options = SharedBy(MapSharing::kTeam);
+  options.merges_beside = false;
+  TeamService service(options, sink);
+  service.Start();
+  const std::vector<sim::Reading> readings = Drive(2, 60);
+  service.robots().PlaceAt(NameOf(0), ExactStart(readings.front()));
+  std::array<double, kRobots> error_m{};
+  for (const sim::Reading& reading : readings) {
+    Give(service, reading);
+    const Pose2 error =
+        reading.T_world_robot.Inverse() * sink.last_step(NameOf(reading.robot)).map_robot.T_a_b;
+    error_m[reading.robot] = error.translation_m().norm();
+  }
+  for (std::size_t i = 0; i < kRobots; ++i) {
+    EXPECT_EQ(service.MapOf(NameOf(i)), service.MapOf(NameOf(0))) << NameOf(i);
+    EXPECT_LT(error_m[i], 0.1) << NameOf(i);
+  }
 }
 
 TEST(TeamDriveLater, RobotsThatComeIntoAKnownPlaceAreAsAccurateAsItsMap) {

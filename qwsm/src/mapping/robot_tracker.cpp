@@ -62,6 +62,10 @@ Eigen::Matrix3d FuseWithReference(const Eigen::Matrix3d& reference,
   return reference + (pair_information + relative.inverse()).inverse();
 }
 
+UncertainPose2 PoseOf(const MatchResult& match) {
+  return {.T_a_b = match.T_ref_cur, .covariance = match.covariance};
+}
+
 }  // namespace
 
 std::string_view Name(StepStatus status) {
@@ -95,6 +99,7 @@ void RobotTracker::PlaceAt(const UncertainPose2& map_robot,
   gyro_.Restart(T_odom_robot);
   submap_.Clear();
   seen_free_.Clear();
+  dead_reckoning_.Clear();
   map_last_ = map_robot;
   local_last_ = map_robot;
   lasers_.Clear();
@@ -113,6 +118,7 @@ void RobotTracker::FollowCorrection(const UncertainPose2& map_robot) {
   if (held_) held_->local = new_old * held_->local;
   submap_.Move(T_new_old);
   seen_free_.Move(T_new_old);
+  dead_reckoning_.Move(T_new_old);
 }
 
 MappingStep RobotTracker::Track(const ScanMap& map,
@@ -171,26 +177,46 @@ void RobotTracker::Locate(const ScanMap& map,
   if (!IsPosition((map_last_ * last_robot.conservative).T_a_b)) last_robot = Unmoved();
   const UncertainPose2 predicted = local_last_ * last_robot.conservative;
   step.match = LocateNear(map, observation, points, predicted);
-  const bool is_surprising =
-      motion_.IsSurprising(observation.T_odom_robot, share) && MayBeBeaten(points, step.match);
-  if (is_odometry_suspect_ || is_surprising) {
-    const PosePrediction without_odometry = motion_.Predict(std::nullopt, share);
-    const MatchResult other =
-        locator_.Locate(map, points, local_last_ * without_odometry.conservative, seen_free_);
-    if (is_odometry_suspect_ ? other.overlap >= step.match.overlap
-                             : IsConvincinglyBetter(points, other, step.match)) {
-      last_robot = without_odometry;
-      step.match = other;
-    }
-  }
+  if (DropFailedOdometry(map, observation, points, last_robot, step)) dead_reckoning_.Clear();
+  const bool was_held_back = CatchUpWithOdometry(map, points, last_robot.adapted, step);
   step.odometry_motion = last_robot.adapted;
   step.map_robot = map_last_ * last_robot.conservative;
   step.local_covariance = (local_last_ * last_robot.conservative).covariance;
   const UncertainPose2 last_in_map{.T_a_b = map_last_.T_a_b};
   Judge(map, points, (last_in_map * last_robot.conservative).covariance, step);
-  if (step.status == StepStatus::kMatched) {
+  if (was_held_back) {
+    step.reason = "held back before: where odometry has it";
+    LeavePath(step);
+  } else if (step.status == StepStatus::kMatched) {
     motion_.Adapt(local_last_ * last_robot.adapted, step.match, observation.T_odom_robot, share);
   }
+  dead_reckoning_.Follow(last_robot.adapted,
+                         {.T_a_b = step.map_robot.T_a_b, .covariance = step.local_covariance});
+}
+
+// Where the robot would be if it had moved as before, whatever odometry tells, the scan may agree
+// with the map much better.
+// @return whether it does, and odometry is not believed.
+bool RobotTracker::DropFailedOdometry(const ScanMap& map,
+                                      const Observation& observation,
+                                      std::span<const ScanPoint> points,
+                                      PosePrediction& last_robot,
+                                      MappingStep& step) const {
+  if (!observation.T_odom_robot) return true;
+  const double share = lasers_.ShareOfPeriod(observation.scan);
+  const bool is_surprising =
+      motion_.IsSurprising(observation.T_odom_robot, share) && MayBeBeaten(points, step.match);
+  if (!is_odometry_suspect_ && !is_surprising) return false;
+  const PosePrediction without_odometry = motion_.Predict(std::nullopt, share);
+  const MatchResult other =
+      locator_.Locate(map, points, local_last_ * without_odometry.conservative, seen_free_);
+  if (is_odometry_suspect_ ? other.overlap < step.match.overlap
+                           : !IsConvincinglyBetter(points, other, step.match)) {
+    return false;
+  }
+  last_robot = without_odometry;
+  step.match = other;
+  return true;
 }
 
 // Near where the robot is by odometry and by what its other lasers have just told; by odometry
@@ -205,6 +231,25 @@ MatchResult RobotTracker::LocateNear(const ScanMap& map,
   if (match.overlap >= locator_.options().confident_overlap) return match;
   const MatchResult alone = locator_.Locate(map, points, predicted, seen_free_);
   return alone.overlap > match.overlap + locator_.options().widen_gain ? alone : match;
+}
+
+// The last matches may have been wrong, each a little, beside an odometry that has proved to be
+// better than that: then the scan agrees with the map better where that has the robot.
+// @return whether it does, and the robot is there.
+bool RobotTracker::CatchUpWithOdometry(const ScanMap& map,
+                                       std::span<const ScanPoint> points,
+                                       const UncertainPose2& last_robot,
+                                       MappingStep& step) const {
+  const std::optional<UncertainPose2> reckoned = dead_reckoning_.Predict(last_robot);
+  const UncertainPose2 found = PoseOf(step.match);
+  if (!reckoned || !IsFarFrom(*reckoned, found)) return false;
+  const MatchResult there = locator_.Locate(map, points, *reckoned, seen_free_);
+  const bool agrees_better = there.overlap > step.match.overlap;
+  if (!agrees_better || IsFarFrom(*reckoned, PoseOf(there)) || !IsFarFrom(found, PoseOf(there))) {
+    return false;
+  }
+  step.match = there;
+  return true;
 }
 
 // The verdicts of Visser et al. (2009, section 4): a good correspondence is the pose, a bad one
@@ -269,12 +314,18 @@ void RobotTracker::CloseLoop(const ScanMap& map,
   step.match = *closed;
   step.status = StatusOf(*closed);
   step.reason = "loop closed";
-  step.closed_loop = true;
   step.map_robot.T_a_b = closed->T_ref_cur;
   step.map_robot.covariance = closed->covariance;
   step.local_covariance = closed->covariance;
+  LeavePath(step);
+}
+
+// What was seen before was seen from another path.
+void RobotTracker::LeavePath(MappingStep& step) {
+  step.closed_loop = true;
   submap_.Clear();
   seen_free_.Clear();
+  dead_reckoning_.Clear();
 }
 
 // What extends the map is what was seen, from where it was seen. Of a robot with several lasers the

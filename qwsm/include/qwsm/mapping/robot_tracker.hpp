@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "qwsm/mapping/dead_reckoning.hpp"
 #include "qwsm/mapping/free_space.hpp"
 #include "qwsm/mapping/gyro_odometry.hpp"
 #include "qwsm/mapping/laser_turns.hpp"
@@ -67,6 +68,15 @@ class RobotTracker {
                          const Observation& observation,
                          std::span<const ScanPoint> points,
                          const UncertainPose2& predicted) const;
+  bool DropFailedOdometry(const ScanMap& map,
+                          const Observation& observation,
+                          std::span<const ScanPoint> points,
+                          PosePrediction& last_robot,
+                          MappingStep& step) const;
+  bool CatchUpWithOdometry(const ScanMap& map,
+                           std::span<const ScanPoint> points,
+                           const UncertainPose2& last_robot,
+                           MappingStep& step) const;
   void Judge(const ScanMap& map,
              std::span<const ScanPoint> points,
              const Eigen::Matrix3d& motion_covariance,
@@ -79,6 +89,7 @@ class RobotTracker {
                  const LaserScan& scan,
                  std::span<const ScanPoint> points,
                  MappingStep& step);
+  void LeavePath(MappingStep& step);
   void Remember(const Observation& observation, const MappingStep& step, bool has_moved_on);
   void LearnTurn(const MappingStep& step);
   void Extend(bool extends,
@@ -98,6 +109,7 @@ class RobotTracker {
   GyroOdometry gyro_;
   MotionModel motion_;
   ScanLocator locator_;
+  DeadReckoning dead_reckoning_;
   LaserTurns lasers_;
   LoopDetector loop_detector_;
   LocalSubmap submap_;
