@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
@@ -23,6 +24,7 @@
 #include "service/config/scenario_file.hpp"
 #include "service/team/service/team_service.hpp"
 #include "sim/simulation.hpp"
+#include "tests/support/parted_drive.hpp"
 
 namespace qwsm::team {
 namespace {
@@ -58,12 +60,23 @@ struct Fate {
   std::vector<double> errors_m;
 };
 
-std::vector<sim::Reading> Drive(const std::string& scenario,
-                                int seed,
-                                const std::string& duration) {
-  sim::Simulation simulation(config::LoadOptions<sim::ScenarioOptions>(
-      {.file = config::FindScenario(scenario),
-       .settings = {"seed=" + std::to_string(seed), "duration_s=" + duration}}));
+sim::ScenarioOptions Scenario(const std::string& name, int seed, const std::string& duration) {
+  return config::LoadOptions<sim::ScenarioOptions>(
+      {.file = config::FindScenario(name),
+       .settings = {"seed=" + std::to_string(seed), "duration_s=" + duration}});
+}
+
+// A scenario, or one drive in parts.
+std::vector<sim::Reading> Drive(const std::string& drive, int seed, const std::string& duration) {
+  const std::size_t at = drive.find('@');
+  if (at != std::string::npos) {
+    const std::string whole = drive.substr(0, at);
+    const int robots = std::stoi(drive.substr(at + 1));
+    return std::filesystem::exists(whole)
+               ? test::PartedLog(whole, robots)
+               : test::PartedDrive(Scenario(whole, seed, duration), robots);
+  }
+  sim::Simulation simulation(Scenario(drive, seed, duration));
   std::vector<sim::Reading> readings;
   while (std::optional<sim::Reading> reading = simulation.Next()) {
     readings.push_back(std::move(*reading));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 #include <vector>
 
@@ -32,24 +33,28 @@ class MapAgreement {
   Judgement Judge(const ScanMap& a, const ScanMap& b, const UncertainPose2& a_b) const;
 
  private:
-  // Where a scan of one map was found in the other.
+  // By how much a scan of one map is found off in the other, in axes of the other.
   struct Pair {
-    Pose2 T_a_scan;
-    MatchResult match;
+    Pose2 T_map_scan;  // As predicted.
+    Eigen::Vector3d off;
+    Eigen::Matrix3d information;
   };
   // What becomes of points about which a map knows something, each of which tells what no other
   // does.
   struct Fates {
-    double known = 0.0;
+    double explained = 0.0;
     double seen_through = 0.0;
     std::vector<Pair> pairs;
-    void Add(const Fates& other);
+    void Add(const Fates& other, double share);
   };
 
   Fates FatesOf(std::span<const RelevantScan* const> scans,
                 const ScanMap& map,
                 const UncertainPose2& map_scans) const;
-  static UncertainPose2 Fit(const UncertainPose2& a_b, std::span<const Pair> pairs);
+  static Pair PairOf(const Pose2& T_map_scan, const MatchResult& match);
+  static UncertainPose2 Fit(const UncertainPose2& a_b,
+                            std::span<const Pair> b_in_a,
+                            std::span<const Pair> a_in_b);
 
   ScanLocator locator_;
   FreeSpaceOptions free_space_;

@@ -10,25 +10,19 @@ namespace qwsm::team {
 namespace {
 
 // A map that has grown by no more than this is searched as it was.
-constexpr double kGrown = 1.1;
+constexpr double kOutgrown = 1.1;
 
 // A robot that was told where it is is judged by this many of its scans, and twice as many, if
 // these do not tell.
 constexpr std::size_t kScansToJudge = 5;
 
-// That two maps look alike is known by then. Wrong once in a hundred places that do.
-constexpr double kSureNats = 4.6;
+// Places of at least this probability, as a robot sees it, are weighed by all that is mapped.
+constexpr double kWorthALook = 0.1;
+// Who was told where it is is there beyond doubt.
+constexpr double kConfirmedNats = 4.6;
 // Who was told where it is is taken out of the map only where that is beyond doubt: once in ten
 // thousand millions. Maps of robots that drift contradict each other a little, too.
-constexpr double kRefutedNats = -23.0;
-
-ComponentPlace TheOtherWayRound(const ComponentPlace& place) {
-  return {.from = place.into,
-          .from_name = place.into_name,
-          .into = place.from,
-          .into_name = place.from_name,
-          .into_from = Inverse(place.into_from)};
-}
+constexpr double kMisplacedNats = -23.0;
 
 }  // namespace
 
@@ -48,7 +42,7 @@ std::optional<ComponentPlace> MapMerger::LookAround(const std::vector<MapCompone
     for (const MapComponent& other : components) {
       if (stop.stop_requested()) return std::nullopt;
       if (other.map == sighting.component.map) continue;
-      if (const auto found = LookFor(robot, sighting, other)) return found;
+      if (const auto found = LookFor(robot, sighting, other, stop)) return found;
     }
   }
   return std::nullopt;
@@ -56,30 +50,51 @@ std::optional<ComponentPlace> MapMerger::LookAround(const std::vector<MapCompone
 
 std::optional<ComponentPlace> MapMerger::LookFor(const std::string& robot,
                                                  const Sighting& sighting,
-                                                 const MapComponent& other) {
-  const Chart& into = ChartOf(other);
-  const auto [known, is_new] = searches_.try_emplace(
-      {robot, other.name}, Search{sighting.version, into.version, PlaceFinder(options_)});
-  Search& search = known->second;
-  if (search.from != sighting.version || search.into != into.version) {
-    search = {sighting.version, into.version, PlaceFinder(options_)};
-  }
-  const std::optional<Pose2> T_from_looked = search.finder.T_local_looked();
+                                                 const MapComponent& other,
+                                                 const std::stop_token& stop) {
+  const Chart& own = ChartOf(sighting.component);
+  const Chart& there = ChartOf(other);
+  if (own.version != sighting.version) return std::nullopt;  // Corrected since.
+  Search& search = SearchBy(robot, sighting, other, there);
+  const std::optional<Pose2> T_own_looked = search.finder.T_local_looked();
   const PlaceBelief& belief =
-      search.finder.Look(into.map, sighting.points, sighting.map_robot.T_a_b);
-  const bool has_looked = search.finder.T_local_looked() != T_from_looked;
-  if (!has_looked || belief.verdict != PlaceVerdict::kFound) return std::nullopt;
-  const UncertainPose2 robot_from{.T_a_b = sighting.map_robot.T_a_b.Inverse()};
-  ComponentPlace place{.from = sighting.version,
-                       .from_name = sighting.component.name,
-                       .into = into.version,
-                       .into_name = other.name,
-                       .into_from = belief.places.front().map_robot * robot_from};
-  const MapAgreement::Judgement judged =
-      agreement_.Judge(into.map, ChartOf(sighting.component).map, place.into_from);
-  if (judged.nats < kSureNats) return std::nullopt;
-  place.into_from = judged.a_b;
-  return place.into_name < place.from_name ? place : TheOtherWayRound(place);
+      search.finder.Look(there.map, sighting.points, sighting.map_robot.T_a_b);
+  if (search.finder.T_local_looked() == T_own_looked) return std::nullopt;
+
+  const bool is_into_own = sighting.component.name < other.name;
+  JointCandidates& candidates = candidates_[std::minmax(sighting.component.name, other.name)];
+  for (const Place& place : belief.places) {
+    if (place.probability < kWorthALook) break;
+    const UncertainPose2 robot_own{.T_a_b = sighting.map_robot.T_a_b.Inverse()};
+    const UncertainPose2 other_own = place.map_robot * robot_own;
+    if (is_into_own) {
+      candidates.Propose(Inverse(other_own), place.map_robot.T_a_b);
+    } else {
+      candidates.Propose(other_own, sighting.map_robot.T_a_b);
+    }
+  }
+  const Chart& into = is_into_own ? own : there;
+  const Chart& from = is_into_own ? there : own;
+  const auto into_from = candidates.Decide(agreement_, into.map, from.map, stop);
+  if (!into_from) return std::nullopt;
+  return ComponentPlace{.from = from.version,
+                        .from_name = is_into_own ? other.name : sighting.component.name,
+                        .into = into.version,
+                        .into_name = is_into_own ? sighting.component.name : other.name,
+                        .into_from = *into_from};
+}
+
+MapMerger::Search& MapMerger::SearchBy(const std::string& robot,
+                                       const Sighting& sighting,
+                                       const MapComponent& other,
+                                       const Chart& chart) {
+  const auto [known, is_new] = searches_.try_emplace(
+      {robot, other.name}, Search{sighting.version, chart.version, PlaceFinder(options_)});
+  Search& search = known->second;
+  if (search.from != sighting.version || search.into != chart.version) {
+    search = {sighting.version, chart.version, PlaceFinder(options_)};
+  }
+  return search;
 }
 
 void MapMerger::HearPlaceOf(std::string_view robot) {
@@ -96,8 +111,8 @@ std::optional<MisplacedRobot> MapMerger::FindMisplaced(
       const MapVersion version = component.map->version();
       const double nats = NatsOfPlace(component.map->Scans(), robot);
       const std::lock_guard lock(mutex_);
-      const bool is_refuted = nats < kRefutedNats;
-      if (is_refuted || nats > kSureNats) {
+      const bool is_refuted = nats < kMisplacedNats;
+      if (is_refuted || nats > kConfirmedNats) {
         told_.erase(robot);
       } else {
         told_[robot] = 2 * scans_of_robot;
@@ -141,7 +156,7 @@ const MapMerger::Chart& MapMerger::ChartOf(const MapComponent& component) {
   const MapVersion version = component.map->VersionOf(*contents);
   Chart& chart = charts_[component.name];
   const auto size = static_cast<double>(contents->map.scans().size());
-  const bool has_grown = size > kGrown * static_cast<double>(chart.map.scans().size());
+  const bool has_grown = size > kOutgrown * static_cast<double>(chart.map.scans().size());
   if (has_grown || chart.version != version) {
     chart.version = version;
     chart.map = contents->map;
@@ -155,6 +170,9 @@ void MapMerger::ForgetWhatIsNone(const std::vector<MapComponent>& components) {
            std::ranges::find(components, name, &MapComponent::name) != components.end();
   };
   std::erase_if(charts_, [&](const auto& chart) { return !is_one(chart.first); });
+  std::erase_if(candidates_, [&](const auto& known) {
+    return !is_one(known.first.first) || !is_one(known.first.second);
+  });
   std::erase_if(searches_, [&](const auto& search) { return !is_one(search.first.second); });
   const std::lock_guard lock(mutex_);
   std::erase_if(sightings_, [&](const auto& seen) {

@@ -15,6 +15,7 @@
 #include "qwsm/mapping/mapper_options.hpp"
 #include "qwsm/mapping/place_finder.hpp"
 #include "qwsm/sensor/scan_points.hpp"
+#include "service/team/atlas/joint_candidates.hpp"
 #include "service/team/atlas/map_agreement.hpp"
 #include "service/team/atlas/team_atlas.hpp"
 
@@ -76,7 +77,12 @@ class MapMerger {
   const Chart& ChartOf(const MapComponent& component);
   std::optional<ComponentPlace> LookFor(const std::string& robot,
                                         const Sighting& sighting,
-                                        const MapComponent& other);
+                                        const MapComponent& other,
+                                        const std::stop_token& stop);
+  Search& SearchBy(const std::string& robot,
+                   const Sighting& sighting,
+                   const MapComponent& other,
+                   const Chart& chart);
   void ForgetWhatIsNone(const std::vector<MapComponent>& components);
 
   const MapperOptions options_;
@@ -89,6 +95,8 @@ class MapMerger {
   // Whoever looks around alone uses these.
   std::map<std::string, Chart> charts_;                             // By component.
   std::map<std::pair<std::string, std::string>, Search> searches_;  // By robot and component.
+  // By the component that another one may lie in, and that one: the lesser name first.
+  std::map<std::pair<std::string, std::string>, JointCandidates> candidates_;
 };
 
 }  // namespace qwsm::team

@@ -83,7 +83,7 @@ void TeamService::Stop() {
 // The thread beside gives way to all others: nobody is to wait for it.
 void TeamService::WaitUntilIdle() {
   host_.WaitUntilIdle();
-  if (!merging_) MergeMaps({});
+  if (options_.team.map == MapSharing::kTeam && !merging_) MergeMaps({});
 }
 
 // In the background, however long it takes.

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/team/atlas/joint_candidates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+
+namespace qwsm::team {
+namespace {
+
+// A place is the right one if it is not one that only looks alike, wrong once in twenty of these,
+// and if no other one comes near, wrong once in a hundred.
+constexpr double kSureNats = 3.0;
+constexpr double kLeadNats = 4.6;
+// A place is weighed again once the maps have grown by so much, unless it has been refuted.
+constexpr double kGrown = 1.1;
+constexpr double kRefutedNats = -9.2;
+// Places so near to each other are the same one.
+constexpr double kOnePlace_m = 1.0;
+constexpr double kOnePlace_rad = 0.2;
+constexpr std::size_t kMostCandidates = 20;
+
+}  // namespace
+
+bool JointCandidates::IsSamePlace(const Candidate& one, const Candidate& other) {
+  const Pose2 apart =
+      (one.a_b.T_a_b * other.T_b_robot).Inverse() * (other.a_b.T_a_b * other.T_b_robot);
+  return apart.translation_m().norm() < kOnePlace_m && std::abs(apart.theta_rad) < kOnePlace_rad;
+}
+
+void JointCandidates::Propose(const UncertainPose2& a_b, const Pose2& T_b_robot) {
+  const Candidate proposed{.a_b = a_b, .T_b_robot = T_b_robot};
+  const bool is_known = std::ranges::any_of(
+      candidates_, [&](const Candidate& known) { return IsSamePlace(known, proposed); });
+  if (!is_known) candidates_.push_back(proposed);
+}
+
+std::optional<UncertainPose2> JointCandidates::Decide(const MapAgreement& agreement,
+                                                      const ScanMap& a,
+                                                      const ScanMap& b,
+                                                      const std::stop_token& stop) {
+  const std::size_t scans = a.scans().size() + b.scans().size();
+  for (Candidate& candidate : candidates_) {
+    const bool has_grown =
+        static_cast<double>(scans) > kGrown * static_cast<double>(candidate.scans);
+    if (!has_grown || candidate.nats < kRefutedNats) continue;
+    if (stop.stop_requested()) return std::nullopt;
+    const MapAgreement::Judgement judged = agreement.Judge(a, b, candidate.a_b);
+    candidate = {judged.a_b, candidate.T_b_robot, judged.nats, scans};
+  }
+  KeepBest();
+  if (candidates_.empty() || candidates_.front().nats < kSureNats) return std::nullopt;
+  const Candidate& best = candidates_.front();
+  const bool leads = candidates_.size() == 1 || best.nats - candidates_[1].nats >= kLeadNats;
+  if (!leads) return std::nullopt;
+  return agreement.Judge(a, b, best.a_b).a_b;  // Pairs are better ones where it has been fitted.
+}
+
+// Places that have come together are one.
+void JointCandidates::KeepBest() {
+  std::ranges::stable_sort(candidates_, std::ranges::greater{}, &Candidate::nats);
+  std::vector<Candidate> kept;
+  for (const Candidate& one : candidates_) {
+    const bool is_known = std::ranges::any_of(
+        kept, [&](const Candidate& better) { return IsSamePlace(better, one); });
+    if (!is_known && kept.size() < kMostCandidates) kept.push_back(one);
+  }
+  candidates_ = std::move(kept);
+}
+
+}  // namespace qwsm::team

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "qwsm/mapping/scan_map.hpp"
+#include "service/team/atlas/map_agreement.hpp"
+
+namespace qwsm::team {
+
+/// The places where one component of a team's map may lie in another one. Robots that look around
+/// propose them; what decides is all that both maps show there, and they show more of it as they
+/// grow.
+class JointCandidates {
+ public:
+  /// Takes a place that a robot thought of. @param T_b_robot where the robot was.
+  void Propose(const UncertainPose2& a_b, const Pose2& T_b_robot);
+
+  /// Weighs all places anew of which the maps may show more than they did.
+  /// @return the place where the two lie beyond doubt, leading all others.
+  std::optional<UncertainPose2> Decide(const MapAgreement& agreement,
+                                       const ScanMap& a,
+                                       const ScanMap& b,
+                                       const std::stop_token& stop);
+
+ private:
+  struct Candidate {
+    UncertainPose2 a_b;
+    Pose2 T_b_robot;        // Who proposed it; turns about there move little of what was seen.
+    double nats = 0.0;      // Evidence for it, against its being a place that looks alike.
+    std::size_t scans = 0;  // Of both maps, when it was weighed.
+  };
+
+  static bool IsSamePlace(const Candidate& one, const Candidate& other);
+  void KeepBest();
+
+  std::vector<Candidate> candidates_;  // The best one first.
+};
+
+}  // namespace qwsm::team
