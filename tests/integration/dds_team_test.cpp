@@ -6,9 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/support/network.hpp"
 
@@ -20,20 +23,24 @@ class DdsTeam : public ::testing::Test {
   std::string Path(const std::string& name) const { return folder_.path() / name; }
 
   /// The simulator takes the network as `--network`, for `--set` is of the scenario.
-  Outcome Simulate(const std::string& scenario, const std::string& duration_s) const {
-    return RunProgram({"sim",
-                       scenario,
-                       "--duration",
-                       duration_s,
-                       "--output",
-                       Path("driven"),
-                       "--quiet",
-                       "--dds",
-                       "--wait-for-answers",
-                       "--network",
-                       "interface=lo",
-                       "--network",
-                       "tag=" + network_.tag()});
+  Outcome Simulate(const std::string& scenario,
+                   const std::string& duration_s,
+                   const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments{"sim",
+                                       scenario,
+                                       "--duration",
+                                       duration_s,
+                                       "--output",
+                                       Path("driven"),
+                                       "--quiet",
+                                       "--dds",
+                                       "--wait-for-answers",
+                                       "--network",
+                                       "interface=lo",
+                                       "--network",
+                                       "tag=" + network_.tag()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return RunProgram(arguments);
   }
 
   TemporaryFolder folder_;
@@ -57,6 +64,34 @@ TEST_F(DdsTeam, FindsAllRobotsOfTheSimulatorInTheFrameOfTheWorld) {
                                          "0.1"});
     EXPECT_EQ(compared.exit_code, 0) << robot << compared.output << compared.errors;
   }
+}
+
+// Looks for robots take their time: a tenth of it is left to them.
+TEST_F(DdsTeam, FindsRobotsThatDoNotSayWhereTheyStart) {
+  Daemon service(network_.JoinService({"serve", "--output", Path("served"), "--verbose"}));
+  ASSERT_TRUE(service.WaitUntilItSays("serving as"));
+  const Outcome driven = Simulate("team_unknown", "100", {"--seed", "3", "--speed", "10"});
+  ASSERT_EQ(driven.exit_code, 0) << driven.errors;
+  const Outcome served = service.End();
+  ASSERT_EQ(served.exit_code, 0) << served.errors;
+  const auto last_pose = [this](const std::string& file) {
+    std::istringstream lines(ReadFile(Path(file)));
+    std::string last;
+    for (std::string line; std::getline(lines, line);) last = line;
+    std::istringstream numbers(last);
+    double stamp_s = 0.0;
+    double x_m = 0.0;
+    double y_m = 0.0;
+    numbers >> stamp_s >> x_m >> y_m;
+    return std::pair(x_m, y_m);
+  };
+  for (const std::string robot : {"robot_1", "robot_2", "robot_3", "robot_4"}) {
+    const auto [x_m, y_m] = last_pose("served/" + robot + "/trajectory.tum");
+    const auto [true_x_m, true_y_m] = last_pose("driven/" + robot + ".truth.tum");
+    EXPECT_LT(std::hypot(x_m - true_x_m, y_m - true_y_m), 0.2) << robot << '\n' << served.errors;
+  }
+  EXPECT_NE(served.errors.find("robot_2: begins a map of its own"), std::string::npos)
+      << served.errors;
 }
 
 TEST_F(DdsTeam, IsWatchedAtAGlance) {
