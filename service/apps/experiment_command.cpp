@@ -110,9 +110,12 @@ Command AddExperimentCommand(CLI::App& program) {
       "  qwsm experiment corridor --seeds 3 -o corridor   figures and tables in corridor/\n"
       "  qwsm experiment park --set ground.everywhere=floor --set mapper.min_overlap=0.4");
   parser
-      ->add_option("SCENARIO",
-                   arguments->scenario.scenario,
-                   "a YAML file, or park, corridor, office, rubble, campus, team or joystick")
+      ->add_option(
+          "SCENARIO",
+          arguments->scenario.scenario,
+          "a YAML file, or park, corridor, office, rubble, campus, joystick, team or one of its "
+          "variants: team_unknown, team_wrong, team_late, team_carried, team_wings, "
+          "team_corridor, team_campus")
       ->required()
       ->type_name("");
   AddResultArguments(*parser, arguments->run, "the figures as JSON on standard output");

@@ -88,7 +88,8 @@ class NetworkTeam {
     if (arguments.view) ShowLive(arguments);
     const auto pace = arguments.wait_for_answers ? NetworkPace::kAnswers : NetworkPace::kFree;
     for (std::size_t i = 0; i < simulation.robots().size(); ++i) {
-      robots_.push_back(std::make_unique<NetworkRobot>(participant_, simulation, i, pace, arguments.view));
+      robots_.push_back(
+          std::make_unique<NetworkRobot>(participant_, simulation, i, pace, arguments.view));
     }
     if (arguments.wait_for_answers) WaitForService();
   }
@@ -209,9 +210,12 @@ Command AddSimCommand(CLI::App& program) {
       "  qwsm sim team --view                         and seen at http://localhost:8765/\n"
       "  qwsm sim park --dds --wait-for-answers       as fast as 'qwsm serve' can map it");
   parser
-      ->add_option("SCENARIO",
-                   arguments->scenario.scenario,
-                   "a YAML file, or park, corridor, office, rubble, campus, team or joystick")
+      ->add_option(
+          "SCENARIO",
+          arguments->scenario.scenario,
+          "a YAML file, or park, corridor, office, rubble, campus, joystick, team or one of "
+          "its variants: team_unknown, team_wrong, team_late, team_carried, team_wings, "
+          "team_corridor, team_campus")
       ->required()
       ->type_name("");
   parser

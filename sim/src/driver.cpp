@@ -56,6 +56,16 @@ double Driver::share_done() const {
   return total == 0 ? 0.0 : static_cast<double>(passed_) / static_cast<double>(total);
 }
 
+qwsm::Pose2 Driver::PoseAhead(std::size_t waypoints) const {
+  assert(FollowsWaypoints(options_.kind) && "there is a way");
+  const std::size_t index = IndexAhead(waypoints);
+  const auto at = [this](std::size_t i) { return route_[i % route_.size()].position_m(); };
+  const bool is_last = index + 1 == LastIndex();
+  const Eigen::Vector2d leg_m =
+      is_last ? at(index) - at(index + route_.size() - 1) : at(index + 1) - at(index);
+  return {at(index).x(), at(index).y(), std::atan2(leg_m.y(), leg_m.x())};
+}
+
 VelocityCommand Driver::PlayBack(qwsm::Timestamp now) {
   const std::vector<TimedCommandOptions>& commands = options_.commands;
   while (passed_ < commands.size() && ToTimestamp(commands[passed_].start_s) <= now) ++passed_;
@@ -66,7 +76,7 @@ VelocityCommand Driver::PlayBack(qwsm::Timestamp now) {
 }
 
 VelocityCommand Driver::Follow(const DriverView& view) {
-  const std::size_t last = route_.size() * static_cast<std::size_t>(options_.laps);
+  const std::size_t last = LastIndex();
   const Eigen::Vector2d p_world_robot = view.T_world_robot.translation_m();
   const auto goal = [&] { return route_[passed_ % route_.size()].position_m(); };
   while (passed_ < last && (goal() - p_world_robot).norm() < options_.arrival_m) ++passed_;

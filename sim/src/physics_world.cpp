@@ -216,6 +216,14 @@ BodyId PhysicsWorld::AddLoose(const Outline& outline,
   return id;
 }
 
+void PhysicsWorld::Put(BodyId id, const qwsm::Pose2& T_world_body) {
+  b2Body& body = implementation_->Body(id);
+  body.SetTransform(ToBox2D(T_world_body.translation_m()),
+                    static_cast<float>(T_world_body.theta_rad));
+  body.SetLinearVelocity({0.0F, 0.0F});
+  body.SetAngularVelocity(0.0F);
+}
+
 qwsm::Pose2 PhysicsWorld::PoseOf(BodyId id) const {
   const b2Body& body = implementation_->Body(id);
   const Eigen::Vector2d position_m = FromBox2D(body.GetPosition());

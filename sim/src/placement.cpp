@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "placement.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <utility>
 
 namespace sim {
@@ -19,7 +22,10 @@ bool TakesRouteOfLayout(const DriverOptions& driver) {
 RobotPlacement PlacementOf(const ScenarioOptions& scenario, const Place& place, std::size_t robot) {
   const RobotOptions& options = scenario.robots[robot];
   if (TakesRouteOfLayout(options.driver)) {
-    const Route& route = place.routes[robot % place.routes.size()];
+    const Route& whole = place.routes[robot % place.routes.size()];
+    const auto passed = std::lround(options.start_on_route * static_cast<double>(whole.size()));
+    const auto last_leg = static_cast<std::ptrdiff_t>(whole.size()) - 2;
+    const Route route(whole.begin() + std::min<std::ptrdiff_t>(passed, last_leg), whole.end());
     return {.options = options, .T_world_robot = StartOf(route), .route = route};
   }
   return {.options = options,

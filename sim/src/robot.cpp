@@ -31,7 +31,17 @@ double FreeAlong(const PhysicsWorld& world,
   return free_m;
 }
 
+bool IsPast(qwsm::Timestamp now, double time_s) {
+  return now >= std::chrono::round<qwsm::Timestamp>(std::chrono::duration<double>(time_s));
+}
+
 }  // namespace
+
+qwsm::Pose2 ToldStart(const RobotOptions& options, const qwsm::Pose2& T_world_start) {
+  return {T_world_start.x_m + options.told_start_off_x_m,
+          T_world_start.y_m + options.told_start_off_y_m,
+          qwsm::NormalizeAngle(T_world_start.theta_rad + options.told_start_off_heading_rad)};
+}
 
 qwsm::Observation ObservationOf(const Reading& reading) {
   const bool has_skew = reading.scan.sweep.count() > 0;
@@ -59,13 +69,27 @@ void Robot::Drive(PhysicsWorld& world,
                   const Ground& ground,
                   qwsm::Timestamp now,
                   std::chrono::nanoseconds step) {
+  CarryIfDue(world, now);
   const qwsm::Pose2 T_world_robot = world.PoseOf(body_);
   const DriverView view{.now = now,
                         .T_world_robot = T_world_robot,
                         .free_ahead_m = FreeAlong(world, body_, options_, 0.0),
                         .free_behind_m = FreeAlong(world, body_, options_, std::numbers::pi)};
-  drive_.Drive(driver_.Decide(view), step);
+  const bool has_joined = IsPast(now, options_.joins_at_s);
+  drive_.Drive(has_joined ? driver_.Decide(view) : VelocityCommand{}, step);
   world.Apply(body_, drive_.Push(ground, T_world_robot, world.TwistOf(body_), step));
+}
+
+void Robot::CarryIfDue(PhysicsWorld& world, qwsm::Timestamp now) {
+  if (times_carried_ == options_.carried.size()) return;
+  const CarriedOptions& carried = options_.carried[times_carried_];
+  if (!IsPast(now, carried.at_s)) return;
+  const auto waypoints = static_cast<std::size_t>(carried.waypoints);
+  const qwsm::Pose2 T_world_there = driver_.PoseAhead(waypoints);
+  if (world.IsOccupied(Rectangle{options_.length_m, options_.width_m}, T_world_there)) return;
+  world.Put(body_, T_world_there);
+  driver_.GoOnAhead(waypoints);
+  ++times_carried_;
 }
 
 void Robot::Advance(const PhysicsWorld& world, std::chrono::nanoseconds step) {
@@ -98,7 +122,8 @@ void Robot::EndScan(qwsm::LaserScan scan, qwsm::Timestamp now, Reading& reading)
   reading.T_first_last = {share * motion.x_m, share * motion.y_m, share * motion.theta_rad};
 }
 
-void Robot::Mount(const LaserOptions& options, std::uint64_t seed) {
+void Robot::Mount(LaserOptions options, std::uint64_t seed) {
+  options.first_scan_s += options_.joins_at_s;
   lasers_.push_back({.options = options, .laser = Laser(options, seed)});
   lasers_.back().reading.laser = lasers_.size() - 1;
 }

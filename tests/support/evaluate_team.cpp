@@ -1,13 +1,19 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// How soon and how rightly robots that nobody placed are found in their team's map:
+// How soon and how rightly robots of which nobody knows where they are are found in their team's
+// map:
 //
 //   evaluate_team SCENARIO FIRST_SEED LAST_SEED DURATION_S
 //
-// The first robot is told where it starts, the others are not. Prints a line for each robot: how
-// far it and another one that it was found with had driven, until then, where both had been; how
-// far off it was then; and its error afterwards, beside that of a run in which all were told.
+// SCENARIO is team, or what one of its variants is called after that: unknown, wrong, late,
+// carried, wings, corridor, campus; or a file. Robots are told where they start as the scenario has
+// it. A scenario or a recorded log with `@3` behind it is one drive in three parts, each driven by
+// another robot at the same time, of which only the first one is told where it starts. Prints a
+// line for each robot that was apart for a while, or is astray in the end: how far it had driven,
+// until it was found, where the robots that it was found with had been; how far off it was then;
+// how many of its answers in the team's map were farther off than half a metre; and its error in
+// that map, beside that of a run in which all were told rightly.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -54,34 +60,58 @@ struct Fate {
   double way_m = 0.0;
   std::map<std::size_t, double> in_common_m;  // With other robots, while they were apart.
   double found_in_common_m = 0.0;  // The most of those with whom it was found, or is not.
-  bool is_found = false;
-  double found_off_m = 0.0;
-  std::vector<std::size_t> steps;  // When it was in the team's map.
+  bool was_apart = false;
+  bool is_apart = false;
+  int times_lost = 0;
+  double found_off_m = 0.0;               // The worst time.
+  bool is_beside_others_wrongly = false;  // In a component that is not the team's map.
+  std::vector<std::size_t> steps;         // When it was in the team's map.
   std::vector<double> errors_m;
 };
 
-sim::ScenarioOptions Scenario(const std::string& name, int seed, const std::string& duration) {
+/// What robots measure, and what they say of where they start.
+struct Drive {
+  std::vector<sim::RobotOptions> robots;
+  std::vector<sim::Reading> readings;
+};
+
+// The variants of `team` are known by what is special of them, too.
+std::string FileOf(const std::string& scenario) {
+  if (scenario == "team" || scenario.find('.') != std::string::npos) return scenario;
+  return "team_" + scenario;
+}
+
+sim::ScenarioOptions Load(const std::string& scenario, int seed, const std::string& duration) {
   return config::LoadOptions<sim::ScenarioOptions>(
-      {.file = config::FindScenario(name),
+      {.file = config::FindScenario(scenario),
        .settings = {"seed=" + std::to_string(seed), "duration_s=" + duration}});
 }
 
-// A scenario, or one drive in parts.
-std::vector<sim::Reading> Drive(const std::string& drive, int seed, const std::string& duration) {
-  const std::size_t at = drive.find('@');
-  if (at != std::string::npos) {
-    const std::string whole = drive.substr(0, at);
-    const int robots = std::stoi(drive.substr(at + 1));
-    return std::filesystem::exists(whole)
-               ? test::PartedLog(whole, robots)
-               : test::PartedDrive(Scenario(whole, seed, duration), robots);
-  }
-  sim::Simulation simulation(Scenario(drive, seed, duration));
-  std::vector<sim::Reading> readings;
+Drive DriveOf(const sim::ScenarioOptions& scenario) {
+  sim::Simulation simulation(scenario);
+  Drive drive{.robots = scenario.robots, .readings = {}};
   while (std::optional<sim::Reading> reading = simulation.Next()) {
-    readings.push_back(std::move(*reading));
+    drive.readings.push_back(std::move(*reading));
   }
-  return readings;
+  return drive;
+}
+
+// Of the robots that drive a part each only the first one says where it starts.
+Drive PartsOf(const std::string& whole, int robots, int seed, const std::string& duration) {
+  Drive drive{.robots = std::vector<sim::RobotOptions>(static_cast<std::size_t>(robots)),
+              .readings = std::filesystem::exists(whole)
+                              ? test::PartedLog(whole, robots)
+                              : test::PartedDrive(Load(whole, seed, duration), robots)};
+  for (std::size_t robot = 1; robot < drive.robots.size(); ++robot) {
+    drive.robots[robot].tells_start = false;
+  }
+  return drive;
+}
+
+Drive DriveOf(const std::string& name, int seed, const std::string& duration) {
+  const std::size_t at = name.find('@');
+  if (at == std::string::npos) return DriveOf(Load(FileOf(name), seed, duration));
+  return PartsOf(name.substr(0, at), std::stoi(name.substr(at + 1)), seed, duration);
 }
 
 bool WasNear(const Fate& other, const Eigen::Vector2d& p_m) {
@@ -90,25 +120,26 @@ bool WasNear(const Fate& other, const Eigen::Vector2d& p_m) {
   });
 }
 
+/// A team's service that is given what robots measure.
 class Trial {
  public:
-  explicit Trial(bool tells_starts)
-      : tells_starts_(tells_starts), service_(Options(), SinkList<TeamSink>(answers_)) {
+  /// @param are_told_rightly all of them, else as they are told in the scenario.
+  Trial(std::vector<sim::RobotOptions> robots, bool are_told_rightly)
+      : robots_(std::move(robots)),
+        are_told_rightly_(are_told_rightly),
+        service_(Options(), SinkList<TeamSink>(answers_)) {
     service_.Start();
   }
 
   void Take(const sim::Reading& reading, std::size_t step) {
     const std::string robot = NameOf(reading.robot);
-    const bool is_first = !fates_.contains(reading.robot);
+    if (!fates_.contains(reading.robot)) TellStart(reading);
     Fate& fate = fates_[reading.robot];
-    if (is_first && (reading.robot == 0 || tells_starts_)) {
-      service_.robots().PlaceAt(robot,
-                                UncertainPose2::WithSigmas(reading.T_world_robot, 1e-3, 1e-3));
-    }
     service_.robots().TakeOdometry(robot, reading.scan.stamp, reading.T_odom_robot);
     service_.robots().TakeScan(robot, reading.scan);
     service_.WaitUntilIdle();
-    Follow(reading, step, fate);
+    Follow(reading, fate);
+    Judge(reading, step, fate);
   }
 
   const std::map<std::size_t, Fate>& fates() const { return fates_; }
@@ -122,31 +153,65 @@ class Trial {
     return options;
   }
 
-  void Follow(const sim::Reading& reading, std::size_t step, Fate& fate) {
+  void TellStart(const sim::Reading& reading) {
+    const sim::RobotOptions& robot = robots_[reading.robot];
+    if (!are_told_rightly_ && !robot.tells_start) return;
+    const Pose2 told =
+        are_told_rightly_ ? reading.T_world_robot : sim::ToldStart(robot, reading.T_world_robot);
+    service_.robots().PlaceAt(NameOf(reading.robot), UncertainPose2::WithSigmas(told, 1e-3, 1e-3));
+  }
+
+  /// Where it drives where others have been that are in another component.
+  void Follow(const sim::Reading& reading, Fate& fate) {
     const Eigen::Vector2d p_m = reading.T_world_robot.translation_m();
     const double way_m = fate.path_world_m.empty() ? 0.0 : (p_m - fate.path_world_m.back()).norm();
     fate.path_world_m.push_back(p_m);
     fate.way_m += way_m;
-    component_[reading.robot] = answers_.Of(NameOf(reading.robot)).component;
+    const RobotAnswer& answer = answers_.Of(NameOf(reading.robot));
+    component_[reading.robot] = answer.component;
+    T_component_world_[reading.robot] =
+        answer.step.map_robot.T_a_b * reading.T_world_robot.Inverse();
     for (auto& [other, of_other] : fates_) {
       if (component_[other] == component_[reading.robot] || !WasNear(of_other, p_m)) continue;
       fate.in_common_m[other] += way_m;
       of_other.in_common_m[reading.robot] += way_m;
     }
-    if (!component_[reading.robot].empty()) {
-      for (const auto& [other, with_m] : fate.in_common_m) {
-        fate.found_in_common_m = std::max(fate.found_in_common_m, with_m);
-      }
-      return;
-    }
+  }
+
+  void Judge(const sim::Reading& reading, std::size_t step, Fate& fate) {
+    const bool is_apart = !component_[reading.robot].empty();
+    const bool was_apart = std::exchange(fate.is_apart, is_apart);
+    if (is_apart) return JudgeApart(reading, fate, !was_apart && !fate.steps.empty());
     const Pose2 error =
         reading.T_world_robot.Inverse() * answers_.Of(NameOf(reading.robot)).step.map_robot.T_a_b;
-    if (!std::exchange(fate.is_found, true)) {
-      fate.found_off_m = error.translation_m().norm();
+    const double error_m = error.translation_m().norm();
+    if (was_apart) {
+      fate.found_off_m = std::max(fate.found_off_m, error_m);
       fate.found_in_common_m = MostInCommon(fate);
     }
     fate.steps.push_back(step);
-    fate.errors_m.push_back(error.translation_m().norm());
+    fate.errors_m.push_back(error_m);
+  }
+
+  void JudgeApart(const sim::Reading& reading, Fate& fate, bool is_lost) {
+    fate.was_apart = true;
+    if (is_lost) {
+      ++fate.times_lost;
+      fate.in_common_m.clear();
+      for (auto& [other, of_other] : fates_) of_other.in_common_m.erase(reading.robot);
+    }
+    fate.found_in_common_m = 0.0;
+    for (const auto& [other, with_m] : fate.in_common_m) {
+      fate.found_in_common_m = std::max(fate.found_in_common_m, with_m);
+    }
+    for (const auto& [other, T_component_world] : T_component_world_) {
+      if (component_[other] != component_[reading.robot]) continue;
+      const Pose2 T_map_robot = T_component_world * reading.T_world_robot;
+      const Eigen::Vector2d off_m =
+          T_map_robot.translation_m() -
+          answers_.Of(NameOf(reading.robot)).step.map_robot.T_a_b.translation_m();
+      if (off_m.norm() > kWrong_m) fate.is_beside_others_wrongly = true;
+    }
   }
 
   double MostInCommon(const Fate& fate) const {
@@ -157,11 +222,13 @@ class Trial {
     return most_m;
   }
 
-  const bool tells_starts_;
+  const std::vector<sim::RobotOptions> robots_;
+  const bool are_told_rightly_;
   LastAnswers answers_;
   TeamService service_;
   std::map<std::size_t, Fate> fates_;
   std::map<std::size_t, std::string> component_;
+  std::map<std::size_t, Pose2> T_component_world_;  // As the robot's last answer has it.
 };
 
 double Rms(const std::vector<double>& errors_m) {
@@ -189,36 +256,51 @@ struct Sum {
 
 void Print(int seed, std::size_t robot, const Fate& fate, const Fate& told, Sum& sum) {
   constexpr double kInTime_m = 10.0;
-  const bool is_wrong = fate.is_found && fate.found_off_m > kWrong_m;
-  const bool had_time = fate.is_found || fate.found_in_common_m > kInTime_m;
+  const bool is_found = fate.was_apart && !fate.is_apart;
+  const bool is_wrong = fate.found_off_m > kWrong_m || fate.is_beside_others_wrongly;
+  const bool had_time = is_found || fate.found_in_common_m > kInTime_m;
+  const auto astray =
+      std::ranges::count_if(fate.errors_m, [](double error_m) { return error_m > kWrong_m; });
   ++sum.robots;
-  sum.found += fate.is_found;
-  sum.with_enough_in_common += had_time;
-  sum.in_time += fate.is_found && fate.found_in_common_m <= kInTime_m;
-  sum.wrong += is_wrong;
-  std::printf("%d %s: drove %.1f m, %.1f m in common, %s, %.3f m off; rms %.4f m, told %.4f m%s\n",
-              seed,
-              NameOf(robot).c_str(),
-              fate.way_m,
-              fate.found_in_common_m,
-              fate.is_found ? "found" : "apart",
-              fate.found_off_m,
-              Rms(fate.errors_m),
-              RmsAt(told, fate.steps),
-              is_wrong ? " WRONG" : "");
+  sum.found += is_found ? 1 : 0;
+  sum.with_enough_in_common += had_time ? 1 : 0;
+  sum.in_time += is_found && fate.found_in_common_m <= kInTime_m ? 1 : 0;
+  sum.wrong += is_wrong ? 1 : 0;
+  std::printf(
+      "%d %s: drove %.1f m, lost %d times, %.1f m in common, %s, %.3f m off; %d answers "
+      "astray; rms %.4f m, told %.4f m%s\n",
+      seed,
+      NameOf(robot).c_str(),
+      fate.way_m,
+      fate.times_lost,
+      fate.found_in_common_m,
+      is_found        ? "found"
+      : fate.is_apart ? "apart"
+                      : "not noticed",
+      fate.found_off_m,
+      static_cast<int>(astray),
+      Rms(fate.errors_m),
+      RmsAt(told, fate.steps),
+      is_wrong ? " WRONG" : "");
   std::fflush(stdout);
 }
 
-void Evaluate(const std::string& scenario, int seed, const std::string& duration, Sum& sum) {
-  const std::vector<sim::Reading> readings = Drive(scenario, seed, duration);
-  Trial unknown(false);
-  Trial told(true);
-  for (std::size_t step = 0; step < readings.size(); ++step) {
-    unknown.Take(readings[step], step);
-    told.Take(readings[step], step);
+void Evaluate(const std::string& name, int seed, const std::string& duration, Sum& sum) {
+  const Drive drive = DriveOf(name, seed, duration);
+  Trial trial(drive.robots, false);
+  Trial told(drive.robots, true);
+  for (std::size_t step = 0; step < drive.readings.size(); ++step) {
+    trial.Take(drive.readings[step], step);
+    told.Take(drive.readings[step], step);
   }
-  for (const auto& [robot, fate] : unknown.fates()) {
-    if (robot > 0) Print(seed, robot, fate, told.fates().at(robot), sum);
+  for (const auto& [robot, fate] : trial.fates()) {
+    const bool is_astray = !fate.errors_m.empty() && fate.errors_m.back() > kWrong_m;
+    if (fate.was_apart || is_astray) Print(seed, robot, fate, told.fates().at(robot), sum);
+  }
+  for (const auto& [robot, fate] : told.fates()) {
+    if (!fate.was_apart) continue;
+    std::printf(
+        "%d %s: lost %d times where all are told\n", seed, NameOf(robot).c_str(), fate.times_lost);
   }
 }
 

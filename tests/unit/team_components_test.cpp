@@ -132,9 +132,89 @@ TEST(TeamComponents, TakeARobotOutOfTheMapThatWasToldItsStartWrongly) {
   Drive(service, "robot2", 30, 120);
   const RobotStatus status = StatusOf(service, "robot2");
   EXPECT_EQ(status.counts.answered, 120U);
-  EXPECT_TRUE(sink.HasEvent("robot2: is not where it was told: what it sees there, others do not"));
+  EXPECT_TRUE(sink.HasEvent("robot2: is lost: what it sees contradicts the map"));
   EXPECT_LT(ErrorAfter_m(status, 149), 0.05);
   EXPECT_EQ(service.MapOf("robot2"), service.MapOf("robot1"));
+}
+
+/// What a robot sees that was carried from where it was at one scan to where it is at another, and
+/// whose wheels did not turn meanwhile.
+Observation Carried(int scan, int from, int to) {
+  Observation observation = test::ObservationInRoom(scan - from + to);
+  observation.scan.stamp = test::ObservationInRoom(scan).scan.stamp;
+  observation.T_odom_robot =
+      test::PoseInRoom(from) * (test::PoseInRoom(to).Inverse() * *observation.T_odom_robot);
+  return observation;
+}
+
+void DriveCarried(TeamService& service, const std::string& robot, int from, int to, int count) {
+  for (int scan = from; scan < from + count; ++scan) {
+    const Observation observation = Carried(scan, from, to);
+    service.robots().TakeOdometry(robot, observation.scan.stamp, *observation.T_odom_robot);
+    EXPECT_TRUE(service.robots().TakeScan(robot, observation.scan));
+    service.WaitUntilIdle();
+  }
+}
+
+TEST(TeamComponents, AreBegunByARobotThatIsLost) {
+  test::RecordingSink sink;
+  TeamServiceOptions options = LosslessOptions();
+  const Pose2 start = test::PoseInRoom(30);
+  options.team.robots.push_back(
+      {.name = "robot2", .x_m = start.x_m, .y_m = start.y_m, .heading_rad = start.theta_rad});
+  TeamService service(options, sink);
+  service.Start();
+  Drive(service, "robot1", 0, 126);
+  Drive(service, "robot2", 30, 10);
+  EXPECT_EQ(sink.components("robot2"), std::vector<std::string>{""});
+  DriveCarried(service, "robot2", 40, 90, 100);
+  EXPECT_TRUE(sink.HasEvent("robot2: is lost: what it sees contradicts the map"));
+  EXPECT_EQ(sink.components("robot2"), (std::vector<std::string>{"", "robot2", ""}));
+  const std::vector<MappingStep> steps = sink.steps("robot2");
+  ASSERT_EQ(steps.size(), 110U);  // Each scan is answered, in one map or the other.
+  EXPECT_EQ(steps[9].status, StepStatus::kMatched);
+  const auto is_matched = [](const MappingStep& step) {
+    return step.status == StepStatus::kMatched;
+  };
+  const auto carried = steps.begin() + 10;
+  const auto lost =
+      std::ranges::find(carried, steps.end(), StepStatus::kLost, &MappingStep::status);
+  EXPECT_LT(lost - carried, 15);                         // A metre of way.
+  EXPECT_TRUE(std::none_of(carried, lost, is_matched));  // It is no guess.
+  EXPECT_EQ(steps.back().status, StepStatus::kMatched);
+  EXPECT_LT(ErrorAfter_m(StatusOf(service, "robot2"), 189), 0.05);
+  // Nothing that it saw stands where it did not see it.
+  for (const TeamScan& scan : service.MapOf("robot2")->Scans()) {
+    if (scan.key.robot != "robot2") continue;
+    const auto number = static_cast<int>(scan.scan.stamp / std::chrono::milliseconds(100));
+    const Pose2 truth = test::PoseInRoom(number < 40 ? number : number + 50);
+    EXPECT_LT((truth.Inverse() * scan.map_robot.T_a_b).translation_m().norm(), 0.05) << number;
+  }
+}
+
+// What it contradicts is its own map: that is mended as where its log is mapped, and in the same
+// way.
+TEST(TeamComponents, AreNotBegunByARobotAlone) {
+  test::RecordingSink sink;
+  TeamService service(LosslessOptions(), sink);
+  service.Start();
+  Drive(service, "robot1", 0, 40);
+  DriveCarried(service, "robot1", 40, 90, 30);
+  EXPECT_EQ(sink.components("robot1"), std::vector<std::string>{""});
+}
+
+// Who was told its start wrongly where nobody had been yet does no harm to who comes there later.
+TEST(TeamComponents, AreNotBegunByWhoSeesWhatAnotherOneHasPutInItsWay) {
+  test::RecordingSink sink;
+  TeamServiceOptions options = LosslessOptions();
+  options.team.robots.push_back({.name = "robot2", .x_m = 1.5, .y_m = 1.0, .heading_rad = 2.0});
+  TeamService service(options, sink);
+  service.Start();
+  Drive(service, "robot1", 0, 1);
+  Drive(service, "robot2", 30, 20);
+  Drive(service, "robot1", 1, 125);
+  EXPECT_EQ(sink.components("robot1"), std::vector<std::string>{""});
+  EXPECT_LT(ErrorAfter_m(StatusOf(service, "robot1"), 125), 0.05);
 }
 
 TEST(TeamComponents, AreNoneWhereEachRobotHasAMap) {

@@ -2,15 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "qwsm/mapping/localizer.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace qwsm {
 namespace {
-
-constexpr double kWeighSpacing_m = 0.15;
-constexpr double kBetweenWeighings_m = 0.5;
-constexpr double kPartedNats = -23.0;  // One in ten thousand millions: a robot in doubt is tracked.
 
 MapperOptions Extending(MapperOptions options) {
   options.extend_map = true;
@@ -26,7 +21,7 @@ Localizer::Localizer(const MapperOptions& options,
       map_(std::move(map)),
       tracker_(options),
       finder_(options),
-      evidence_(options.free_space) {
+      watch_(options.free_space) {
   start ? tracker_.PlaceAt(*start) : Lose();
 }
 
@@ -35,7 +30,7 @@ MappingStep Localizer::Process(const Observation& observation) {
   if (local_) return Search(observation, points);
   const MappingStep step = tracker_.Track(map_, observation, points);
   Extend(step);
-  LoseWhereContradicted(points, step);
+  if (watch_.Look(map_, points, step) == PlaceDoubt::kLost) Lose();
   return step;
 }
 
@@ -53,7 +48,7 @@ MappingStep Localizer::Search(const Observation& observation, std::span<const Sc
 MappingStep Localizer::Found(const Observation& observation, std::span<const ScanPoint> points) {
   const Mapper local = std::move(*local_);
   local_.reset();
-  nats_ = 0.0;
+  watch_.BeginAnew();
   tracker_.PlaceAt(finder_.belief().places.front().map_robot);
   const MappingStep step = tracker_.Track(map_, observation, points);
   map_local_ = step.map_robot * UncertainPose2{.T_a_b = local.map_robot().T_a_b.Inverse()};
@@ -71,21 +66,6 @@ void Localizer::Join(const ScanMap& local) {
   for (const RelevantScan& scan : local.scans()) {
     map_.Insert(scan.scan, ToPoints(scan.scan), map_local_ * scan.map_robot);
   }
-}
-
-// Every half metre, so that what stands in the way of a waiting robot counts once.
-void Localizer::LoseWhereContradicted(std::span<const ScanPoint> points, const MappingStep& step) {
-  const Pose2& T_map_robot = step.map_robot.T_a_b;
-  if (T_map_weighed_) {
-    const Pose2 moved = T_map_weighed_->Inverse() * T_map_robot;
-    if (moved.translation_m().norm() < kBetweenWeighings_m) return;
-  }
-  T_map_weighed_ = T_map_robot;
-  MatchResult match = step.match;
-  match.T_ref_cur = T_map_robot;
-  const PlaceFit fit = evidence_.Weigh(map_, ThinOut(points, kWeighSpacing_m), match);
-  nats_ = std::min(0.0, nats_ + fit.NatsWithinMap());
-  if (nats_ < kPartedNats) Lose();
 }
 
 void Localizer::Lose() {

@@ -40,7 +40,7 @@ wire::MatchReport ToWire(const MatchReport& report, const std::string& map_frame
 }
 
 std::optional<MatchReport> FromWire(const wire::MatchReport& sample) {
-  auto report = CommonFieldsOf<MatchReport>(sample, StepStatus::kDeadReckoned);
+  auto report = CommonFieldsOf<MatchReport>(sample, StepStatus::kLost);
   if (!report || !IsPosition(FromWire(sample.pose))) return std::nullopt;
   report->map_robot = {.T_a_b = FromWire(sample.pose),
                        .covariance = CovarianceOf(sample.covariance)};

@@ -22,6 +22,10 @@ const std::string& NameOf(const sim::Simulation& simulation, std::size_t robot) 
   return simulation.robots()[robot].options().name;
 }
 
+bool TellsStart(const sim::Simulation& simulation, std::size_t robot) {
+  return simulation.robots().size() > 1 && simulation.robots()[robot].options().tells_start;
+}
+
 }  // namespace
 
 NetworkRobot::NetworkRobot(const dds::Participant& participant,
@@ -33,7 +37,7 @@ NetworkRobot::NetworkRobot(const dds::Participant& participant,
       robot_(robot),
       pace_(pace),
       is_watched_(is_watched),
-      has_begun_(simulation.robots().size() == 1),
+      has_begun_(!TellsStart(simulation, robot)),
       reports_(participant, {NameOf(simulation, robot)}),
       commands_(participant, dds::RobotNames(NameOf(simulation, robot))),
       publisher_(
@@ -77,7 +81,10 @@ bool NetworkRobot::HasBegun(const sim::Reading& reading) {
   if (publisher_.has_pose_listener()) {
     publisher_.TellPose(
         reading.scan.stamp,
-        UncertainPose2::WithSigmas(reading.T_world_robot, kStartSigma_m, kStartSigma_rad));
+        UncertainPose2::WithSigmas(
+            sim::ToldStart(simulation_.robots()[robot_].options(), reading.T_world_robot),
+            kStartSigma_m,
+            kStartSigma_rad));
     has_begun_ = true;
     return false;
   }

@@ -18,8 +18,8 @@ namespace qwsm::pipeline {
 enum class NetworkPace { kFree, kAnswers };
 
 /// A simulated robot on the network: publishes what it measures and where it really is, and takes
-/// commands if somebody outside drives it. Robots of a team say once where they start, so that the
-/// frame of their map is that of the world.
+/// commands if somebody outside drives it. Robots of a team say once where they start, as their
+/// options have it, so that the frame of their map is that of the world.
 class NetworkRobot final : public ReadingSink {
  public:
   /// Publishes one robot.

@@ -102,6 +102,11 @@ void MapMerger::HearPlaceOf(std::string_view robot) {
   told_.insert_or_assign(std::string(robot), kScansToJudge);
 }
 
+bool MapMerger::IsPlaceOpen(std::string_view robot) const {
+  const std::lock_guard lock(mutex_);
+  return told_.contains(robot);
+}
+
 std::optional<MisplacedRobot> MapMerger::FindMisplaced(
     const std::vector<MapComponent>& components) {
   for (const auto& [robot, scans_to_judge] : Told()) {

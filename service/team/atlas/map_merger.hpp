@@ -47,6 +47,9 @@ class MapMerger {
   void See(std::string_view robot, Sighting sighting);
   /// Takes that a robot is where somebody says. May be called from any thread.
   void HearPlaceOf(std::string_view robot);
+  /// Whether a robot is where somebody says, and nothing has confirmed that yet. May be called from
+  /// any thread.
+  bool IsPlaceOpen(std::string_view robot) const;
 
   /// Looks whether robots that were told where they are have mapped there what those have that were
   /// in the map before.

@@ -55,6 +55,8 @@ class ContestedTracker {
                 const std::optional<Pose2>& claimed);
 
   const UncertainPose2& map_robot() const { return tracker_.map_robot(); }
+  /// Whether a trial is on about where the robot is.
+  bool is_place_contested() const { return trial_ && !claimed_; }
 
  private:
   /// A claim on the laser's place that was settled.

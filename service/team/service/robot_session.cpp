@@ -35,6 +35,7 @@ RobotSession::RobotSession(std::string name,
               [this](const TeamEvent& event) { context_.sinks.Tell(&TeamSink::TakeEvent, event); }),
       intake_(events_, options),
       tracker_(mapper),
+      watch_(mapper.free_space, PlaceWatch::MapKind::kGrowing),
       easing_(context_.correction),
       sequence_(std::max(
           context_.atlas.maps().Of(this->name()).map->LastSequence(context_.service, this->name()),
@@ -67,24 +68,14 @@ void RobotSession::Answer(Work& work,
   const Observation observation{.scan = std::move(work.scan), .T_odom_robot = work.T_odom_robot};
   work.scan.stamp = observation.scan.stamp;
   is_placed_ = is_placed_ && !work.was_elsewhere;
-  ContestedTracker::Tracked tracked;
-  {
-    TeamMap::State::View contents = FollowCorrections();
-    const MapComponent before = component_;  // Lives as long as the view of it.
-    Place();
-    if (component_.map != before.map) contents = component_.map->Read();
-    // Odometry that moves faster than any robot has begun anew; after an interruption it may have.
-    const bool may_be_new = work.odometry_goes_on && work.is_interrupted;
-    if (work.odometry_jumped || may_be_new) tracker_.SuspectOdometryReset();
-    tracked = tracker_.Track(contents->map, observation, points, claimed_mounting);
-  }
+  ContestedTracker::Tracked tracked = Track(work, observation, points, claimed_mounting);
   const auto answered = steady_clock::now();
   const MappingStep& step = tracked.step;
   TellNews(tracked.news);
   const SessionCounts counts = Note(work, tracked, answered - begun);
   component_.map->robots().Report(name(), step.map_robot.T_a_b.translation_m(), answered);
   const RobotAnswer answer{.robot = name(),
-                           .step = step,
+                           .step = AsTold(step),
                            .component = ComponentName(),
                            .T_odom_robot = work.T_odom_robot,
                            .told = easing_.Tell(step, work.T_odom_robot),
@@ -98,6 +89,67 @@ void RobotSession::Answer(Work& work,
   context_.report(answer);
 }
 
+ContestedTracker::Tracked RobotSession::Track(const Work& work,
+                                              const Observation& observation,
+                                              std::span<const ScanPoint> points,
+                                              const std::optional<Pose2>& claimed_mounting) {
+  {
+    TeamMap::State::View contents = FollowCorrections();
+    const MapComponent before = component_;  // Lives as long as the view of it.
+    Place();
+    if (component_.map != before.map) contents = component_.map->Read();
+    // Odometry that moves faster than any robot has begun anew; after an interruption it may have.
+    const bool may_be_new = work.odometry_goes_on && work.is_interrupted;
+    if (work.odometry_jumped || may_be_new) tracker_.SuspectOdometryReset();
+    ContestedTracker::Tracked tracked =
+        tracker_.Track(contents->map, observation, points, claimed_mounting);
+    if (!IsLost(contents->map, points, tracked)) return tracked;
+  }
+  LoseIt();
+  return tracker_.Track(component_.map->Read()->map, observation, points, claimed_mounting);
+}
+
+// What is seen in doubt does not extend the map: it would speak for the place that is in doubt, and
+// stay there. Nor is it told as a match.
+bool RobotSession::IsLost(const ScanMap& map,
+                          std::span<const ScanPoint> points,
+                          ContestedTracker::Tracked& tracked) {
+  if (tracker_.is_place_contested() || !IsWatched(map)) return false;
+  const PlaceDoubt doubt =
+      watch_.Look(map, points, tracked.step, [this](ScanId scan) { return Counts(scan); });
+  if (doubt == PlaceDoubt::kNone) return false;
+  if (tracked.step.status == StepStatus::kMatched) tracked.step.status = StepStatus::kExtended;
+  tracked.step.reason = "the map contradicts it";
+  tracked.step.relevant = false;
+  tracked.relevant.clear();
+  return doubt == PlaceDoubt::kLost;
+}
+
+// A robot alone in a map of its own making contradicts nobody but itself: that is what loops mend,
+// as in a map that is made of its log.
+bool RobotSession::IsWatched(const ScanMap& map) const {
+  const TeamMaps& maps = context_.atlas.maps();
+  if (maps.sharing() != MapSharing::kTeam) return false;
+  return maps.size() > 1 || map.scans().size() > component_.map->CountOf(name());
+}
+
+// Its own way drifts, which loops mend. Whoever began the map is where it says. Others may have
+// been told wrongly where they are, and what they saw tells nothing of who comes along later.
+bool RobotSession::Counts(ScanId scan) const {
+  const ScanKey key = component_.map->KeyOf(scan);
+  if (key.robot == name()) return false;
+  if (key.robot == component_.map->KeyOf(0).robot) return true;
+  return key.service == context_.service && !context_.merger.IsPlaceOpen(key.robot);
+}
+
+// What a robot is answered in a frame of its own is no guess at its place in the team's.
+MappingStep RobotSession::AsTold(MappingStep step) const {
+  if (!IsApart()) return step;
+  step.status = StepStatus::kLost;
+  step.reason = "in a map of its own";
+  return step;
+}
+
 // The robot keeps its place beside its last relevant scan, also where that has become part of
 // another component. The map as it is then is what the next scan has to be matched with.
 TeamMap::State::View RobotSession::FollowCorrections() {
@@ -105,7 +157,9 @@ TeamMap::State::View RobotSession::FollowCorrections() {
   component_ = context_.atlas.maps().Of(name());
   TeamMap::State::View contents = component_.map->Read();
   const MapVersion now = component_.map->VersionOf(*contents);
-  if (std::exchange(version_, now) == now || !last_relevant_) return contents;
+  if (std::exchange(version_, now) == now) return contents;
+  watch_.BeginInAnotherMap();
+  if (!last_relevant_) return contents;
   const std::optional<ScanId> last = component_.map->Find(*last_relevant_);
   if (!last) {  // Another service has answered the robot since, elsewhere.
     last_relevant_.reset();
@@ -188,7 +242,10 @@ void RobotSession::Place() {
     const std::lock_guard lock(mutex_);
     initial_pose = std::exchange(initial_pose_, std::nullopt);
   }
-  if (initial_pose || !is_placed_) easing_.Forget();
+  if (initial_pose || !is_placed_) {
+    easing_.Forget();
+    watch_.BeginAnew();
+  }
   if (initial_pose) {
     TakeUp(*initial_pose);
   } else if (is_placed_) {
@@ -233,7 +290,14 @@ void RobotSession::BeginComponent() {
                  ": nobody knows where in the team's it is");
 }
 
+void RobotSession::LoseIt() {
+  events_.Warn("is lost: what it sees contradicts the map");
+  easing_.Forget();
+  BeginComponent();
+}
+
 void RobotSession::BeginAnewAt(const UncertainPose2& map_robot) {
+  watch_.BeginInAnotherMap();
   version_ = component_.map->version();
   last_relevant_.reset();
   nodes_ = {};

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "qwsm/correction/node_maker.hpp"
+#include "qwsm/mapping/place_watch.hpp"
 #include "service/team/atlas/map_merger.hpp"
 #include "service/team/atlas/team_atlas.hpp"
 #include "service/team/service/contested_tracker.hpp"
@@ -41,7 +42,8 @@ struct SessionContext {
 /// Where it starts: as told; else where it was last, if the map has scans of it; else as
 /// configured; else, where the map is empty, at the origin of its odometry. Where none of these
 /// tells, it begins a component of the map, in which it is answered until it is found in the map.
-/// What it is told while it is tracked is put to a trial (ContestedTracker).
+/// What it is told while it is tracked is put to a trial (ContestedTracker). A robot whose scans
+/// contradict what others have mapped is lost: it begins a component, too.
 class RobotSession final : public Lane {
  public:
   using Kind = Planar;
@@ -64,10 +66,20 @@ class RobotSession final : public Lane {
  private:
   using Work = SessionIntake<Planar>::Work;
 
+  ContestedTracker::Tracked Track(const Work& work,
+                                  const Observation& observation,
+                                  std::span<const ScanPoint> points,
+                                  const std::optional<Pose2>& claimed_mounting);
   void Answer(Work& work,
               std::span<const ScanPoint> points,
               const std::optional<Pose2>& claimed_mounting);
   TeamMap::State::View FollowCorrections();
+  bool IsLost(const ScanMap& map,
+              std::span<const ScanPoint> points,
+              ContestedTracker::Tracked& tracked);
+  bool IsWatched(const ScanMap& map) const;
+  bool Counts(ScanId scan) const;
+  MappingStep AsTold(MappingStep step) const;
   void Extend(ContestedTracker::Tracked& tracked);
   void ExtendWith(TeamScan& scan);
   void Place();
@@ -75,6 +87,7 @@ class RobotSession final : public Lane {
   bool IsApart() const;
   std::string ComponentName() const { return IsApart() ? component_.name : std::string(); }
   void BeginComponent();
+  void LoseIt();
   void BeginAnewAt(const UncertainPose2& map_robot);
   void TellWhatIsSeen(const MappingStep& step, std::span<const ScanPoint> points);
   void HideTeammates(Work& work);
@@ -92,6 +105,7 @@ class RobotSession final : public Lane {
 
   // The worker alone uses these.
   ContestedTracker tracker_;
+  PlaceWatch watch_;
   NodeMaker nodes_;
   CorrectionEasing easing_;
   MapComponent component_;  // That the tracker's poses are in.

@@ -11,7 +11,7 @@ const kLateAnswer_ms = 300;
 const kChunkTiles = 8;  // Tiles of a chunk, along each side: few pictures, each redrawn rarely.
 
 // What a match report says; and of a simulated robot that nobody answers, that it is where it is.
-export const Status = {first: 0, matched: 1, extended: 2, deadReckoned: 3, simulated: 4};
+export const Status = {first: 0, matched: 1, extended: 2, deadReckoned: 3, lost: 4, simulated: 255};
 
 // Okabe and Ito's colours, which the colour-blind tell apart; robots are numbered all the same.
 const kColors = ['#0072b2', '#e69f00', '#009e73', '#cc79a7', '#56b4e9', '#d55e00', '#f0e442', '#8c8c8c'];
@@ -455,7 +455,7 @@ export function condition(robot, now_ms) {
     const since_s = robot.lastMatch === null ? 0 : robot.last.stamp - robot.lastMatch;
     return {level: since_s > 3 ? 2 : 1, text: `dead reckoning for ${ago(since_s)}`, age_s};
   }
-  if (robot.isApart) return {level: 2, text: 'lost: in a map of its own, searching for its place', age_s};
+  if (robot.isApart || robot.last.status === Status.lost) return {level: 2, text: 'lost: in a map of its own, searching for its place', age_s};
   if (robot.last.status === Status.simulated) return {level: 0, text: 'simulated; no service answers it', age_s};
   if (robot.health === 'answered by another service') return {level: 0, text: 'matched, by another service', age_s};
   return {level: 0, text: robot.last.status === Status.extended ? 'matched, exploring' : 'matched', age_s};

@@ -119,6 +119,12 @@ class Driver {
   /// Gives the command that an external driver follows until the next one.
   void SetCommand(const VelocityCommand& command) { external_ = command; }
 
+  /// The pose at the way point so many further on, or at the last one, looking along the way.
+  /// @pre the driver follows way points
+  qwsm::Pose2 PoseAhead(std::size_t waypoints) const;
+  /// Goes on from there.
+  void GoOnAhead(std::size_t waypoints) { passed_ = IndexAhead(waypoints); }
+
   /// Whether the last way point or command is behind; never for an external driver.
   bool has_arrived() const { return has_arrived_; }
 
@@ -126,6 +132,10 @@ class Driver {
   double share_done() const;
 
  private:
+  std::size_t LastIndex() const { return route_.size() * static_cast<std::size_t>(options_.laps); }
+  std::size_t IndexAhead(std::size_t waypoints) const {
+    return std::min(passed_ + waypoints, LastIndex() - 1);
+  }
   VelocityCommand PlayBack(qwsm::Timestamp now);
   VelocityCommand Follow(const DriverView& view);
   VelocityCommand Escape(const DriverView& view) const;

@@ -65,6 +65,9 @@ class PhysicsWorld {
                   double mass_kg,
                   double friction_force_n);
 
+  /// Takes a body up and puts it down elsewhere, at rest.
+  void Put(BodyId id, const qwsm::Pose2& T_world_body);
+
   qwsm::Pose2 PoseOf(BodyId id) const;
   Twist2 TwistOf(BodyId id) const;
   double MassOf(BodyId id) const;  ///< Mass in kg; 0 for a fixed body.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -17,12 +18,36 @@
 
 namespace sim {
 
+/// Somebody takes a robot up and puts it down elsewhere, at once. Its sensors tell nothing of it.
+struct CarriedOptions {
+  double at_s = 0.0;  ///< When; later where another one stands there.
+  int waypoints = 1;  ///< So many way points further on its way.
+};
+
+template <class Visitor>
+void Describe(Visitor& visit, CarriedOptions& o) {
+  visit("at_s", o.at_s, {.help = "when, or as soon as there is room", .min = 0, .max = 1e6});
+  visit("waypoints",
+        o.waypoints,
+        {.help = "to the way point so many further on its way", .min = 1, .max = 10000});
+}
+
 struct RobotOptions {
   std::string name = "robot";
   /// Start along x; not looked at where the robot drives a route of the layout.
   double start_x_m = 0.0;
   double start_y_m = 0.0;
   double start_heading_rad = 0.0;
+  /// Where along a route of the layout it starts, as a share of its way points, to go on from
+  /// there.
+  double start_on_route = 0.0;
+  double joins_at_s = 0.0;  ///< Until then it stands at its start and takes no scans.
+  bool tells_start = true;  ///< Whether it says where it starts, one of several robots.
+  /// How far what it says is off, in the world.
+  double told_start_off_x_m = 0.0;
+  double told_start_off_y_m = 0.0;
+  double told_start_off_heading_rad = 0.0;
+  std::vector<CarriedOptions> carried{};
   double length_m = 0.5;
   double width_m = 0.5;
   double mass_kg = 30.0;
@@ -46,6 +71,21 @@ void Describe(Visitor& visit, RobotOptions& o) {
   visit("start_heading_rad",
         o.start_heading_rad,
         {.help = "heading at the start, if way points are given", .min = -7, .max = 7});
+  visit("start_on_route",
+        o.start_on_route,
+        {.help = "where along the layout's route it starts, as a share", .min = 0, .max = 0.99});
+  visit("joins_at_s", o.joins_at_s, {.help = "takes no scans before", .min = 0, .max = 1e6});
+  visit("tells_start", o.tells_start, {.help = "whether it says where it starts, of several"});
+  visit("told_start_off_x_m",
+        o.told_start_off_x_m,
+        {.help = "how wrong that is, in the world", .min = -1e4, .max = 1e4});
+  visit("told_start_off_y_m",
+        o.told_start_off_y_m,
+        {.help = "how wrong that is, in the world", .min = -1e4, .max = 1e4});
+  visit("told_start_off_heading_rad",
+        o.told_start_off_heading_rad,
+        {.help = "how wrong that is", .min = -7, .max = 7});
+  visit("carried", o.carried, {.help = "taken up and put down further on its way"});
   visit("length_m", o.length_m, {.help = "of the body", .min = 0.05, .max = 10});
   visit("width_m", o.width_m, {.help = "of the body", .min = 0.05, .max = 10});
   visit("mass_kg", o.mass_kg, {.help = "mass", .min = 0.1, .max = 1e4});
@@ -64,6 +104,16 @@ void Validate(const RobotOptions& o, Report& report) {
   if (o.drive.type == DriveType::kSkidSteer && o.drive.wheelbase_m > o.length_m) {
     report("length_m", "must be at least drive.wheelbase_m");
   }
+  if (!o.carried.empty() && !FollowsWaypoints(o.driver.kind)) {
+    report("carried", "needs a driver that follows way points: skilled or poor");
+  }
+  const auto is_earlier = [](const auto& a, const auto& b) { return a.at_s < b.at_s; };
+  if (!std::ranges::is_sorted(o.carried, is_earlier)) {
+    report("carried", "must be in the order of its at_s");
+  }
+  const bool is_off = o.told_start_off_x_m != 0.0 || o.told_start_off_y_m != 0.0 ||
+                      o.told_start_off_heading_rad != 0.0;
+  if (is_off && !o.tells_start) report("tells_start", "must be true where what it says is off");
 }
 
 /// A scan, and what was true and what was believed when its first beam was cast.
@@ -81,6 +131,10 @@ struct Reading {
 
 /// What a mapper is told of a reading: the scan as from the place of its first beam.
 qwsm::Observation ObservationOf(const Reading& reading);
+
+/// Where a robot says that it starts, if it really starts there.
+/// @pre it says that.
+qwsm::Pose2 ToldStart(const RobotOptions& options, const qwsm::Pose2& T_world_start);
 
 /// A robot, where it starts and the way it is to follow, if it follows one.
 struct RobotPlacement {
@@ -123,7 +177,8 @@ class Robot {
     bool IsDue(qwsm::Timestamp now) const;
   };
 
-  void Mount(const LaserOptions& options, std::uint64_t seed);
+  void Mount(LaserOptions options, std::uint64_t seed);
+  void CarryIfDue(PhysicsWorld& world, qwsm::Timestamp now);
   void BeginScan(const PhysicsWorld& world, qwsm::Timestamp now, MountedLaser& mounted);
   void EndScan(qwsm::LaserScan scan, qwsm::Timestamp now, Reading& reading) const;
 
@@ -133,6 +188,7 @@ class Robot {
   WheelOdometry odometry_;
   Gyro gyro_;
   std::vector<MountedLaser> lasers_;
+  std::size_t times_carried_ = 0;
   Driver driver_;
 };
 

@@ -68,13 +68,22 @@ Route WallWithDoor(const CorridorOptions& options,
           {to_m.x(), y_m}};
 }
 
-Route WayAlong(std::vector<Eigen::Vector2d> line, bool returns) {
+/// The line without what lies near the ends of the corridor.
+std::vector<Eigen::Vector2d> Shortened(std::vector<Eigen::Vector2d> line) {
   const Eigen::Vector2d first = (line[1] - line[0]).normalized();
   const Eigen::Vector2d last = (line[line.size() - 2] - line.back()).normalized();
   line.front() += kFromEnds_m * first;
   line.back() += kFromEnds_m * last;
-  Route route = ToRoute(line);
-  if (returns) route.insert(route.end(), route.rbegin() + 1, route.rend());
+  return line;
+}
+
+Route WayAlong(const std::vector<Eigen::Vector2d>& line, const CorridorOptions& options) {
+  const double lane_m = options.keeps_right ? 0.25 * options.width_m : 0.0;
+  Route route = ToRoute(Shortened(Shifted(line, -lane_m)));
+  if (!options.returns) return route;
+  const Route back = ToRoute(Shortened(Shifted(line, lane_m)));
+  const auto turn = options.keeps_right ? back.rbegin() : back.rbegin() + 1;
+  route.insert(route.end(), turn, back.rend());
   return route;
 }
 
@@ -96,7 +105,7 @@ Place MakeCorridor(const CorridorOptions& options) {
     AddWalls(WallWithDoor(options, left.back(), to_m), kWallThickness_m, place.scenery);
   }
   AddWalls(ToRoute(left), kWallThickness_m, place.scenery);
-  place.routes = {WayAlong(line, options.returns)};
+  place.routes = {WayAlong(line, options)};
   return place;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sim {
 namespace {
@@ -30,27 +31,46 @@ struct Room {
   }
 };
 
+/// What stands in a wing, put up so much farther along the corridor. Wings have no people.
+SceneryOptions MovedAlong(SceneryOptions wing, double along_m) {
+  for (WallOptions& wall : wing.walls) {
+    wall.from_x_m += along_m;
+    wall.to_x_m += along_m;
+  }
+  for (BoxOptions& box : wing.boxes) box.x_m += along_m;
+  for (RoundOptions& round : wing.rounds) round.x_m += along_m;
+  return wing;
+}
+
 /// Lays out one office.
 class Builder {
  public:
   Builder(const OfficeOptions& options, RandomEngine& random) : options_(options), random_(random) {
     for (int index = 0; index < 2 * options.rooms_per_side; ++index) {
-      // Round the corridor once: out along the lower rooms, back along the upper ones.
       const bool is_below = index < options.rooms_per_side;
       const int column = is_below ? index : 2 * options.rooms_per_side - 1 - index;
-      rooms_.push_back(
+      wing_.push_back(
           {.left_m = column * options.room_length_m,
            .side = is_below ? -1.0 : 1.0,
            .door_m = Uniform(random, kFromDoor_m, options.room_length_m - kFromDoor_m)});
     }
+    // Round the corridor once: out along the lower rooms, back along the upper ones.
+    for (int wing = 0; wing < options.wings; ++wing) AddRoomsOf(wing, -1.0);
+    for (int wing = options.wings - 1; wing >= 0; --wing) AddRoomsOf(wing, 1.0);
   }
 
   Place Build() {
     AddEnds();
-    for (const Room& room : rooms_) {
+    SceneryOptions ends = std::exchange(place_.scenery, {});
+    for (const Room& room : wing_) {
       AddRoom(room);
       AddDoor(room);
       AddFurniture(room);
+    }
+    const SceneryOptions wing = std::move(place_.scenery);
+    place_.scenery = std::move(ends) + wing;
+    for (int index = 1; index < options_.wings; ++index) {
+      place_.scenery = std::move(place_.scenery) + MovedAlong(wing, index * wing_m());
     }
     for (int index = 0; index < options_.persons; ++index) AddPerson();
     for (int index = 0; index < options_.routes; ++index) {
@@ -65,14 +85,24 @@ class Builder {
   double corridor_m() const { return 0.5 * options_.corridor_width_m; }
   double back_m() const { return corridor_m() + options_.room_depth_m; }
 
+  double wing_m() const { return options_.rooms_per_side * options_.room_length_m; }
+  double length_m() const { return options_.wings * wing_m(); }
+
+  void AddRoomsOf(int wing, double side) {
+    for (Room room : wing_) {
+      if (room.side != side) continue;
+      room.left_m += wing * wing_m();
+      rooms_.push_back(room);
+    }
+  }
+
   void AddWall(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m) {
     AddWalls({{from_m.x(), from_m.y()}, {to_m.x(), to_m.y()}}, kWall_m, place_.scenery);
   }
 
   void AddEnds() {
-    const double length_m = options_.rooms_per_side * options_.room_length_m;
     AddWall({0.0, -corridor_m()}, {0.0, corridor_m()});
-    AddWall({length_m, -corridor_m()}, {length_m, corridor_m()});
+    AddWall({length_m(), -corridor_m()}, {length_m(), corridor_m()});
   }
 
   void AddRoom(const Room& room) {
@@ -137,16 +167,15 @@ class Builder {
       const auto last = static_cast<std::size_t>(rooms_.size() - 1);
       return std::uniform_int_distribution<std::size_t>(0, last)(random_);
     };
-    const double length_m = options_.rooms_per_side * options_.room_length_m;
     const Room& room = rooms_[pick()];
     const auto at = [](const Eigen::Vector2d& p_m) { return WaypointOptions{p_m.x(), p_m.y()}; };
-    const double start_m = Uniform(random_, 1.0, length_m - 1.0);
+    const double start_m = Uniform(random_, 1.0, length_m() - 1.0);
     place_.scenery.persons.push_back(
         {.waypoints = {{start_m, kPersonLane_m},
                        at(room.At(room.door_m, kPersonLane_m)),
                        at(room.At(room.door_m, corridor_m() + kIntoRoom_m)),
                        at(room.At(room.door_m, kPersonLane_m)),
-                       {length_m - start_m, -kPersonLane_m}},
+                       {length_m() - start_m, -kPersonLane_m}},
          .speed_mps = Uniform(random_, 0.7, 1.3)});
   }
 
@@ -174,7 +203,8 @@ class Builder {
 
   const OfficeOptions& options_;
   RandomEngine& random_;
-  std::vector<Room> rooms_;
+  std::vector<Room> wing_;   // Of the first wing.
+  std::vector<Room> rooms_;  // In the order of the way.
   Place place_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "qwsm/mapping/mapper.hpp"
 #include "qwsm/mapping/place_finder.hpp"
+#include "qwsm/mapping/place_watch.hpp"
 
 namespace qwsm {
 
@@ -37,7 +38,6 @@ class Localizer {
   MappingStep Found(const Observation& observation, std::span<const ScanPoint> points);
   void Extend(const MappingStep& step);
   void Join(const ScanMap& local);
-  void LoseWhereContradicted(std::span<const ScanPoint> points, const MappingStep& step);
   void Lose();
 
   MapperOptions options_;
@@ -45,9 +45,7 @@ class Localizer {
   RobotTracker tracker_;
   std::optional<Mapper> local_;  // Maps where the robot is lost.
   PlaceFinder finder_;
-  PlaceEvidence evidence_;
-  double nats_ = 0.0;                   // For the place where the robot is tracked, 0 at most.
-  std::optional<Pose2> T_map_weighed_;  // Where that was asked last.
+  PlaceWatch watch_;
   UncertainPose2 map_local_;
 };
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <map>
 #include <span>
 
@@ -24,6 +25,11 @@ struct PlaceFit {
   /// The same from the points about which the map knows something: where the robot leaves the map,
   /// nothing speaks against its place.
   double NatsWithinMap() const;
+  /// The same where the robot extends the map. What it put up itself explains what it sees wherever
+  /// it is, so that this tells no more than that nothing contradicts; and robots that both drifted
+  /// a little see through each other's walls from afar, which contradicts nothing that is
+  /// explained.
+  double NatsInOwnMap() const;
 };
 
 /// Weighs what a scan tells for and against having been taken at a place of a map.
@@ -34,14 +40,27 @@ class PlaceEvidence {
   /// How many points tell something that no other one tells: neighbours share their errors.
   static double Told(std::span<const ScanPoint> points);
 
+  /// Says whether what a scan of the map saw to be free counts.
+  using Counts = std::function<bool(ScanId)>;
+
   /// @param points of the scan, thinned out.
   /// @param match of the points at the place.
-  PlaceFit Weigh(const ScanMap& map, std::span<const ScanPoint> points, const MatchResult& match);
+  /// @param counts all scans do, if it is none.
+  PlaceFit Weigh(const ScanMap& map,
+                 std::span<const ScanPoint> points,
+                 const MatchResult& match,
+                 const Counts& counts = {});
+
+  /// Gives back what was kept of scans of the map far from a robot that is followed.
+  void ForgetFarFrom(const ScanMap& map, const Pose2& T_map_robot);
+  /// Gives back all that was kept: the map is another one, or was moved.
+  void Forget() { images_.clear(); }
 
  private:
   double ShareSeenThrough(const ScanMap& map,
                           std::span<const ScanPoint> points,
-                          const Pose2& T_map_robot);
+                          const Pose2& T_map_robot,
+                          const Counts& counts);
 
   FreeSpaceOptions options_;
   std::map<ScanId, FreeRangeImage> images_;  // Of the map's scans that were asked for so far.

@@ -17,6 +17,7 @@ struct CorridorOptions {
   double door_at_m = 30.0;    ///< Place of the door, from the beginning of the straight stretch.
   double door_width_m = 0.9;  ///< Width of the door; 0 leaves it out.
   bool returns = true;        ///< Whether the way leads back to the start.
+  bool keeps_right = false;   ///< Whether robots leave room for those that come towards them.
 };
 
 template <class Visitor>
@@ -31,6 +32,7 @@ void Describe(Visitor& visit, CorridorOptions& o) {
   visit("door_at_m", o.door_at_m, {.help = "along the straight stretch", .min = 1, .max = 1000});
   visit("door_width_m", o.door_width_m, {.help = "width of the door", .min = 0, .max = 5});
   visit("returns", o.returns, {.help = "whether the way leads back to the start"});
+  visit("keeps_right", o.keeps_right, {.help = "whether robots leave room for others to pass"});
 }
 
 template <class Report>

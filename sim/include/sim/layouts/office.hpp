@@ -8,8 +8,10 @@
 namespace sim {
 
 /// Two rows of rooms along a corridor, with doors ajar, tables on thin legs, cabinets and people.
+/// Wings follow each other along the corridor; only its ends tell them apart.
 struct OfficeOptions {
-  int rooms_per_side = 4;
+  int rooms_per_side = 4;      ///< In a wing.
+  int wings = 1;               ///< Alike down to the furniture.
   double room_length_m = 6.0;  ///< Length along the corridor.
   double room_depth_m = 5.0;
   double corridor_width_m = 2.4;
@@ -22,6 +24,8 @@ struct OfficeOptions {
 template <class Visitor>
 void Describe(Visitor& visit, OfficeOptions& o) {
   visit("rooms_per_side", o.rooms_per_side, {.help = "rooms on each side", .min = 2, .max = 100});
+  visit(
+      "wings", o.wings, {.help = "wings that are alike, one after the other", .min = 1, .max = 20});
   visit("room_length_m", o.room_length_m, {.help = "along the corridor", .min = 4, .max = 30});
   visit("room_depth_m", o.room_depth_m, {.help = "away from the corridor", .min = 4, .max = 30});
   visit("corridor_width_m", o.corridor_width_m, {.help = "between walls", .min = 1.5, .max = 10});

@@ -9,7 +9,8 @@
 
 namespace sim {
 
-/// Scenery, and ways through it that are free of it. Robots beyond the last route share the routes.
+/// Scenery, and ways through it that are free of it. Robots beyond the last route share the routes;
+/// see RobotOptions::start_on_route.
 struct Place {
   SceneryOptions scenery;
   std::vector<Route> routes;
