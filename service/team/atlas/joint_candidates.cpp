@@ -12,11 +12,15 @@ namespace {
 
 // A place is the right one if it is not one that only looks alike, wrong once in twenty of these,
 // and if no other one comes near, wrong once in a hundred.
-constexpr double kSureNats = 3.0;
+constexpr double kSureNats = 4.6;
 constexpr double kLeadNats = 4.6;
 // A place is weighed again once the maps have grown by so much, unless it has been refuted.
 constexpr double kGrown = 1.1;
 constexpr double kRefutedNats = -9.2;
+// A robot that is not seen where it would be in view: once in ten it is too low, or too thin; and
+// then it always is.
+constexpr double kUnseenNats = 2.3;
+constexpr double kMostUnseenNats = 9.2;
 // Places so near to each other are the same one.
 constexpr double kOnePlace_m = 1.0;
 constexpr double kOnePlace_rad = 0.2;
@@ -37,6 +41,16 @@ void JointCandidates::Propose(const UncertainPose2& a_b, const Pose2& T_b_robot)
   if (!is_known) candidates_.push_back(proposed);
 }
 
+void JointCandidates::Confront(const RobotSight& in_a, const RobotSight& in_b) {
+  for (Candidate& candidate : candidates_) {
+    const Pose2 T_robots = in_a.T_map_robot.Inverse() * candidate.a_b.T_a_b * in_b.T_map_robot;
+    if (SeesNobodyAt(in_a.points, T_robots.translation_m()) ||
+        SeesNobodyAt(in_b.points, T_robots.Inverse().translation_m())) {
+      candidate.unseen_nats = std::min(candidate.unseen_nats + kUnseenNats, kMostUnseenNats);
+    }
+  }
+}
+
 std::optional<UncertainPose2> JointCandidates::Decide(const MapAgreement& agreement,
                                                       const ScanMap& a,
                                                       const ScanMap& b,
@@ -48,19 +62,21 @@ std::optional<UncertainPose2> JointCandidates::Decide(const MapAgreement& agreem
     if (!has_grown || candidate.nats < kRefutedNats) continue;
     if (stop.stop_requested()) return std::nullopt;
     const MapAgreement::Judgement judged = agreement.Judge(a, b, candidate.a_b);
-    candidate = {judged.a_b, candidate.T_b_robot, judged.nats, scans};
+    candidate.a_b = judged.a_b;
+    candidate.nats = judged.nats;
+    candidate.scans = scans;
   }
   KeepBest();
-  if (candidates_.empty() || candidates_.front().nats < kSureNats) return std::nullopt;
+  if (candidates_.empty() || candidates_.front().Total() < kSureNats) return std::nullopt;
   const Candidate& best = candidates_.front();
-  const bool leads = candidates_.size() == 1 || best.nats - candidates_[1].nats >= kLeadNats;
+  const bool leads = candidates_.size() == 1 || best.Total() - candidates_[1].Total() >= kLeadNats;
   if (!leads) return std::nullopt;
   return agreement.Judge(a, b, best.a_b).a_b;  // Pairs are better ones where it has been fitted.
 }
 
 // Places that have come together are one.
 void JointCandidates::KeepBest() {
-  std::ranges::stable_sort(candidates_, std::ranges::greater{}, &Candidate::nats);
+  std::ranges::stable_sort(candidates_, std::ranges::greater{}, &Candidate::Total);
   std::vector<Candidate> kept;
   for (const Candidate& one : candidates_) {
     const bool is_known = std::ranges::any_of(

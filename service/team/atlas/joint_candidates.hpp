@@ -9,6 +9,7 @@
 
 #include "qwsm/mapping/scan_map.hpp"
 #include "service/team/atlas/map_agreement.hpp"
+#include "service/team/atlas/teammate_sight.hpp"
 
 namespace qwsm::team {
 
@@ -19,6 +20,10 @@ class JointCandidates {
  public:
   /// Takes a place that a robot thought of. @param T_b_robot where the robot was.
   void Propose(const UncertainPose2& a_b, const Pose2& T_b_robot);
+
+  /// Takes where two robots were at a time, one in each map, and what they saw: were the maps one
+  /// there, they would have seen each other.
+  void Confront(const RobotSight& in_a, const RobotSight& in_b);
 
   /// Weighs all places anew of which the maps may show more than they did.
   /// @return the place where the two lie beyond doubt, leading all others.
@@ -33,6 +38,10 @@ class JointCandidates {
     Pose2 T_b_robot;        // Who proposed it; turns about there move little of what was seen.
     double nats = 0.0;      // Evidence for it, against its being a place that looks alike.
     std::size_t scans = 0;  // Of both maps, when it was weighed.
+    // Evidence against it: robots that would be in view of each other do not see each other.
+    double unseen_nats = 0.0;
+
+    double Total() const { return nats - unseen_nats; }
   };
 
   static bool IsSamePlace(const Candidate& one, const Candidate& other);

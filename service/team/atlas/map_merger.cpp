@@ -3,11 +3,15 @@
 #include "service/team/atlas/map_merger.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <set>
 #include <utility>
 
 namespace qwsm::team {
 namespace {
+
+// A robot moves no farther in this time than its body is long.
+constexpr std::chrono::milliseconds kSameTime{300};
 
 // A map that has grown by no more than this is searched as it was.
 constexpr double kOutgrown = 1.1;
@@ -38,11 +42,12 @@ std::optional<ComponentPlace> MapMerger::LookAround(const std::vector<MapCompone
                                                     const std::stop_token& stop) {
   ForgetWhatIsNone(components);
   if (components.size() < 2) return std::nullopt;
-  for (const auto& [robot, sighting] : NewestSightings()) {
+  const Sightings all = NewestSightings();
+  for (const auto& [robot, sighting] : all) {
     for (const MapComponent& other : components) {
       if (stop.stop_requested()) return std::nullopt;
       if (other.map == sighting.component.map) continue;
-      if (const auto found = LookFor(robot, sighting, other, stop)) return found;
+      if (const auto found = LookFor(robot, sighting, all, other, stop)) return found;
     }
   }
   return std::nullopt;
@@ -50,6 +55,7 @@ std::optional<ComponentPlace> MapMerger::LookAround(const std::vector<MapCompone
 
 std::optional<ComponentPlace> MapMerger::LookFor(const std::string& robot,
                                                  const Sighting& sighting,
+                                                 const Sightings& all,
                                                  const MapComponent& other,
                                                  const std::stop_token& stop) {
   const Chart& own = ChartOf(sighting.component);
@@ -73,6 +79,7 @@ std::optional<ComponentPlace> MapMerger::LookFor(const std::string& robot,
       candidates.Propose(other_own, sighting.map_robot.T_a_b);
     }
   }
+  Confront(sighting, other, all, candidates);
   const Chart& into = is_into_own ? own : there;
   const Chart& from = is_into_own ? there : own;
   const auto into_from = candidates.Decide(agreement_, into.map, from.map, stop);
@@ -82,6 +89,21 @@ std::optional<ComponentPlace> MapMerger::LookFor(const std::string& robot,
                         .into = into.version,
                         .into_name = is_into_own ? sighting.component.name : other.name,
                         .into_from = *into_from};
+}
+
+// With those in the other component that were seen at about the same time.
+void MapMerger::Confront(const Sighting& sighting,
+                         const MapComponent& other,
+                         const Sightings& all,
+                         JointCandidates& candidates) {
+  const RobotSight own{sighting.points, sighting.map_robot.T_a_b};
+  for (const auto& [robot, there] : all) {
+    if (there.component.map != other.map) continue;
+    if (std::chrono::abs(there.stamp - sighting.stamp) > kSameTime) continue;
+    const RobotSight its{there.points, there.map_robot.T_a_b};
+    sighting.component.name < other.name ? candidates.Confront(own, its)
+                                         : candidates.Confront(its, own);
+  }
 }
 
 MapMerger::Search& MapMerger::SearchBy(const std::string& robot,
@@ -151,9 +173,9 @@ std::map<std::string, std::size_t> MapMerger::Told() const {
   return {told_.begin(), told_.end()};
 }
 
-std::map<std::string, Sighting> MapMerger::NewestSightings() const {
+MapMerger::Sightings MapMerger::NewestSightings() const {
   const std::lock_guard lock(mutex_);
-  return {sightings_.begin(), sightings_.end()};
+  return sightings_;
 }
 
 const MapMerger::Chart& MapMerger::ChartOf(const MapComponent& component) {

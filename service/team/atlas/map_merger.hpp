@@ -25,6 +25,7 @@ namespace qwsm::team {
 struct Sighting {
   MapComponent component;
   MapVersion version;  ///< Of the component's map that the pose is in.
+  Timestamp stamp{};
   std::vector<ScanPoint> points;
   UncertainPose2 map_robot;
 };
@@ -74,12 +75,19 @@ class MapMerger {
     PlaceFinder finder;
   };
 
-  std::map<std::string, Sighting> NewestSightings() const;
+  using Sightings = std::map<std::string, Sighting, std::less<>>;  // By robot.
+
+  Sightings NewestSightings() const;
+  static void Confront(const Sighting& sighting,
+                       const MapComponent& other,
+                       const Sightings& all,
+                       JointCandidates& candidates);
   std::map<std::string, std::size_t> Told() const;
   double NatsOfPlace(const std::vector<TeamScan>& scans, const std::string& robot) const;
   const Chart& ChartOf(const MapComponent& component);
   std::optional<ComponentPlace> LookFor(const std::string& robot,
                                         const Sighting& sighting,
+                                        const Sightings& all,
                                         const MapComponent& other,
                                         const std::stop_token& stop);
   Search& SearchBy(const std::string& robot,
@@ -91,7 +99,7 @@ class MapMerger {
   const MapperOptions options_;
   const MapAgreement agreement_;
   mutable std::mutex mutex_;
-  std::map<std::string, Sighting, std::less<>> sightings_;  // By robot.
+  Sightings sightings_;
   // Robots that were told where they are, and how many scans they had when that was looked at.
   std::map<std::string, std::size_t, std::less<>> told_;
 

@@ -75,6 +75,13 @@ std::optional<TeamScan> TeamMap::LastOf(std::string_view robot) const {
   return last == last_by_robot_.end() ? std::nullopt : std::optional(heads_[last->second]);
 }
 
+std::vector<std::string> TeamMap::Robots() const {
+  const std::lock_guard lock(register_);
+  std::vector<std::string> robots;
+  for (const auto& [robot, last] : last_by_robot_) robots.push_back(robot);
+  return robots;
+}
+
 std::size_t TeamMap::CountOf(std::string_view robot) const {
   const std::lock_guard lock(register_);
   return static_cast<std::size_t>(std::ranges::count(

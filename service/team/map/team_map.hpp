@@ -85,6 +85,8 @@ class TeamMap {
   /// The last relevant scan of the robot: where it was and what its odometry said. Its ranges are
   /// left out.
   std::optional<TeamScan> LastOf(std::string_view robot) const;
+  /// The robots of which it has relevant scans.
+  std::vector<std::string> Robots() const;
   /// Number of relevant scans of the robot.
   std::size_t CountOf(std::string_view robot) const;
   /// The key of a scan. @pre it was added.

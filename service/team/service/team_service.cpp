@@ -89,7 +89,7 @@ void TeamService::WaitUntilIdle() {
 // In the background, however long it takes.
 void TeamService::MergeMaps(const std::stop_token& stop) {
   atlas_.Tidy();
-  if (const auto place = merger_.LookAround(atlas_.maps().All(), stop)) atlas_.Join(*place);
+  if (const auto place = merger_.LookAround(atlas_.maps().All(), stop)) Join(*place);
   if (const auto misplaced = merger_.FindMisplaced(atlas_.maps().All())) {
     const auto& [robot, component, version] = *misplaced;
     if (!atlas_.Part(robot, version, component)) return merger_.HearPlaceOf(robot);
@@ -98,6 +98,13 @@ void TeamService::MergeMaps(const std::stop_token& stop) {
                  .is_warning = true,
                  .text = "is not where it was told: what it sees there, others do not"});
   }
+}
+
+// Places may look alike in all that was seen so far: who was found is judged like who was told.
+void TeamService::Join(const ComponentPlace& place) {
+  const std::vector<std::string> found = atlas_.maps().Named(place.from_name).map->Robots();
+  if (!atlas_.Join(place)) return;
+  for (const std::string& robot : found) merger_.HearPlaceOf(robot);
 }
 
 void TeamService::TakeIn(std::vector<TeamScan> scans) {

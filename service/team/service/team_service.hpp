@@ -101,6 +101,7 @@ class TeamService {
   std::shared_ptr<RobotSession> MakeSession(std::string robot);
   void TakeInOne(TeamScan scan);
   void Keep(io::JournalEntry entry, const std::function<void()>& settled);
+  void Join(const ComponentPlace& place);
   void MergeMaps(const std::stop_token& stop);
   void PaintMaps(const std::stop_token& stop);
   void TellMap(const std::string& component, MapPainter& painter);
