@@ -84,6 +84,8 @@ struct MapCorrector::State {
 
   void Look();
   std::optional<SolvedGraph> Solve(std::vector<FoundLoop>& found) const;
+  std::vector<UncertainPose2> PosesIn(const SolvedGraph& solved,
+                                      std::span<const FoundLoop> found) const;
   bool HasManyMoreLoops() const;
   Correction Unchanged(std::vector<FoundLoop> found) const;
   Correction Refused(std::vector<FoundLoop> found) const;
@@ -122,6 +124,16 @@ std::optional<SolvedGraph> MapCorrector::State::Solve(std::vector<FoundLoop>& fo
   return SolvedGraph{.graph = std::move(graph), .poses = std::move(poses)};
 }
 
+// How uncertain they are, the ties tell.
+std::vector<UncertainPose2> MapCorrector::State::PosesIn(const SolvedGraph& solved,
+                                                         std::span<const FoundLoop> found) const {
+  const PoseGraph ties{.T_map_node = solved.graph.T_map_node,
+                       .edges = WithAccepted(chains.ties(), found)};
+  const GraphSolution there{.T_map_node = ties.T_map_node,
+                            .weights = std::vector<double>(ties.edges.size(), 1.0)};
+  return SolvedPoses(ties, there).map_node();
+}
+
 Correction MapCorrector::State::Unchanged(std::vector<FoundLoop> found) const {
   Correction correction{.map_node = {},
                         .map_robot = {},
@@ -158,7 +170,7 @@ std::optional<std::vector<UncertainPose2>> MapCorrector::Propose() {
   if (!solved) return std::nullopt;
   if (IsMostlyResolved(state.ContradictionAt(solved->graph.T_map_node),
                        state.ContradictionAt(PosesOf(state.nodes)))) {
-    return solved->poses->map_node();
+    return state.PosesIn(*solved, state.loops);
   }
   state.settled_loops = CountAccepted(state.loops);
   return std::nullopt;
@@ -196,7 +208,7 @@ Correction MapCorrector::Correct() const {
               state.ContradictionAt(PosesOf(state.nodes)))) {
     return state.Refused(std::move(found));
   }
-  return {.map_node = solved->poses->map_node(),
+  return {.map_node = state.PosesIn(*solved, found),
           .map_robot = {},
           .graph = std::move(solved->graph),
           .loops = LoopsOf(found)};

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "qwsm/geometry/frame_covariance.hpp"
 #include "submap_match.hpp"
 
 namespace qwsm {
@@ -27,6 +28,13 @@ constexpr double kMinOverlapWithLast = 0.5;
 // How far the answers may be off as a first guess.
 constexpr StartError kStartError{.translation_m = 0.1, .rotation_rad = 0.02};
 
+// What a match tells of the pose among surfaces that are themselves uncertain.
+Eigen::Matrix3d InformationAmong(const Eigen::Matrix3d& surfaces, const Eigen::Matrix3d& of_match) {
+  const Eigen::Matrix3d share = Eigen::Matrix3d::Identity() + surfaces * of_match;
+  const Eigen::Matrix3d information = of_match * share.inverse();
+  return 0.5 * (information + information.transpose());
+}
+
 bool IsFound(const MatchResult& match) {
   return match.status == MatchStatus::kConverged || match.status == MatchStatus::kIterationLimit;
 }
@@ -46,6 +54,21 @@ PoseEdge EdgeTo(NodeId from, NodeId to, const Pose2& T_chain_from, const Uncerta
           .to = to,
           .T_from_to = from_to.T_a_b,
           .information = from_to.covariance.inverse()};
+}
+
+// Information along the axes of a frame that is seen from another.
+Eigen::Matrix3d AlongAxesOf(const Pose2& T_chain_from, const Eigen::Matrix3d& in_chain) {
+  Eigen::Matrix3d R_chain_from = Eigen::Matrix3d::Identity();
+  R_chain_from.topLeftCorner<2, 2>() = T_chain_from.Rotation();
+  return R_chain_from.transpose() * in_chain * R_chain_from;
+}
+
+// By how much the answer has become more uncertain since the node before, along the chain's axes.
+Eigen::Matrix3d Growth(const ScanNode& node,
+                       const ScanNode& last,
+                       const UncertainPose2& chain_last) {
+  if (!node.T_last_node) return Eigen::Matrix3d::Zero();
+  return (chain_last * Since(last.map_robot, node.map_robot)).covariance;
 }
 
 ScanMapOptions SubmapOptions(ScanMapOptions options) {
@@ -73,9 +96,11 @@ void ScanChains::Add(std::span<const ScanNode> nodes) {
   } else {
     const NodeId last = chain.nodes.back();
     const bool hangs = !parts_[id].completes && node.T_last_node;
-    const UncertainPose2 found = hangs ? Hang(node, chain) : Attach(id, nodes, chain);
-    chain.edges.push_back(EdgeTo(last, id, T_chain_node_[last], found));
-    T_chain_node_.push_back(found.T_a_b);
+    const Attachment attached = hangs ? Hang(node, chain) : Attach(id, nodes, chain);
+    chain.edges.push_back(EdgeTo(last, id, T_chain_node_[last], attached.chain_node));
+    T_chain_node_.push_back(attached.chain_node.T_a_b);
+    covariance_.push_back(attached.chain_node.covariance);
+    Tie(id, attached, chain);
   }
   if (id > 0) edges_.push_back(chain.edges.back());
   chain.nodes.push_back(id);
@@ -89,12 +114,34 @@ void ScanChains::Begin(const ScanNode& node, Chain& chain) {
   if (id == 0) map_first_ = node.map_robot;
   const UncertainPose2 entered = AtLeast(node.map_robot, kLeastSigma_m, kLeastSigma_rad);
   chain.edges.push_back(EdgeTo(0, id, map_first_.T_a_b, entered));
+  covariance_.push_back(entered.covariance);
+  if (id > 0) ties_.push_back(chain.edges.back());
 }
 
-UncertainPose2 ScanChains::Hang(const ScanNode& node, const Chain& chain) const {
+// Seen from the first scan of the submap its surfaces are as wrong as that one is, and as the one
+// in the middle, which stands for those that drew them.
+void ScanChains::Tie(NodeId id, const Attachment& attached, const Chain& chain) {
+  const auto tie_to = [&](NodeId from, const Eigen::Matrix3d& information) {
+    const Pose2& T_chain_from = T_chain_node_[from];
+    ties_.push_back({.from = from,
+                     .to = id,
+                     .T_from_to = T_chain_from.Inverse() * T_chain_node_[id],
+                     .information = AlongAxesOf(T_chain_from, information)});
+  };
+  tie_to(chain.nodes.back(), attached.of_motion);
+  if (attached.of_match.isZero()) return;
+  const std::size_t oldest = chain.submaps.size() - chain.last_surfaces.size();
+  const RigidSubmap& submap = submaps_[chain.submaps[oldest]];
+  const NodeId first = submap.nodes.front();
+  const Eigen::Matrix3d of_surfaces = covariance_[first] + covariance_[submap.reference()];
+  tie_to(first, InformationAmong(of_surfaces, attached.of_match));
+}
+
+ScanChains::Attachment ScanChains::Hang(const ScanNode& node, const Chain& chain) const {
   const UncertainPose2 chain_last{.T_a_b = T_chain_node_[chain.nodes.back()]};
   const UncertainPose2 answered{.T_a_b = *node.T_last_node, .covariance = node.odometry.covariance};
-  return AtLeast(chain_last * answered, kTurnSigma_m, kTurnSigma_rad);
+  const UncertainPose2 hung = AtLeast(chain_last * answered, kTurnSigma_m, kTurnSigma_rad);
+  return {.chain_node = hung, .of_motion = hung.covariance.inverse()};
 }
 
 std::vector<ScanPoint> ScanChains::PointsAround(NodeId node,
@@ -110,10 +157,22 @@ std::vector<ScanPoint> ScanChains::PointsAround(NodeId node,
   return points;
 }
 
+// The wheels err the same way for long: by how much the answer has become more uncertain with the
+// motion, the motion is more uncertain than the noise of its steps tells.
+ScanChains::Attachment ScanChains::Matched(const MatchResult& match,
+                                           const UncertainPose2& predicted,
+                                           const Eigen::Matrix3d& growth) const {
+  const Eigen::Matrix3d of_match = InformationOfPairs(match, matcher_.options());
+  const Eigen::Matrix3d information = of_match + predicted.covariance.inverse();
+  return {.chain_node = {.T_a_b = match.T_ref_cur, .covariance = information.inverse()},
+          .of_motion = (predicted.covariance + growth).inverse(),
+          .of_match = of_match};
+}
+
 // The last submap but one ends with the node before and began at least eight turns ago.
-UncertainPose2 ScanChains::Attach(NodeId id,
-                                  std::span<const ScanNode> nodes,
-                                  const Chain& chain) const {
+ScanChains::Attachment ScanChains::Attach(NodeId id,
+                                          std::span<const ScanNode> nodes,
+                                          const Chain& chain) const {
   const ScanNode& node = nodes[id];
   const SurfaceMap& reference = chain.last_surfaces.front();
   const UncertainPose2 chain_last{.T_a_b = T_chain_node_[chain.nodes.back()]};
@@ -131,11 +190,11 @@ UncertainPose2 ScanChains::Attach(NodeId id,
   if (!IsFound(match)) {
     predicted = AtLeast(predicted, kSlipSigma_m, kSlipSigma_rad);
     match = LocateAmong(reference, points, predicted, locator_, matcher_);
-    if (!IsRecognised(match, kMinOverlapWithLast)) return predicted;
+    if (!IsRecognised(match, kMinOverlapWithLast)) {
+      return {.chain_node = predicted, .of_motion = predicted.covariance.inverse()};
+    }
   }
-  const Eigen::Matrix3d information =
-      InformationOfPairs(match, matcher_.options()) + predicted.covariance.inverse();
-  return {.T_a_b = match.T_ref_cur, .covariance = information.inverse()};
+  return Matched(match, predicted, Growth(node, nodes[chain.nodes.back()], chain_last));
 }
 
 void ScanChains::InsertIntoSubmaps(NodeId id, std::span<const ScanPoint> points, Chain& chain) {

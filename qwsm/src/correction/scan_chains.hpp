@@ -43,6 +43,11 @@ class ScanChains {
   std::span<const Pose2> T_chain_node() const { return T_chain_node_; }
   /// Edges from each node to the next of its robot, and from the first node to that of each robot.
   std::span<const PoseEdge> edges() const { return edges_; }
+  /// The same poses by what they are known from: each node's motion from the one before, and its
+  /// match, which is with the first node of a submap. The edges above count what the matches with
+  /// one submap are wrong by at each step, and poses bend where they should; these count it once,
+  /// and tell how uncertain the poses are.
+  std::span<const PoseEdge> ties() const { return ties_; }
   /// Submaps of the chains, which overlap by half.
   std::span<const RigidSubmap> submaps() const { return submaps_; }
   /// Whose chain a node belongs to.
@@ -80,9 +85,20 @@ class ScanChains {
     std::deque<SurfaceMap> last_surfaces;  // Of the last two submaps, which still grow.
   };
 
+  // A node in its chain, and where that is known from, along the axes of the chain.
+  struct Attachment {
+    UncertainPose2 chain_node;                           // As seen from the node before.
+    Eigen::Matrix3d of_motion;                           // Information of the motion since that.
+    Eigen::Matrix3d of_match = Eigen::Matrix3d::Zero();  // And of the match, if there is one.
+  };
+
   void Begin(const ScanNode& node, Chain& chain);
-  UncertainPose2 Hang(const ScanNode& node, const Chain& chain) const;
-  UncertainPose2 Attach(NodeId id, std::span<const ScanNode> nodes, const Chain& chain) const;
+  Attachment Hang(const ScanNode& node, const Chain& chain) const;
+  Attachment Attach(NodeId id, std::span<const ScanNode> nodes, const Chain& chain) const;
+  Attachment Matched(const MatchResult& match,
+                     const UncertainPose2& predicted,
+                     const Eigen::Matrix3d& growth) const;
+  void Tie(NodeId id, const Attachment& attached, const Chain& chain);
   std::vector<ScanPoint> PointsAround(NodeId node,
                                       const Pose2& T_chain_robot,
                                       std::span<const ScanNode> nodes) const;
@@ -98,8 +114,10 @@ class ScanChains {
   std::vector<std::size_t> robot_;      // By node.
   std::vector<ScanTurns::Part> parts_;  // By node.
   std::vector<PoseEdge> edges_;
-  std::vector<RigidSubmap> submaps_;     // In the order they were begun.
-  std::map<std::size_t, Chain> chains_;  // By robot.
+  std::vector<PoseEdge> ties_;
+  std::vector<Eigen::Matrix3d> covariance_;  // By node: as the one before sees it.
+  std::vector<RigidSubmap> submaps_;         // In the order they were begun.
+  std::map<std::size_t, Chain> chains_;      // By robot.
 };
 
 }  // namespace qwsm

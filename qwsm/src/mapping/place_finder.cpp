@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <set>
 #include <utility>
 
 #include "qwsm/mapping/surface_hold.hpp"
@@ -59,6 +61,16 @@ UncertainPose2 Around(const Pose2& T_map_robot) {
   return UncertainPose2::WithSigmas(T_map_robot, kDriftSigma_m, kDriftSigma_rad);
 }
 
+// How many places there are along a path, each at all headings.
+double CountPlaces(std::span<const Eigen::Vector2d> path_m) {
+  constexpr double kSide_m = 2.0 * kOnePlace_m;
+  std::set<std::pair<double, double>> cells;
+  for (const Eigen::Vector2d& p_m : path_m) {
+    cells.emplace(std::floor(p_m.x() / kSide_m), std::floor(p_m.y() / kSide_m));
+  }
+  return static_cast<double>(cells.size()) * std::numbers::pi / kOnePlace_rad;
+}
+
 // What a squared sigma costs in a search is half a nat.
 double NatsPerScore(std::size_t points, const CorrelativeSearchOptions& search) {
   const auto independent = static_cast<std::size_t>(search.independent_points);
@@ -70,17 +82,19 @@ double NatsPerScore(std::size_t points, const CorrelativeSearchOptions& search) 
 // A scan, and where in the map it may have been taken.
 struct PlaceFinder::Sight {
   const ScanMap& map;
+  std::vector<Eigen::Vector2d> path_m;
   std::vector<ScanPoint> points;
   std::vector<Eigen::Vector2d> positions_m;
   FoundModes modes;
 
   Sight(const ScanMap& in, std::span<const ScanPoint> all)
       : map(in),
+        path_m(PathOf(in)),
         points(SpreadOut(all)),
         positions_m(PositionsOf(points)),
         modes(SearchModes(map.surfaces().likelihood(),
                           positions_m,
-                          {.places_m = PathOf(map),
+                          {.places_m = path_m,
                            .reach_m = kAroundPath_m,
                            .min_score = kMinScore,
                            .margin = kModeMargin})) {}
@@ -108,6 +122,7 @@ const PlaceBelief& PlaceFinder::Look(const ScanMap& map,
   const Sight sight(map, points);
   if (T_local_last_) Follow(sight, T_local_last_->Inverse() * T_local_robot);
   AddModes(sight);
+  elsewhere_nats_ = std::log(CountPlaces(sight.path_m));
   Weigh(sight, seen_.TakeNews(points, T_local_robot));
   ForgetUnlikely();
   T_local_last_ = T_local_robot;
@@ -192,8 +207,8 @@ void PlaceFinder::ForgetUnlikely() {
 // By how much the best place leads every other one, and being elsewhere.
 double PlaceFinder::LeadNats() const {
   if (hypotheses_.empty()) return 0.0;
-  const double next_nats = hypotheses_.size() > 1 ? hypotheses_[1].nats : 0.0;
-  return hypotheses_.front().nats - std::max(0.0, next_nats);
+  const double next_nats = hypotheses_.size() > 1 ? hypotheses_[1].nats : elsewhere_nats_;
+  return hypotheses_.front().nats - std::max(elsewhere_nats_, next_nats);
 }
 
 bool PlaceFinder::IsFound() const {
@@ -206,8 +221,9 @@ bool PlaceFinder::IsFound() const {
 PlaceBelief PlaceFinder::Belief() const {
   PlaceBelief belief;
   belief.looks = looks_;
-  const double best_nats = hypotheses_.empty() ? 0.0 : std::max(0.0, hypotheses_.front().nats);
-  const double elsewhere = std::exp(-best_nats);
+  const double best_nats =
+      hypotheses_.empty() ? elsewhere_nats_ : std::max(elsewhere_nats_, hypotheses_.front().nats);
+  const double elsewhere = std::exp(elsewhere_nats_ - best_nats);
   double sum = elsewhere;
   for (const Hypothesis& one : hypotheses_) sum += std::exp(one.nats - best_nats);
   for (const Hypothesis& one : hypotheses_) {

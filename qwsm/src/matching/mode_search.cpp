@@ -22,6 +22,8 @@ constexpr double kFarthestModePoint_m = 25.0;  // The farther points reach, the 
 // Poses so near to each other are one mode: the exact search around one finds the other.
 constexpr double kSameMode_m = 0.3;
 constexpr double kSameMode_rad = 0.1;
+constexpr double kHighScore = 0.85;  // Of most scans in their place.
+constexpr double kLower = 0.8;
 constexpr int kLevelsOfMode = 2;             // Blocks of higher levels are wider than that.
 constexpr std::size_t kMostModes = 64;       // More are no knowledge.
 constexpr std::size_t kMostBlocks = 200000;  // Where everything is alike, the search is given up.
@@ -36,8 +38,40 @@ struct PoseBlock {
   int heading = 0;  // Of so many of the level.
   int x = 0;        // First position, in cells of the pyramid.
   int y = 0;
+};
 
-  bool operator<(const PoseBlock& other) const { return bound < other.bound; }
+// Blocks by their bounds, those of nearly the same in no order: a heap would move each of them
+// through memory again and again.
+class BlockQueue {
+ public:
+  bool empty() const { return highest_ < 0; }
+  void Clear() {
+    for (; highest_ >= 0; --highest_) blocks_[static_cast<std::size_t>(highest_)].clear();
+  }
+  void Push(const PoseBlock& block) {
+    const int step = StepOf(block.bound);
+    blocks_[static_cast<std::size_t>(step)].push_back(block);
+    highest_ = std::max(highest_, step);
+  }
+  // One of those with the highest bounds. @pre there is one
+  PoseBlock Pop() {
+    std::vector<PoseBlock>& best = blocks_[static_cast<std::size_t>(highest_)];
+    const PoseBlock block = best.back();
+    best.pop_back();
+    while (highest_ >= 0 && blocks_[static_cast<std::size_t>(highest_)].empty()) --highest_;
+    return block;
+  }
+  // No bound is higher. @pre it is not empty
+  double Highest() const { return (highest_ + 1.0) / kSteps; }
+
+ private:
+  static constexpr int kSteps = 4096;  // From 0 to 1.
+  static int StepOf(double bound) {
+    return std::clamp(static_cast<int>(bound * kSteps), 0, kSteps);
+  }
+
+  std::vector<std::vector<PoseBlock>> blocks_ = std::vector<std::vector<PoseBlock>>(kSteps + 1);
+  int highest_ = -1;  // Step of the highest bound.
 };
 
 int WidthOf(int level) { return CoarseLikelihood::SideOf(level) / 2; }
@@ -117,8 +151,7 @@ class ModeSearch {
       : map_(map),
         points_m_(std::move(points_m)),
         window_(window),
-        districts_(DistrictsOf(window.places_m)),
-        threshold_(window.min_score) {
+        districts_(DistrictsOf(window.places_m)) {
     const double coarsest_m = CoarseLikelihood::SideOf(kTop) * map.cell_size_m();
     const double farthest_m = FarthestOf(points_m_);
     for (District& district : districts_) {
@@ -133,21 +166,40 @@ class ModeSearch {
     std::ranges::reverse(turned_);
   }
 
+  // The higher the threshold, the fewer blocks are of interest: a low one serves only where nothing
+  // scores more. What is found is the same.
   FoundModes Run() {
+    double score = std::max(window_.min_score, kHighScore);
+    FoundModes found = RunAbove(score);
+    while (!is_given_up_ && score > window_.min_score) {
+      const double enough =
+          found.modes.empty() ? kLower * score : found.modes.front().score - window_.margin;
+      if (enough >= score) break;
+      score = std::max(window_.min_score, enough);
+      found = RunAbove(score);
+    }
+    return found;
+  }
+
+ private:
+  FoundModes RunAbove(double score) {
+    threshold_ = score;
+    queue_.Clear();
+    tried_.clear();
+    found_.clear();
     PushPlaces();
     for (std::size_t visited = 0; !queue_.empty(); ++visited) {
-      std::pop_heap(queue_.begin(), queue_.end());
-      const PoseBlock block = queue_.back();
-      queue_.pop_back();
-      if (block.bound <= threshold_) break;
-      if (IsTried(block)) continue;
-      if (visited == kMostBlocks || found_.size() == kMostModes) return Best(block.bound);
+      const double highest = queue_.Highest();
+      if (highest <= threshold_) break;
+      const PoseBlock block = queue_.Pop();
+      if (block.bound <= threshold_ || IsTried(block)) continue;
+      is_given_up_ = visited == kMostBlocks || found_.size() == kMostModes;
+      if (is_given_up_) return Best(highest);
       block.level == 0 ? Try(block) : PushParts(block);
     }
     return Best(threshold_);
   }
 
- private:
   static constexpr int kTop = CoarseLikelihood::kLevels - 1;
 
   // The coarsest blocks around the places, each once.
@@ -189,8 +241,7 @@ class ModeSearch {
     block.bound = districts_[block.district].likelihood->Bound(
         block.level, ends, {block.x, block.y}, threshold_);
     if (block.bound <= threshold_) return;
-    queue_.push_back(block);
-    std::push_heap(queue_.begin(), queue_.end());
+    queue_.Push(block);
   }
 
   void PushParts(const PoseBlock& block) {
@@ -253,8 +304,9 @@ class ModeSearch {
   const ModeSearchWindow& window_;
   std::vector<District> districts_;
   std::vector<TurnedPoints> turned_;  // By level.
-  double threshold_;                  // What scores less is of no interest.
-  std::vector<PoseBlock> queue_;      // A heap, the highest bound first.
+  double threshold_ = 0.0;            // What scores less is of no interest.
+  bool is_given_up_ = false;
+  BlockQueue queue_;
   std::vector<Pose2> tried_;
   std::vector<FoundPose> found_;
 };

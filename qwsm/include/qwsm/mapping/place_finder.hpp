@@ -46,7 +46,8 @@ struct PlaceBelief {
 /// does neither for long: the next look is best explained somewhere else. What the robot had seen
 /// when it thought of a place is explained there, however often it looks: where one surface alone
 /// tells that place from others, which may be a surface that the map lacks elsewhere, it is not
-/// found before it has foretold what comes into view later.
+/// found before it has foretold what comes into view later. And the larger the map, the more has to
+/// speak for a place: among many there is one that is like where the map does not reach.
 class PlaceFinder {
  public:
   explicit PlaceFinder(const MapperOptions& options = {});
@@ -89,6 +90,8 @@ class PlaceFinder {
   PlaceEvidence evidence_;
   SeenSurfaces seen_;                   // By the looks so far, in the local frame.
   std::vector<Hypothesis> hypotheses_;  // The most likely one first.
+  // The robot may as well be outside the map as in it: any one place has that much against it.
+  double elsewhere_nats_ = 0.0;
   std::optional<Pose2> T_local_last_;   // At the last look.
   int looks_ = 0;
   int vain_looks_ = 0;  // Since one that spoke for some place.
