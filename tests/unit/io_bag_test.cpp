@@ -7,6 +7,7 @@
 #include <functional>
 #include <numbers>
 
+#include "qwsm/sensor/gyro_track.hpp"
 #include "service/io/bags/containers/chunk_cache.hpp"
 #include "service/io/bags/containers/chunk_codec.hpp"
 #include "tests/support/bag_drive.hpp"
@@ -137,12 +138,18 @@ TEST_F(Bag, TellsHowFarTheGyroTurned) {
         "base_link",
         "imu",
         {.rotation = {.x = 1.0, .w = 0.0}}));
-    const std::vector<ScanReading> scans =
-        ros == Ros::k1 ? ReadRos1(drive).scans : ReadMcap(drive).scans;
-    ASSERT_TRUE(scans.at(0).gyro_rad && scans.at(1).gyro_rad);
+    GyroTrack gyro;
+    std::vector<std::optional<double>> at_scans;
+    for (const LogRecord& record : (ros == Ros::k1 ? ReadRos1(drive) : ReadMcap(drive)).records) {
+      if (const auto* imu = std::get_if<ImuReading>(&record)) gyro.Add(*imu);
+      if (const auto* reading = std::get_if<ScanReading>(&record)) {
+        at_scans.push_back(gyro.At(reading->scan.stamp));
+      }
+    }
+    ASSERT_TRUE(at_scans.at(0) && at_scans.at(1)) << "readings up to a scan come before it";
     const std::chrono::duration<double> since = At(1) - At(0);
-    EXPECT_NEAR(*scans[1].gyro_rad - *scans[0].gyro_rad, 0.5 * since.count(), 1e-9);
-    EXPECT_FALSE(scans.at(3).gyro_rad) << "it was silent by then";
+    EXPECT_NEAR(*at_scans[1] - *at_scans[0], 0.5 * since.count(), 1e-9);
+    EXPECT_FALSE(at_scans.at(3)) << "it was silent by then";
   }
 }
 

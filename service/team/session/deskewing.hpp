@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "qwsm/sensor/deskew.hpp"
+#include "qwsm/sensor/gyro_track.hpp"
 #include "service/team/scans/cloud_scan.hpp"
 #include "service/team/session/odometry_buffer.hpp"
 
@@ -16,15 +17,27 @@ inline Timestamp EndOf(const LaserScan& scan) { return scan.stamp + scan.sweep; 
 inline Timestamp EndOf(const CloudScan& scan) { return scan.stamp; }
 
 /// The scan as from the place of its first beam, where its beams have times and odometry tells how
-/// the robot moved meanwhile; else the scan itself.
-inline LaserScan AsFromOnePlace(LaserScan scan, const OdometryBuffer<Pose2>& odometry) {
+/// the robot moved meanwhile, and the gyro, where there is one, how it turned; else the scan
+/// itself.
+inline LaserScan AsFromOnePlace(LaserScan scan,
+                                const OdometryBuffer<Pose2>& odometry,
+                                const GyroTrack& gyro) {
   if (scan.sweep.count() <= 0) return scan;
   const std::optional<Pose2> T_odom_first = odometry.At(scan.stamp);
   const std::optional<Pose2> T_odom_last = odometry.At(EndOf(scan));
   if (!T_odom_first || !T_odom_last) return scan;
-  return Deskewed(scan, T_odom_first->Inverse() * *T_odom_last);
+  Pose2 T_first_last = T_odom_first->Inverse() * *T_odom_last;
+  const std::optional<double> gyro_first_rad = gyro.At(scan.stamp);
+  const std::optional<double> gyro_last_rad = gyro.At(EndOf(scan));
+  // Its bias does not count within a scan.
+  if (gyro_first_rad && gyro_last_rad) {
+    T_first_last.theta_rad = NormalizeAngle(*gyro_last_rad - *gyro_first_rad);
+  }
+  return Deskewed(scan, T_first_last);
 }
-inline CloudScan AsFromOnePlace(CloudScan scan, const OdometryBuffer<slam6d::Pose3>&) {
+inline CloudScan AsFromOnePlace(CloudScan scan,
+                                const OdometryBuffer<slam6d::Pose3>&,
+                                const GyroTrack&) {
   return scan;
 }
 

@@ -50,7 +50,9 @@ void Describe(Visitor& visit, SessionOptions& o) {
          .max = 20'000'000});
   visit("odometry_wait_s",
         o.odometry_wait_s,
-        {.help = "how long a scan waits for the odometry of its moment", .min = 0, .max = 10});
+        {.help = "how long a scan waits for the odometry, and the gyro, of its moment",
+         .min = 0,
+         .max = 10});
   visit("deskew",
         o.deskew,
         {.help = "beams whose messages have times are put where they were measured, by odometry"});

@@ -54,9 +54,11 @@ BagReader::BagReader(const std::filesystem::path& path, const LogOptions& option
   report_.format = contents_.files.front().messages().format();
   report_.compression = contents_.files.front().compression();
   choice_ = ChooseRobot(contents_, options_, report_, faults_);
+  for (const ImuReading& reading : choice_.imu) gyro_.Add(reading);
   TakePlaces();
   contents_.transforms.clear();
   contents_.odometry.clear();
+  contents_.imus.clear();
   TellOfOthers();
 }
 
@@ -99,6 +101,12 @@ std::optional<OdometryReading> BagReader::NextOf(const OdometryTrack& track,
   return track.reading(next);
 }
 
+/// Whether what was given of the inertial sensor does not reach up to a moment yet.
+bool BagReader::IsImuDue(Timestamp until) const {
+  return next_imu_ < choice_.imu.size() &&
+         (next_imu_ == 0 || choice_.imu[next_imu_ - 1].stamp < until);
+}
+
 std::optional<LogRecord> BagReader::Next() {
   const Timestamp until =
       next_scan_ < places_.size() ? places_[next_scan_].scan.stamp : Timestamp::max();
@@ -113,6 +121,10 @@ std::optional<LogRecord> BagReader::Next() {
     ++next_odometry_;
     ++report_.odometry_readings;
     return *odometry;
+  }
+  if (IsImuDue(until)) {
+    ++report_.imu_readings;
+    return choice_.imu[next_imu_++];
   }
   return NextScan();
 }
@@ -147,8 +159,8 @@ LaserScan BagReader::Deskew(LaserScan scan,
   const std::optional<Pose2> T_odom_last = choice_.odometry.At(scan.stamp + sweep, 0);
   if (!T_odom_last) return scan;
   Pose2 T_first_last = T_odom_first->Inverse() * *T_odom_last;
-  const std::optional<double> gyro_first_rad = choice_.gyro.At(scan.stamp);
-  const std::optional<double> gyro_last_rad = choice_.gyro.At(scan.stamp + sweep);
+  const std::optional<double> gyro_first_rad = gyro_.At(scan.stamp);
+  const std::optional<double> gyro_last_rad = gyro_.At(scan.stamp + sweep);
   // Its bias does not count within a scan.
   if (gyro_first_rad && gyro_last_rad) {
     T_first_last.theta_rad = NormalizeAngle(*gyro_last_rad - *gyro_first_rad);
@@ -165,8 +177,7 @@ ScanReading BagReader::ReadScan(const Place& place) {
   const double sweep_s = SweepOf(message, options_);
   ScanReading reading{.scan = ScanOf(std::move(message), laser),
                       .T_odom_robot = choice_.odometry.At(place.scan.stamp, place.scan.sequence),
-                      .laser = laser.name,
-                      .gyro_rad = choice_.gyro.At(place.scan.stamp)};
+                      .laser = laser.name};
   reading.scan.stamp = place.scan.stamp;
   LaserGeometry& geometry = reading.scan.geometry;
   if (options_.range_max_m) geometry.range_max_m = *options_.range_max_m;

@@ -78,9 +78,9 @@ class Surveyor {
   }
 
   void TakeImu(const BagTopic& topic, const ImuMessage& imu) {
-    GyroTopic& gyro = contents_.gyros[topic.name];
-    gyro.frame = FrameName(imu.header.frame);
-    gyro.track.Add(imu.header.stamp, imu.turn_rate_rad_s);
+    ImuTopic& known = contents_.imus[topic.name];
+    known.frame = FrameName(imu.frame);
+    known.readings.push_back(imu.reading);
   }
 
   void TakeTruth(const BagTopic& topic, const OdometryMessage& truth) {

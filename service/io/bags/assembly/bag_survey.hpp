@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "qwsm/sensor/imu_reading.hpp"
 #include "service/io/bags/assembly/bag_faults.hpp"
-#include "service/io/bags/assembly/gyro_track.hpp"
 #include "service/io/bags/assembly/odometry_track.hpp"
 #include "service/io/bags/assembly/transform_tree.hpp"
 #include "service/io/bags/containers/bag_files.hpp"
@@ -39,10 +39,10 @@ struct OdometryTopic {
   OdometryTrack track;
 };
 
-/// A topic of a gyro.
-struct GyroTopic {
+/// A topic of an inertial sensor.
+struct ImuTopic {
   std::string frame;
-  GyroTrack track;
+  std::vector<ImuReading> readings;  ///< In the order of the bag, about the sensor's axes.
 };
 
 /// What a bag holds: read once from begin to end, and kept but for the scans themselves.
@@ -53,7 +53,7 @@ struct BagContents {
   std::vector<OpenBagFile> files;
   std::map<std::string, ScanTopic> scans;
   std::map<std::string, OdometryTopic> odometry;
-  std::map<std::string, GyroTopic> gyros;
+  std::map<std::string, ImuTopic> imus;
   std::map<std::string, OdometryTrack> truth;       ///< Topics of a simulator's ground truth.
   std::map<std::string, TransformTree> transforms;  ///< By namespace: "" or "/robot1".
 };

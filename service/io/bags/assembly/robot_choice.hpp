@@ -23,7 +23,7 @@ struct LaserChoice {
 struct RobotChoice {
   std::vector<LaserChoice> lasers;
   OdometryTrack odometry;
-  GyroTrack gyro;
+  std::vector<ImuReading> imu;  ///< By stamp, about the robot's axes.
   OdometryTrack truth;
 };
 
