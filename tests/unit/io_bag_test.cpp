@@ -153,6 +153,42 @@ TEST_F(Bag, TellsHowFarTheGyroTurned) {
   }
 }
 
+/// A front and a rear laser on topics that may be one.
+std::vector<MadeMessage> DriveOfTwoLasers(const std::string& front, const std::string& rear) {
+  std::vector<MadeMessage> drive;
+  const io::Transform3 looking_back = Spatial({-0.2, 0.0, 3.0});
+  for (int i = 0; i < 4; ++i) {
+    drive.push_back(test::OdometryMessageOf(Ros::k2, "/odom", At(i), "base_link", OdometryAt(i)));
+    drive.push_back(test::ScanMessage(Ros::k2, front, At(i), "ahead", RangesAt(i)));
+    drive.push_back(test::ScanMessage(Ros::k2, rear, At(i) + 50ms, "behind", RangesAt(i + 1)));
+  }
+  for (const auto& [frame, mounting] :
+       {std::pair("ahead", Spatial(kMounting)), std::pair("behind", looking_back)}) {
+    drive.push_back(
+        test::TransformMessageOf(Ros::k2, "/tf_static", 0s, "base_link", frame, mounting));
+  }
+  return drive;
+}
+
+TEST_F(Bag, TellsLasersOnOneTopicApartByTheirFrames) {
+  const LogContent two = ReadMcap(DriveOfTwoLasers("/front/scan", "/rear/scan"));
+  const LogContent one = ReadMcap(DriveOfTwoLasers("/scan", "/scan"));
+  ASSERT_EQ(two.scans.size(), 8U);
+  ASSERT_EQ(one.scans.size(), two.scans.size());
+  for (std::size_t i = 0; i < two.scans.size(); ++i) {
+    EXPECT_EQ(one.scans[i].laser, two.scans[i].laser);
+    EXPECT_EQ(one.scans[i].scan.stamp, two.scans[i].scan.stamp);
+    EXPECT_EQ(one.scans[i].scan.geometry, two.scans[i].scan.geometry);
+    EXPECT_EQ(one.scans[i].scan.ranges_m, two.scans[i].scan.ranges_m);
+    EXPECT_EQ(one.scans[i].T_odom_robot, two.scans[i].T_odom_robot);
+  }
+  LogOptions chosen;
+  chosen.scan_topics = {"scan"};
+  EXPECT_EQ(Read("t.mcap", chosen).scans.size(), 8U);
+  chosen.scan_topics = {"/scan[behind]"};
+  EXPECT_EQ(Read("t.mcap", chosen).scans.size(), 4U);
+}
+
 TEST_F(Bag, LeavesOutLasersThatDoNotFit) {
   std::vector<MadeMessage> drive = Drive(Ros::k2);
   drive.push_back(test::ScanMessage(Ros::k2, "/mast/scan", At(1), "mast", RangesAt(1)));

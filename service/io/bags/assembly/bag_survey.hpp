@@ -27,7 +27,7 @@ struct MessagePlace {
   std::uint32_t topic = 0;  ///< Index among the file's topics.
 };
 
-/// A topic of scans.
+/// The scans of one laser on a topic.
 struct ScanTopic {
   std::string frame;
   std::vector<MessagePlace> places;
@@ -51,6 +51,7 @@ struct ImuTopic {
 /// seen before the first scan is given.
 struct BagContents {
   std::vector<OpenBagFile> files;
+  /// By topic; lasers on one topic, told apart by their frames, as "/scan", "/scan[rear]" ...
   std::map<std::string, ScanTopic> scans;
   std::map<std::string, OdometryTopic> odometry;
   std::map<std::string, ImuTopic> imus;
@@ -58,7 +59,7 @@ struct BagContents {
   std::map<std::string, TransformTree> transforms;  ///< By namespace: "" or "/robot1".
 };
 
-/// The namespace of a topic: "/robot1" of "/robot1/scan", "" of "/scan".
+/// The namespace of a topic: "/robot1" of "/robot1/scan" and "/robot1/scan[rear]", "" of "/scan".
 std::string NamespaceOf(std::string_view topic);
 
 /// Hands over every message of a bag, file after file.

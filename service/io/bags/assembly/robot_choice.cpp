@@ -148,11 +148,14 @@ class Chooser {
     if (options_.scan_topics.empty()) return KeysOf(contents_.scans);
     std::vector<std::string> topics;
     for (const std::string& name : options_.scan_topics) {
-      if (!contents_.scans.contains(AsTopic(name))) {
-        Refuse("has no scans on '" + AsTopic(name) + "'; it has them on " +
-               ListOf(KeysOf(contents_.scans)));
+      const std::size_t before = topics.size();
+      for (const auto& [topic, scans] : contents_.scans) {
+        const bool is_on_it = topic == AsTopic(name) || topic.starts_with(AsTopic(name) + "[");
+        if (is_on_it) topics.push_back(topic);
       }
-      topics.push_back(AsTopic(name));
+      if (topics.size() > before) continue;
+      Refuse("has no scans on '" + AsTopic(name) + "'; it has them on " +
+             ListOf(KeysOf(contents_.scans)));
     }
     return topics;
   }
