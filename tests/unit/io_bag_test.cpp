@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -187,6 +188,30 @@ TEST_F(Bag, TellsLasersOnOneTopicApartByTheirFrames) {
   EXPECT_EQ(Read("t.mcap", chosen).scans.size(), 8U);
   chosen.scan_topics = {"/scan[behind]"};
   EXPECT_EQ(Read("t.mcap", chosen).scans.size(), 4U);
+}
+
+// Level for twenty seconds, then the nose sinks to 0.1 rad: 0.2 m up, the floor is 2 m ahead.
+TEST_F(Bag, LeavesOutBeamsThatHitTheFloor) {
+  std::vector<MadeMessage> drive = Drive(Ros::k2);
+  for (auto stamp = At(0) - 30s; stamp < At(4); stamp += 10ms) {
+    const std::chrono::duration<double> sinking = stamp - (At(0) - 10s);
+    const double pitch_rad = std::clamp(0.01 * sinking.count(), 0.0, 0.1);
+    drive.push_back(
+        test::ImuMessageOf(Ros::k2,
+                           "/imu",
+                           stamp,
+                           "base_link",
+                           0.0,
+                           {-9.81 * std::sin(pitch_rad), 0.0, 9.81 * std::cos(pitch_rad)}));
+  }
+  LogOptions options;
+  const LogContent level = ReadMcap(drive, "zstd", options);
+  EXPECT_EQ(level.scans.at(0).scan.ranges_m[2], RangesAt(0)[2]) << "how high it sits nobody says";
+  options.laser_height_m = 0.2;
+  const LogContent high = Read("t.mcap", options);
+  EXPECT_EQ(high.scans.at(0).scan.ranges_m[0], RangesAt(0)[0]) << "1 m ahead";
+  EXPECT_TRUE(std::isnan(high.scans.at(0).scan.ranges_m[2])) << "3 m ahead";
+  EXPECT_NE(high.report.notes.back().find("may have hit the floor"), std::string::npos);
 }
 
 TEST_F(Bag, LeavesOutLasersThatDoNotFit) {

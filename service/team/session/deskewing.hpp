@@ -5,7 +5,9 @@
 #include <optional>
 
 #include "qwsm/sensor/deskew.hpp"
+#include "qwsm/sensor/floor.hpp"
 #include "qwsm/sensor/gyro_track.hpp"
+#include "qwsm/sensor/tilt_track.hpp"
 #include "service/team/scans/cloud_scan.hpp"
 #include "service/team/session/odometry_buffer.hpp"
 
@@ -35,6 +37,15 @@ inline LaserScan AsFromOnePlace(LaserScan scan,
   }
   return Deskewed(scan, T_first_last);
 }
+/// Leaves out the beams that may have hit the floor; see LeaveOutFloor().
+/// @param height_m of the laser; 0 where it is not known.
+inline void LeaveOutFloorOf(const TiltTrack& tilt, double height_m, LaserScan& scan) {
+  const std::optional<Tilt> at_scan = tilt.At(scan.stamp);
+  if (at_scan && height_m > 0.0) LeaveOutFloor(*at_scan, height_m, scan);
+}
+/// The floor is part of a cloud.
+inline void LeaveOutFloorOf(const TiltTrack&, double, CloudScan&) {}
+
 inline CloudScan AsFromOnePlace(CloudScan scan,
                                 const OdometryBuffer<slam6d::Pose3>&,
                                 const GyroTrack&) {

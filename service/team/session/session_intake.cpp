@@ -167,12 +167,14 @@ void SessionIntake<Kind>::TakeImu(const ImuReading& reading) {
       return;
     case StampVerdict::kClockReset:
       gyro_.Restart();
+      tilt_.Restart();
       break;
     case StampVerdict::kInOrder:
     case StampVerdict::kLate:
       break;
   }
   gyro_.Add(reading);
+  tilt_.Add(reading);
 }
 
 template <class Kind>
@@ -228,6 +230,7 @@ std::optional<typename SessionIntake<Kind>::Work> SessionIntake<Kind>::Take() {
   DropScansBeforeOdometry();
   if (queue_.empty()) return std::nullopt;
   Arrival next = queue_.Pop();
+  LeaveOutFloorOf(tilt_, options_.laser_height_m, next.scan);
   if (options_.deskew) next.scan = AsFromOnePlace(std::move(next.scan), odometry_, gyro_);
   Work work{.scan = std::move(next.scan),
             .arrived = next.arrived,

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "qwsm/sensor/gyro_track.hpp"
+#include "qwsm/sensor/tilt_track.hpp"
 #include "service/team/scans/sensor_kind.hpp"
 #include "service/team/session/latency_histogram.hpp"
 #include "service/team/session/odometry_buffer.hpp"
@@ -130,6 +131,7 @@ class SessionIntake {
   std::deque<SensorStamps> guards_;
   OdometryBuffer<Pose> odometry_;
   GyroTrack gyro_{kImuReadingsKept};
+  TiltTrack tilt_{kImuReadingsKept};
   StampGuard imu_guard_;
   bool expects_imu_ = false;
   bool expects_odometry_ = false;

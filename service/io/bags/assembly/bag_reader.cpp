@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "qwsm/sensor/deskew.hpp"
+#include "qwsm/sensor/floor.hpp"
 #include "qwsm/sensor/scan_limits.hpp"
 #include "service/io/bags/messages/message_reader.hpp"
 
@@ -54,7 +55,10 @@ BagReader::BagReader(const std::filesystem::path& path, const LogOptions& option
   report_.format = contents_.files.front().messages().format();
   report_.compression = contents_.files.front().compression();
   choice_ = ChooseRobot(contents_, options_, report_, faults_);
-  for (const ImuReading& reading : choice_.imu) gyro_.Add(reading);
+  for (const ImuReading& reading : choice_.imu) {
+    gyro_.Add(reading);
+    tilt_.Add(reading);
+  }
   TakePlaces();
   contents_.transforms.clear();
   contents_.odometry.clear();
@@ -144,6 +148,7 @@ std::optional<LogRecord> BagReader::NextScan() {
       faults_.OfMessage(topic, place.scan.sequence, error.what());
     }
   }
+  TellOfFloor();
   return std::nullopt;
 }
 
@@ -168,6 +173,23 @@ LaserScan BagReader::Deskew(LaserScan scan,
   return Deskewed(scan, T_first_last);
 }
 
+/// @param height_m 0 where it is not known
+void BagReader::LeaveOutFloorOf(double height_m, LaserScan& scan) {
+  const std::optional<Tilt> tilt = tilt_.At(scan.stamp);
+  if (!tilt || height_m <= 0.0) return;
+  const std::size_t left_out = LeaveOutFloor(*tilt, height_m, scan);
+  floor_beams_ += left_out;
+  leaning_scans_ += left_out > 0 ? 1 : 0;
+}
+
+/// Tells once, at the end, of beams that were left out.
+void BagReader::TellOfFloor() {
+  if (floor_beams_ == 0) return;
+  report_.notes.push_back("the robot leant in " + std::to_string(leaning_scans_) +
+                          " scans: " + std::to_string(std::exchange(floor_beams_, 0)) +
+                          " beams that may have hit the floor are left out");
+}
+
 ScanReading BagReader::ReadScan(const Place& place) {
   MessageSource& messages = contents_.files[place.scan.file].messages();
   const Encoding encoding = messages.topics()[place.scan.topic].encoding;
@@ -182,6 +204,7 @@ ScanReading BagReader::ReadScan(const Place& place) {
   LaserGeometry& geometry = reading.scan.geometry;
   if (options_.range_max_m) geometry.range_max_m = *options_.range_max_m;
   if (options_.T_robot_laser) geometry.T_robot_laser = *options_.T_robot_laser;
+  LeaveOutFloorOf(options_.laser_height_m.value_or(laser.height_m), reading.scan);
   reading.scan = Deskew(std::move(reading.scan), sweep_s, reading.T_odom_robot);
   return reading;
 }

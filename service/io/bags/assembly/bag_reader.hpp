@@ -10,6 +10,7 @@
 
 #include "qwsm/logs/log_reader.hpp"
 #include "qwsm/sensor/gyro_track.hpp"
+#include "qwsm/sensor/tilt_track.hpp"
 #include "service/io/bags/assembly/bag_survey.hpp"
 #include "service/io/bags/assembly/robot_choice.hpp"
 
@@ -40,6 +41,8 @@ class BagReader final : public LogReader {
   bool IsImuDue(Timestamp until) const;
   std::optional<LogRecord> NextScan();
   ScanReading ReadScan(const Place& place);
+  void LeaveOutFloorOf(double height_m, LaserScan& scan);
+  void TellOfFloor();
   LaserScan Deskew(LaserScan scan, double sweep_s, const std::optional<Pose2>& T_odom_first) const;
   std::optional<OdometryReading> NextOf(const OdometryTrack& track,
                                         std::size_t next,
@@ -56,6 +59,9 @@ class BagReader final : public LogReader {
   std::size_t next_truth_ = 0;
   std::size_t next_imu_ = 0;
   GyroTrack gyro_;
+  TiltTrack tilt_;
+  std::size_t leaning_scans_ = 0;
+  std::size_t floor_beams_ = 0;
   std::string buffer_;
 };
 

@@ -289,6 +289,9 @@ class Chooser {
     if (T_robot_laser) {
       const double uprightness = UprightnessOf(T_robot_laser->rotation);
       laser.T_robot_laser = Planar(*T_robot_laser);
+      // Where there is a frame on the floor, that is what counts.
+      const auto T_floor_laser = Transforms().Find("base_footprint", frame);
+      laser.height_m = std::max(0.0, T_floor_laser.value_or(*T_robot_laser).z_m);
       laser.is_upside_down = uprightness < 0.0;
       laser.is_level = std::abs(uprightness) > kLevel;
       if (!laser.is_level) TellTilt(topic, uprightness);

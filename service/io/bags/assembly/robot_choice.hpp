@@ -14,6 +14,7 @@ struct LaserChoice {
   std::string topic;
   std::string name;  ///< "front"; of several, the others are "rear", "laser3" ...
   Pose2 T_robot_laser;
+  double height_m = 0.0;        ///< Above the floor, or the robot's frame; 0: not known.
   bool is_upside_down = false;  ///< Its bearings count clockwise, seen from above.
   bool is_placed = false;       ///< Transforms say where it sits.
   bool is_level = true;
