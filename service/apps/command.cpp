@@ -89,6 +89,7 @@ io::LogOptions LogOptionsOf(const options::LogOptions& options) {
   if (options.range_max_m > 0.0) log.range_max_m = static_cast<float>(options.range_max_m);
   if (options.field_of_view_rad > 0.0) log.field_of_view_rad = options.field_of_view_rad;
   if (options.sweep_s >= 0.0) log.sweep_s = options.sweep_s;
+  if (options.laser_height_m > 0.0) log.laser_height_m = options.laser_height_m;
   std::istringstream topics(options.scan);
   for (std::string topic; std::getline(topics, topic, ',');) log.scan_topics.push_back(topic);
   log.stamp_offset_s = options.stamp_offset_s;

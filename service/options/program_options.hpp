@@ -22,6 +22,7 @@ struct LogOptions {
   double field_of_view_rad = 0.0;
   bool mirrored = false;
   double sweep_s = -1.0;
+  double laser_height_m = 0.0;
   double stamp_offset_s = 0.0;
   std::string scan;
   std::string odometry;
@@ -47,6 +48,11 @@ void Describe(Visitor& visit, LogOptions& o) {
         {.help = "of a bag: time from first to last beam, as the robot moves; -1: as messages say",
          .min = -1,
          .max = 1});
+  visit("laser_height_m",
+        o.laser_height_m,
+        {.help = "of a bag: above the floor, which a robot that leans sees; 0: as /tf_static says",
+         .min = 0,
+         .max = 10});
   visit("stamp_offset_s",
         o.stamp_offset_s,
         {.help = "of a bag: what is added to the stamps of scans, to fit those of odometry",

@@ -59,6 +59,7 @@ Robot::Robot(const RobotPlacement& placement, std::uint64_t seed, PhysicsWorld& 
       odometry_(options_.odometry, options_.drive, SeedFor("odometry", seed)),
       gyro_(options_.gyro, SeedFor("gyro", seed)),
       driver_(options_.driver, placement.route, SeedFor("driver", seed)) {
+  if (options_.gyro.enabled) imu_.emplace_back();  // It stands at the start.
   Mount(options_.laser, SeedFor("laser", seed));
   for (const LaserOptions& laser : options_.more_lasers) {
     Mount(laser, SeedFor("laser " + std::to_string(lasers_.size()), seed));
@@ -92,9 +93,20 @@ void Robot::CarryIfDue(PhysicsWorld& world, qwsm::Timestamp now) {
   ++times_carried_;
 }
 
-void Robot::Advance(const PhysicsWorld& world, std::chrono::nanoseconds step) {
+void Robot::Advance(const PhysicsWorld& world, qwsm::Timestamp now, std::chrono::nanoseconds step) {
   odometry_.Advance(drive_.rims(), step);
+  ReadGyro(world, now, step);
+}
+
+void Robot::ReadGyro(const PhysicsWorld& world,
+                     qwsm::Timestamp now,
+                     std::chrono::nanoseconds step) {
+  const double turned_before_rad = gyro_.turned_rad();
   gyro_.Advance(world.TwistOf(body_).yaw_rate_rad_s, step);
+  if (!options_.gyro.enabled) return;
+  const double rate_rad_s =
+      (gyro_.turned_rad() - turned_before_rad) / std::chrono::duration<double>(step).count();
+  imu_.push_back({.stamp = now, .turn_rate_rad_s = {0.0, 0.0, rate_rad_s}});
 }
 
 void Robot::Scan(const PhysicsWorld& world, qwsm::Timestamp now, std::vector<Reading>& completed) {
@@ -108,6 +120,7 @@ void Robot::Scan(const PhysicsWorld& world, qwsm::Timestamp now, std::vector<Rea
     if (!scan) continue;
     completed.push_back(mounted.reading);
     EndScan(std::move(*scan), now, completed.back());
+    completed.back().imu = std::exchange(imu_, {});
   }
 }
 

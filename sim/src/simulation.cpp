@@ -65,7 +65,7 @@ void Simulation::Advance() {
   for (Robot& robot : robots_) robot.Drive(world_, ground_, now_, kStep);
   world_.Step(kStep);
   now_ += kStep;
-  for (Robot& robot : robots_) robot.Advance(world_, kStep);
+  for (Robot& robot : robots_) robot.Advance(world_, now_, kStep);
 }
 
 bool Simulation::is_over() const {

@@ -40,7 +40,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   });
   const bool is_odometry =
       IsMessage([&] { Expect(std::isfinite(DecodeOdometry(bytes, encoding).T_frame_child.x_m)); });
-  Expect(has_header || !(is_scan || is_odometry));
+  const bool is_imu =
+      IsMessage([&] { Expect(qwsm::ObjectionTo(DecodeImu(bytes, encoding).reading).empty()); });
+  Expect(has_header || !(is_scan || is_odometry || is_imu));
   IsMessage([&] { DecodeTransforms(bytes, encoding); });
   IsMessage([&] { DecodePointCloud(bytes, encoding); });
   return 0;

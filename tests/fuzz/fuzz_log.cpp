@@ -35,7 +35,8 @@ std::vector<LogRecord> ReadSome(const std::string& bytes, const LogOptions& opti
     const auto reader = OpenLog(stream, "fuzz", options);
     while (const std::optional<LogRecord> record = reader->Next()) records.push_back(*record);
     const LogReport& report = reader->report();
-    Expect(report.scans + report.odometry_readings + report.true_poses == records.size());
+    Expect(report.scans + report.odometry_readings + report.true_poses + report.imu_readings ==
+           records.size());
     Expect(!options.strict || report.faults.empty());
   } catch (const LogError& error) {
     Expect(std::string(error.what()).starts_with("fuzz:"));

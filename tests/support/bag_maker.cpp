@@ -202,12 +202,15 @@ MadeMessage ImuMessageOf(Ros ros,
                          const std::string& topic,
                          Timestamp stamp,
                          const std::string& frame,
-                         double turn_rate_rad_s) {
+                         double turn_rate_rad_s,
+                         const std::array<double, 3>& acceleration_mps2) {
   Fields fields(ros);
   fields.AddHeader(stamp, frame);
   for (int i = 0; i < 4 + 9 + 2; ++i) fields.Add(0.0);
   fields.Add(turn_rate_rad_s);
-  for (int i = 0; i < 9 + 3 + 9; ++i) fields.Add(0.0);
+  for (int i = 0; i < 9; ++i) fields.Add(0.0);
+  for (const double value : acceleration_mps2) fields.Add(value);
+  for (int i = 0; i < 9; ++i) fields.Add(0.0);
   return {topic, TypeIn(ros, "sensor_msgs", "Imu"), fields.bytes()};
 }
 

@@ -41,7 +41,8 @@ MadeMessage ImuMessageOf(Ros ros,
                          const std::string& topic,
                          Timestamp stamp,
                          const std::string& frame,
-                         double turn_rate_rad_s);
+                         double turn_rate_rad_s,
+                         const std::array<double, 3>& acceleration_mps2 = {});
 MadeMessage TransformMessageOf(Ros ros,
                                const std::string& topic,
                                Timestamp stamp,

@@ -18,6 +18,7 @@ struct LogContent {
   std::vector<io::ScanReading> scans;
   std::vector<io::OdometryReading> odometry;
   std::vector<io::TruePoseReading> true_poses;
+  std::vector<ImuReading> imu;
   io::LogReport report;
 };
 
@@ -32,6 +33,7 @@ inline LogContent ReadAll(io::LogReader& reader) {
     if (const auto* pose = std::get_if<io::TruePoseReading>(&*record)) {
       content.true_poses.push_back(*pose);
     }
+    if (const auto* imu = std::get_if<ImuReading>(&*record)) content.imu.push_back(*imu);
   }
   content.report = reader.report();
   return content;

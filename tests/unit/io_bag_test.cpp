@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <functional>
 #include <numbers>
 
+#include "qwsm/sensor/gyro_track.hpp"
 #include "service/io/bags/containers/chunk_cache.hpp"
 #include "service/io/bags/containers/chunk_codec.hpp"
 #include "tests/support/bag_drive.hpp"
@@ -137,13 +139,79 @@ TEST_F(Bag, TellsHowFarTheGyroTurned) {
         "base_link",
         "imu",
         {.rotation = {.x = 1.0, .w = 0.0}}));
-    const std::vector<ScanReading> scans =
-        ros == Ros::k1 ? ReadRos1(drive).scans : ReadMcap(drive).scans;
-    ASSERT_TRUE(scans.at(0).gyro_rad && scans.at(1).gyro_rad);
+    GyroTrack gyro;
+    std::vector<std::optional<double>> at_scans;
+    for (const LogRecord& record : (ros == Ros::k1 ? ReadRos1(drive) : ReadMcap(drive)).records) {
+      if (const auto* imu = std::get_if<ImuReading>(&record)) gyro.Add(*imu);
+      if (const auto* reading = std::get_if<ScanReading>(&record)) {
+        at_scans.push_back(gyro.At(reading->scan.stamp));
+      }
+    }
+    ASSERT_TRUE(at_scans.at(0) && at_scans.at(1)) << "readings up to a scan come before it";
     const std::chrono::duration<double> since = At(1) - At(0);
-    EXPECT_NEAR(*scans[1].gyro_rad - *scans[0].gyro_rad, 0.5 * since.count(), 1e-9);
-    EXPECT_FALSE(scans.at(3).gyro_rad) << "it was silent by then";
+    EXPECT_NEAR(*at_scans[1] - *at_scans[0], 0.5 * since.count(), 1e-9);
+    EXPECT_FALSE(at_scans.at(3)) << "it was silent by then";
   }
+}
+
+/// A front and a rear laser on topics that may be one.
+std::vector<MadeMessage> DriveOfTwoLasers(const std::string& front, const std::string& rear) {
+  std::vector<MadeMessage> drive;
+  const io::Transform3 looking_back = Spatial({-0.2, 0.0, 3.0});
+  for (int i = 0; i < 4; ++i) {
+    drive.push_back(test::OdometryMessageOf(Ros::k2, "/odom", At(i), "base_link", OdometryAt(i)));
+    drive.push_back(test::ScanMessage(Ros::k2, front, At(i), "ahead", RangesAt(i)));
+    drive.push_back(test::ScanMessage(Ros::k2, rear, At(i) + 50ms, "behind", RangesAt(i + 1)));
+  }
+  for (const auto& [frame, mounting] :
+       {std::pair("ahead", Spatial(kMounting)), std::pair("behind", looking_back)}) {
+    drive.push_back(
+        test::TransformMessageOf(Ros::k2, "/tf_static", 0s, "base_link", frame, mounting));
+  }
+  return drive;
+}
+
+TEST_F(Bag, TellsLasersOnOneTopicApartByTheirFrames) {
+  const LogContent two = ReadMcap(DriveOfTwoLasers("/front/scan", "/rear/scan"));
+  const LogContent one = ReadMcap(DriveOfTwoLasers("/scan", "/scan"));
+  ASSERT_EQ(two.scans.size(), 8U);
+  ASSERT_EQ(one.scans.size(), two.scans.size());
+  for (std::size_t i = 0; i < two.scans.size(); ++i) {
+    EXPECT_EQ(one.scans[i].laser, two.scans[i].laser);
+    EXPECT_EQ(one.scans[i].scan.stamp, two.scans[i].scan.stamp);
+    EXPECT_EQ(one.scans[i].scan.geometry, two.scans[i].scan.geometry);
+    EXPECT_EQ(one.scans[i].scan.ranges_m, two.scans[i].scan.ranges_m);
+    EXPECT_EQ(one.scans[i].T_odom_robot, two.scans[i].T_odom_robot);
+  }
+  LogOptions chosen;
+  chosen.scan_topics = {"scan"};
+  EXPECT_EQ(Read("t.mcap", chosen).scans.size(), 8U);
+  chosen.scan_topics = {"/scan[behind]"};
+  EXPECT_EQ(Read("t.mcap", chosen).scans.size(), 4U);
+}
+
+// Level for twenty seconds, then the nose sinks to 0.1 rad: 0.2 m up, the floor is 2 m ahead.
+TEST_F(Bag, LeavesOutBeamsThatHitTheFloor) {
+  std::vector<MadeMessage> drive = Drive(Ros::k2);
+  for (auto stamp = At(0) - 30s; stamp < At(4); stamp += 10ms) {
+    const std::chrono::duration<double> sinking = stamp - (At(0) - 10s);
+    const double pitch_rad = std::clamp(0.01 * sinking.count(), 0.0, 0.1);
+    drive.push_back(
+        test::ImuMessageOf(Ros::k2,
+                           "/imu",
+                           stamp,
+                           "base_link",
+                           0.0,
+                           {-9.81 * std::sin(pitch_rad), 0.0, 9.81 * std::cos(pitch_rad)}));
+  }
+  LogOptions options;
+  const LogContent level = ReadMcap(drive, "zstd", options);
+  EXPECT_EQ(level.scans.at(0).scan.ranges_m[2], RangesAt(0)[2]) << "how high it sits nobody says";
+  options.laser_height_m = 0.2;
+  const LogContent high = Read("t.mcap", options);
+  EXPECT_EQ(high.scans.at(0).scan.ranges_m[0], RangesAt(0)[0]) << "1 m ahead";
+  EXPECT_TRUE(std::isnan(high.scans.at(0).scan.ranges_m[2])) << "3 m ahead";
+  EXPECT_NE(high.report.notes.back().find("may have hit the floor"), std::string::npos);
 }
 
 TEST_F(Bag, LeavesOutLasersThatDoNotFit) {

@@ -38,6 +38,13 @@ std::vector<LogRecord> Records() {
   return records;
 }
 
+ImuReading FeltWith(bool all) {
+  ImuReading reading{.stamp = 5s + 123456789ns, .turn_rate_rad_s = {0.1, -1.0 / 3.0, 2.0 / 7.0}};
+  if (all) reading.acceleration_mps2 = Eigen::Vector3d(0.1, -0.2, 9.81 / 3.0);
+  if (all) reading.orientation = Quaternion{0.1, 0.2, 0.3, 0.9};
+  return reading;
+}
+
 class BagWriting : public testing::TestWithParam<const char*> {
  protected:
   std::filesystem::path Write(const std::vector<LogRecord>& records) {
@@ -71,6 +78,20 @@ TEST_P(BagWriting, KeepsTheTruthOfASimulator) {
   const test::LogContent log = test::ReadAll(*OpenLog(Write({Records()[0], LogRecord(truth)})));
   ASSERT_EQ(log.true_poses.size(), 1U);
   EXPECT_EQ(log.true_poses[0].T_world_robot, truth.T_world_robot);
+}
+
+TEST_P(BagWriting, KeepsWhatAnInertialSensorFelt) {
+  for (const bool all : {true, false}) {
+    const ImuReading felt = FeltWith(all);
+    const test::LogContent log = test::ReadAll(*OpenLog(Write({LogRecord(felt), Records()[0]})));
+    ASSERT_EQ(log.imu.size(), 1U);
+    EXPECT_EQ(log.report.imu_readings, 1U);
+    EXPECT_EQ(log.imu[0].stamp, felt.stamp);
+    EXPECT_EQ(log.imu[0].turn_rate_rad_s, felt.turn_rate_rad_s);
+    EXPECT_EQ(log.imu[0].acceleration_mps2, felt.acceleration_mps2);
+    ASSERT_EQ(log.imu[0].orientation.has_value(), all);
+    EXPECT_EQ(log.imu[0].orientation.value_or(Quaternion{}).w, all ? 0.9 : 1.0);
+  }
 }
 
 TEST_P(BagWriting, RefusesATimeThatRos2DoesNotHave) {

@@ -90,6 +90,22 @@ TEST(CarmenWriter, WritesWhatReadsBackTheSame) {
   }
 }
 
+TEST(CarmenWriter, WritesWhatAnInertialSensorFelt) {
+  ImuReading felt{.stamp = 5s, .turn_rate_rad_s = {0.1, -1.0 / 3.0, 2.0 / 7.0}};
+  for (const bool all : {false, true}) {
+    if (all) felt.acceleration_mps2 = Eigen::Vector3d(0.1, -0.2, 9.81 / 3.0);
+    if (all) felt.orientation = Quaternion{0.1, 0.2, 0.3, 0.9};
+    const test::LogContent log = test::ReadLogText(Written({felt}));
+    EXPECT_TRUE(log.report.faults.empty());
+    ASSERT_EQ(log.imu.size(), 1U);
+    EXPECT_EQ(log.imu[0].stamp, felt.stamp);
+    EXPECT_EQ(log.imu[0].turn_rate_rad_s, felt.turn_rate_rad_s);
+    EXPECT_EQ(log.imu[0].acceleration_mps2, felt.acceleration_mps2);
+    ASSERT_EQ(log.imu[0].orientation.has_value(), all);
+    EXPECT_EQ(log.imu[0].orientation.value_or(Quaternion{}).z, all ? 0.3 : 0.0);
+  }
+}
+
 TEST(CarmenWriter, WritesScansWithoutOdometryAsRawOnes) {
   RandomRecords random(1);
   ScanReading scan = random.Scan(SomeGeometry(), 10);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -69,6 +70,11 @@ void AddReadings(py::module_& module) {
       .def_property_readonly("stamp_ns",
                              [](const io::OdometryReading& r) { return r.stamp.count(); })
       .def_readonly("T_odom_robot", &io::OdometryReading::T_odom_robot);
+  py::class_<ImuReading>(
+      module, "ImuReading", "What an inertial sensor feels at a moment, about the robot's axes.")
+      .def_property_readonly("stamp_ns", [](const ImuReading& r) { return r.stamp.count(); })
+      .def_readonly("turn_rate_rad_s", &ImuReading::turn_rate_rad_s)
+      .def_readonly("acceleration_mps2", &ImuReading::acceleration_mps2);
   py::class_<io::TruePoseReading>(module, "TruePoseReading", "Where a simulator says the robot is.")
       .def_property_readonly("stamp_ns",
                              [](const io::TruePoseReading& r) { return r.stamp.count(); })

@@ -16,6 +16,9 @@ struct Terms {
 // History of shared scans: three days of a robot that makes one relevant scan each second.
 constexpr int kAllSharedScans = 262'144;
 
+// Some seconds of a sensor of 400 Hz.
+constexpr int kSecondsOfSamples = 1024;
+
 // More than any writer says while the disk is busy for a moment.
 constexpr int kManySamples = 4096;
 
@@ -26,6 +29,10 @@ constexpr Terms TermsOf(Profile profile) {
     case Profile::kSensorInWhole:
     case Profile::kSensorOut:
       return {.reliable = true, .latched = false, .depth = 32};
+    case Profile::kFastSensorIn:
+      return {.reliable = false, .latched = false, .depth = kSecondsOfSamples};
+    case Profile::kFastSensorOut:
+      return {.reliable = true, .latched = false, .depth = kSecondsOfSamples};
     case Profile::kAnswer:
     case Profile::kAnswerIn:
       return {.reliable = true, .latched = false, .depth = 256};

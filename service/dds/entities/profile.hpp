@@ -14,6 +14,8 @@ enum class Profile {
   kSensorIn,       ///< Reads scans, odometry and commands: the newest counts.
   kSensorInWhole,  ///< Reads clouds of writers that repeat what is lost: clouds are large.
   kSensorOut,      ///< Writes scans, odometry and commands, from the simulator or a log.
+  kFastSensorIn,   ///< Reads what comes some hundred times a second, where each one counts.
+  kFastSensorOut,  ///< Writes it.
   kAnswer,         ///< Writes poses, odometry and reports of every scan.
   kAnswerIn,       ///< Reads poses, odometry and reports where each one is wanted.
   kLatched,        ///< Writes maps and the graph: the last sample is kept for those who come later.

@@ -16,8 +16,10 @@ namespace qwsm::dds::wire {
 using Time = builtin_interfaces_msg_dds__Time_;
 using Header = std_msgs_msg_dds__Header_;
 using LaserScan = sensor_msgs_msg_dds__LaserScan_;
+using Imu = sensor_msgs_msg_dds__Imu_;
 using PointCloud2 = sensor_msgs_msg_dds__PointCloud2_;
 using Pose = geometry_msgs_msg_dds__Pose_;
+using Vector3 = geometry_msgs_msg_dds__Vector3_;
 using Quaternion = geometry_msgs_msg_dds__Quaternion_;
 using PoseWithCovarianceStamped = geometry_msgs_msg_dds__PoseWithCovarianceStamped_;
 using Twist = geometry_msgs_msg_dds__Twist_;
@@ -48,6 +50,8 @@ extern const dds_topic_descriptor_t* const kDescriptor;
 template <>
 inline const dds_topic_descriptor_t* const kDescriptor<LaserScan> =
     &sensor_msgs_msg_dds__LaserScan__desc;
+template <>
+inline const dds_topic_descriptor_t* const kDescriptor<Imu> = &sensor_msgs_msg_dds__Imu__desc;
 template <>
 inline const dds_topic_descriptor_t* const kDescriptor<PointCloud2> =
     &sensor_msgs_msg_dds__PointCloud2__desc;

@@ -15,6 +15,7 @@ TopicType TypeOf(std::string_view ros_name) {
 
 const std::array kTopicTypes{
     TypeOf<wire::LaserScan>("sensor_msgs/msg/LaserScan"),
+    TypeOf<wire::Imu>("sensor_msgs/msg/Imu"),
     TypeOf<wire::PointCloud2>("sensor_msgs/msg/PointCloud2"),
     TypeOf<wire::PoseWithCovarianceStamped>("geometry_msgs/msg/PoseWithCovarianceStamped"),
     TypeOf<wire::Twist>("geometry_msgs/msg/Twist"),

@@ -46,12 +46,14 @@ BasicRobotInbox<Kind>::BasicRobotInbox(const Participant& participant,
     const std::string name = names.Topic(topic);
     scans_.push_back({.name = name, .reader = {participant, name, scans}});
   }
+  if constexpr (OnWire<Kind>::kUsesImu) imu_.emplace(participant, names, refusals);
 }
 
 template <class Kind>
 std::vector<Entity::Handle> BasicRobotInbox<Kind>::handles() const {
   std::vector<Entity::Handle> handles{odometry_.handle(), initial_poses_.handle()};
   for (const ScanTopic& topic : scans_) handles.push_back(topic.reader.handle());
+  if (imu_) handles.push_back(imu_->handle());
   return handles;
 }
 
@@ -78,6 +80,13 @@ void BasicRobotInbox<Kind>::Deliver(const BasicStaticTransforms<Kind>& transform
                                     team::RobotListener<Kind>& listener) {
   listener.ExpectOdometry(names_.name(), odometry_.writer_count() > 0);
   odometry_.TakeAll([&](const wire::Odometry& sample) { TakeOdometry(sample, listener); });
+  if constexpr (OnWire<Kind>::kUsesImu) {
+    imu_->Deliver(
+        [&](const std::string& frame) {
+          return transforms.FindRotation(robot_frame_, frame, Own());
+        },
+        listener);
+  }
   initial_poses_.TakeAll(
       [&](const wire::PoseWithCovarianceStamped& sample) { TakeInitialPose(sample, listener); });
   DeliverPlacedScans(transforms, listener);

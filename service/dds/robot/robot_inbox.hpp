@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "service/dds/entities/reader.hpp"
+#include "service/dds/robot/imu_inbox.hpp"
 #include "service/dds/wire/refusals.hpp"
 #include "service/dds/wire/robot_names.hpp"
 #include "service/dds/wire/static_transforms.hpp"
@@ -18,7 +19,8 @@
 
 namespace qwsm::dds {
 
-/// Hears what one robot says: scans, odometry, and where its operator says it is.
+/// Hears what one robot says: scans, odometry, its inertial sensor, and where its operator says it
+/// is.
 template <class Kind>
 class BasicRobotInbox {
  public:
@@ -80,6 +82,7 @@ class BasicRobotInbox {
   };
   std::deque<ScanTopic> scans_;
   Reader<wire::PoseWithCovarianceStamped> initial_poses_;
+  std::optional<ImuInbox> imu_;  // Where it is of use.
   std::deque<UnplacedScan> unplaced_;
   // Since when each frame's place is missing.
   std::map<std::string, std::chrono::steady_clock::time_point> missing_since_;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "service/dds/entities/writer.hpp"
+#include "service/dds/wire/imu_conversion.hpp"
 #include "service/dds/wire/transform_sample.hpp"
 #include "service/dds/wire/wire_kind.hpp"
 #include "service/team/session/deskewing.hpp"
@@ -20,7 +21,7 @@ namespace qwsm::dds {
 template <class Kind>
 class BasicRobotPublisher<Kind>::Topics {
  public:
-  Topics(const Participant& participant, RobotNames names, OdometryUse use)
+  Topics(const Participant& participant, RobotNames names, OdometryUse use, ImuUse imu)
       : names_(std::move(names)),
         odom_frame_(names_.Frame(kOdometryFrame)),
         robot_frame_(names_.Frame(kRobotFrame)),
@@ -32,11 +33,15 @@ class BasicRobotPublisher<Kind>::Topics {
     if (use == OdometryUse::kPublished) {
       odometry_.emplace(participant, names_.Topic(kOdometryTopic), Profile::kSensorOut);
     }
+    if (imu == ImuUse::kPublished) {
+      imu_.emplace(participant, names_.Topic(kImuTopic), Profile::kFastSensorOut);
+    }
     scans_.emplace(participant, names_.Topic(OnWire<Kind>::kScanTopic), Profile::kSensorOut);
   }
 
   bool has_listener() const {
-    return scans_->reader_count() > 0 && (!odometry_ || odometry_->reader_count() > 0);
+    return scans_->reader_count() > 0 && (!odometry_ || odometry_->reader_count() > 0) &&
+           (!imu_ || imu_->reader_count() > 0);
   }
   bool has_pose_listener() const { return told_poses_.reader_count() > 0; }
   const RobotNames& names() const { return names_; }
@@ -64,6 +69,10 @@ class BasicRobotPublisher<Kind>::Topics {
     if (odometry_ && T_odom_end) PublishOdometry(team::EndOf(observation.scan), *T_odom_end);
     const typename OnWire<Kind>::Sample sample(observation.scan, frame);
     return scans_->Write(sample.sample());
+  }
+
+  void PublishImu(std::span<const ImuReading> readings) {
+    for (const ImuReading& reading : readings) imu_->Write(ToWire(reading, robot_frame_));
   }
 
   void PublishOdometry(Timestamp stamp, const Pose& T_odom_robot) {
@@ -129,14 +138,16 @@ class BasicRobotPublisher<Kind>::Topics {
   Writer<wire::Odometry> truth_;
   Writer<wire::PoseWithCovarianceStamped> told_poses_;
   std::optional<Writer<wire::Odometry>> odometry_;
+  std::optional<Writer<wire::Imu>> imu_;
   std::optional<Writer<typename OnWire<Kind>::Scan>> scans_;
 };
 
 template <class Kind>
 BasicRobotPublisher<Kind>::BasicRobotPublisher(const Participant& participant,
                                                RobotNames names,
-                                               OdometryUse odometry)
-    : topics_(std::make_unique<Topics>(participant, std::move(names), odometry)) {}
+                                               OdometryUse odometry,
+                                               ImuUse imu)
+    : topics_(std::make_unique<Topics>(participant, std::move(names), odometry, imu)) {}
 
 template <class Kind>
 BasicRobotPublisher<Kind>::~BasicRobotPublisher() = default;
@@ -158,6 +169,11 @@ template <class Kind>
 bool BasicRobotPublisher<Kind>::Publish(const Observation& observation,
                                         const std::optional<Pose>& T_odom_end) {
   return topics_->Publish(observation, T_odom_end);
+}
+
+template <class Kind>
+void BasicRobotPublisher<Kind>::PublishImu(std::span<const ImuReading> readings) {
+  topics_->PublishImu(readings);
 }
 
 template <class Kind>

@@ -5,7 +5,9 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <span>
 
+#include "qwsm/sensor/imu_reading.hpp"
 #include "service/dds/entities/participant.hpp"
 #include "service/dds/wire/robot_names.hpp"
 #include "service/team/scans/sensor_kind.hpp"
@@ -14,8 +16,10 @@ namespace qwsm::dds {
 
 /// Whether a robot says how it moved.
 enum class OdometryUse { kPublished, kNone };
+/// Whether it has an inertial sensor.
+enum class ImuUse { kPublished, kNone };
 
-/// Publishes as a robot does: scans, odometry and the sensor's place on it.
+/// Publishes as a robot does: scans, odometry, its inertial sensor and the sensor's place on it.
 /// @tparam Kind team::Planar or team::Spatial.
 template <class Kind>
 class BasicRobotPublisher {
@@ -24,7 +28,10 @@ class BasicRobotPublisher {
   using Observation = typename Kind::Observation;
 
   /// Begins to publish a robot's topics. @throws DdsError.
-  BasicRobotPublisher(const Participant& participant, RobotNames names, OdometryUse odometry);
+  BasicRobotPublisher(const Participant& participant,
+                      RobotNames names,
+                      OdometryUse odometry,
+                      ImuUse imu = ImuUse::kNone);
   ~BasicRobotPublisher();
 
   /// Waits until somebody listens to the scans, knows where the sensor is, and hears the odometry.
@@ -36,6 +43,9 @@ class BasicRobotPublisher {
   /// @param T_odom_end odometry at the last beam of a scan whose beams have times.
   /// @returns false where a listener did not take it in time.
   bool Publish(const Observation& observation, const std::optional<Pose>& T_odom_end = {});
+  /// Publishes what the inertial sensor felt until after a scan, before that is published.
+  /// @pre it has one.
+  void PublishImu(std::span<const ImuReading> readings);
   /// Whether somebody listens to the scans.
   bool has_listener() const;
   /// Whether somebody listens to where the robot is told to be.

@@ -28,6 +28,8 @@ class Refusals {
       : on_first_(std::move(on_first)) {}
 
   void Add(const std::string& topic, std::string_view why);
+  /// Tells of what is used all the same, though not as it should be.
+  void Tell(const std::string& what) const { on_first_(what); }
   /// All kinds with their counts. Safe to ask from another thread.
   std::vector<Kind> All() const;
 

@@ -35,6 +35,7 @@ class RobotNames {
 inline constexpr std::string_view kScanTopic = "scan";
 inline constexpr std::string_view kCloudTopic = "points";
 inline constexpr std::string_view kOdometryTopic = "odom";
+inline constexpr std::string_view kImuTopic = "imu";
 inline constexpr std::string_view kTruthTopic = "ground_truth";
 inline constexpr std::string_view kCommandTopic = "cmd_vel";
 inline constexpr std::string_view kInitialPoseTopic = "initialpose";

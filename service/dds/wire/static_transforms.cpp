@@ -32,6 +32,7 @@ void BasicStaticTransforms<Kind>::Take(const wire::TFMessage& message, const Gui
          {.source = source,
           .parent = transform.header.frame_id,
           .T_parent_child = T_parent_child,
+          .rotation = {rotation.x, rotation.y, rotation.z, rotation.w},
           .is_usable = OnWire<Kind>::IsUsable(rotation)});
   }
 }
@@ -61,28 +62,52 @@ bool BasicStaticTransforms<Kind>::IsAwaited(const std::string& frame,
       own, [&](const Guid& source) { return speakers.contains(source) && !has_spoken(source); });
 }
 
+/// The links from a frame up to its ancestor; nothing where there is no such way.
 template <class Kind>
-std::optional<typename Kind::Pose> BasicStaticTransforms<Kind>::Find(
-    const std::string& ancestor, const std::string& frame, const std::set<Guid>& own) const {
-  std::optional<Pose> T_current_frame;
-  std::string current = frame;
+auto BasicStaticTransforms<Kind>::WayTo(const std::string& ancestor,
+                                        const std::string& frame,
+                                        const std::set<Guid>& own) const
+    -> std::optional<std::vector<const Link*>> {
+  std::vector<const Link*> way;
+  const std::string* current = &frame;
   // A circle of frames ends after as many steps as there are frames.
   for (std::size_t step = 0; step <= links_.size(); ++step) {
-    if (current == ancestor) return T_current_frame.value_or(Pose{});
-    const auto told = links_.find(current);
+    if (*current == ancestor) return way;
+    const auto told = links_.find(*current);
     if (told == links_.end()) return std::nullopt;
     const std::vector<Link>& links = told->second;
     const auto by_own = std::find_if(links.rbegin(), links.rend(), [&own](const Link& link) {
       return own.contains(link.source);
     });
-    const Link& link = by_own != links.rend() ? *by_own : links.back();
-    if (!link.is_usable) return std::nullopt;
-    // One step is taken as it is: a product would round.
-    const Pose& T_parent_current = link.T_parent_child;
-    T_current_frame = T_current_frame ? T_parent_current * *T_current_frame : T_parent_current;
-    current = link.parent;
+    way.push_back(by_own != links.rend() ? &*by_own : &links.back());
+    current = &way.back()->parent;
   }
   return std::nullopt;
+}
+
+template <class Kind>
+std::optional<typename Kind::Pose> BasicStaticTransforms<Kind>::Find(
+    const std::string& ancestor, const std::string& frame, const std::set<Guid>& own) const {
+  const auto way = WayTo(ancestor, frame, own);
+  if (!way) return std::nullopt;
+  std::optional<Pose> T_current_frame;
+  for (const Link* link : *way) {
+    if (!link->is_usable) return std::nullopt;
+    // One step is taken as it is: a product would round.
+    const Pose& T_parent_current = link->T_parent_child;
+    T_current_frame = T_current_frame ? T_parent_current * *T_current_frame : T_parent_current;
+  }
+  return T_current_frame.value_or(Pose{});
+}
+
+template <class Kind>
+std::optional<Quaternion> BasicStaticTransforms<Kind>::FindRotation(
+    const std::string& ancestor, const std::string& frame, const std::set<Guid>& own) const {
+  const auto way = WayTo(ancestor, frame, own);
+  if (!way) return std::nullopt;
+  Quaternion rotation;
+  for (const Link* link : *way) rotation = link->rotation * rotation;
+  return rotation;
 }
 
 template class BasicStaticTransforms<team::Planar>;

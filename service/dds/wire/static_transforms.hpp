@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "qwsm/geometry/quaternion.hpp"
 #include "service/dds/entities/participant.hpp"
 #include "service/dds/wire/wire_kind.hpp"
 
@@ -46,16 +47,25 @@ class BasicStaticTransforms {
                            const std::string& frame,
                            const std::set<Guid>& own = {}) const;
 
+  /// How a frame is turned on another, tilted ones as well; see Find().
+  std::optional<Quaternion> FindRotation(const std::string& ancestor,
+                                         const std::string& frame,
+                                         const std::set<Guid>& own = {}) const;
+
  private:
   /// What one participant says of a frame.
   struct Link {
     Guid source{};
     std::string parent;
     Pose T_parent_child;
+    Quaternion rotation;
     bool is_usable = true;
   };
 
   void Take(const std::string& child, Link link);
+  std::optional<std::vector<const Link*>> WayTo(const std::string& ancestor,
+                                                const std::string& frame,
+                                                const std::set<Guid>& own) const;
 
   Speakers speakers_;
   std::map<std::string, std::vector<Link>> links_;  // Links by child frame; the newest is last.

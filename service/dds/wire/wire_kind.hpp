@@ -28,6 +28,7 @@ struct OnWire<team::Planar> {
   static constexpr std::string_view kScanTopic = dds::kScanTopic;
   static constexpr std::string_view kReportTopic = dds::kReportTopic;
   static constexpr const char* kScanType = kLaserScanType;
+  static constexpr bool kUsesImu = true;
   static constexpr const char* kReportType = kMatchReportType;
 
   /// The profile scans are read with.
@@ -63,6 +64,7 @@ struct OnWire<team::Spatial> {
   static constexpr std::string_view kScanTopic = dds::kCloudTopic;
   static constexpr std::string_view kReportTopic = dds::kRegistrationTopic;
   static constexpr const char* kScanType = kPointCloudType;
+  static constexpr bool kUsesImu = false;
   static constexpr const char* kReportType = kRegistrationReportType;
 
   /// The profile clouds are read with. A cloud is a thousand packets: where the publisher repeats

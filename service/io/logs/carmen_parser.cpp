@@ -3,6 +3,7 @@
 #include "service/io/logs/carmen_parser.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -34,14 +35,13 @@ constexpr std::array kSweepLayouts{
 };
 
 /// Messages of CARMEN's logger that say nothing about scans or odometry.
-constexpr std::array<std::string_view, 14> kOtherMessages{"SYNC",
+constexpr std::array<std::string_view, 13> kOtherMessages{"SYNC",
                                                           "COMMENT",
                                                           "MARKER",
                                                           "NMEAGGA",
                                                           "NMEARMC",
                                                           "SONAR",
                                                           "BUMPER",
-                                                          "IMU",
                                                           "ARM",
                                                           "SCANMARK",
                                                           "POSITIONLASER",
@@ -133,13 +133,39 @@ ParsedLine ParseTruePose(FieldReader fields) {
   return reading;
 }
 
+Eigen::Vector3d ReadVector(FieldReader& fields) {
+  Eigen::Vector3d vector;
+  for (double& value : vector) value = fields.Number();
+  return vector;
+}
+
+/// `accX accY accZ q0 q1 q2 q3 magX magY magZ gyroX gyroY gyroZ`, the scalar of the rotation first;
+/// zeros stand for what is not measured.
+ParsedLine ParseImu(FieldReader fields) {
+  ImuReading reading;
+  const Eigen::Vector3d acceleration_mps2 = ReadVector(fields);
+  if (!acceleration_mps2.isZero(0.0)) reading.acceleration_mps2 = acceleration_mps2;
+  Quaternion orientation;
+  orientation.w = fields.Number();
+  orientation.x = fields.Number();
+  orientation.y = fields.Number();
+  orientation.z = fields.Number();
+  if (std::isfinite(UprightnessOf(orientation))) reading.orientation = orientation;
+  fields.Skip(3);  // The magnetic field.
+  reading.turn_rate_rad_s = ReadVector(fields);
+  reading.stamp = ReadStamp(fields);
+  if (!ObjectionTo(reading).empty()) fields.Fail(FieldFault::kTooFar);
+  if (fields.fault()) return MalformedLine{"IMU", *fields.fault()};
+  return reading;
+}
+
 }  // namespace
 
 bool CarmenParser::Recognizes(std::string_view line) {
   if (line.starts_with("# CARMEN")) return true;
   const std::string_view message = FieldReader(line).Word();
   return LayoutOf(message) != nullptr || message == "ODOM" || message == "TRUEPOS" ||
-         message == "PARAM" || message == "SYNC";
+         message == "PARAM" || message == "SYNC" || message == "IMU";
 }
 
 ParsedLine CarmenParser::Parse(std::string_view line) {
@@ -149,6 +175,7 @@ ParsedLine CarmenParser::Parse(std::string_view line) {
   if (const SweepLayout* layout = LayoutOf(message)) return ParseSweep(*layout, fields);
   if (message == "ODOM") return ParseOdometry(fields);
   if (message == "TRUEPOS") return ParseTruePose(fields);
+  if (message == "IMU") return ParseImu(fields);
   if (message == "PARAM") return ParseParameter(fields);
   if (std::ranges::find(kOtherMessages, message) != kOtherMessages.end()) return OtherMessage{};
   if (!IsPrintable(message)) return MalformedLine{"line", FieldFault::kNotText};

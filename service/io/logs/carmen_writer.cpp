@@ -61,6 +61,7 @@ void CarmenWriter::Write(const LogRecord& record) {
   if (const auto* scan = std::get_if<ScanReading>(&record)) WriteScan(*scan);
   if (const auto* odometry = std::get_if<OdometryReading>(&record)) WriteOdometry(*odometry);
   if (const auto* true_pose = std::get_if<TruePoseReading>(&record)) WriteTruePose(*true_pose);
+  if (const auto* imu = std::get_if<ImuReading>(&record)) WriteImu(*imu);
 }
 
 void CarmenWriter::WriteScan(const ScanReading& reading) {
@@ -97,6 +98,18 @@ void CarmenWriter::WriteTruePose(const TruePoseReading& reading) {
   line_ = "TRUEPOS";
   AppendPose(line_, reading.T_world_robot);
   AppendPose(line_, reading.T_odom_robot.value_or(Pose2{}));
+  AppendStampAndHost(reading.stamp);
+}
+
+void CarmenWriter::WriteImu(const ImuReading& reading) {
+  line_ = "IMU";
+  const Eigen::Vector3d acceleration_mps2 =
+      reading.acceleration_mps2.value_or(Eigen::Vector3d::Zero());
+  for (const double value : acceleration_mps2) AppendNumbers(line_, value);
+  const Quaternion q = reading.orientation.value_or(Quaternion{0.0, 0.0, 0.0, 0.0});
+  AppendNumbers(line_, q.w, q.x, q.y, q.z);
+  line_ += " 0 0 0";  // The magnetic field.
+  for (const double value : reading.turn_rate_rad_s) AppendNumbers(line_, value);
   AppendStampAndHost(reading.stamp);
 }
 

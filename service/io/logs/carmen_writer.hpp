@@ -33,6 +33,7 @@ class CarmenWriter {
   void WriteScan(const ScanReading& reading);
   void WriteOdometry(const OdometryReading& reading);
   void WriteTruePose(const TruePoseReading& reading);
+  void WriteImu(const ImuReading& reading);
   void WriteMounting(int laser_number, const Pose2& T_robot_laser);
   void AppendStampAndHost(Timestamp stamp);
 

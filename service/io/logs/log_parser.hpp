@@ -42,7 +42,8 @@ using ParsedLine = std::variant<Comment,
                                 MalformedLine,
                                 Sweep,
                                 OdometryReading,
-                                TruePoseReading>;
+                                TruePoseReading,
+                                ImuReading>;
 
 /// Knows one text format, line by line.
 class LogParser {

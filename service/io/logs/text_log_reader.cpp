@@ -75,7 +75,8 @@ std::optional<LogRecord> TextLogReader::Next() {
     if (std::optional<LogRecord> record = filler_.Take()) {
       std::visit(Overloaded{[&](const ScanReading&) { ++report_.scans; },
                             [&](const OdometryReading&) { ++report_.odometry_readings; },
-                            [&](const TruePoseReading&) { ++report_.true_poses; }},
+                            [&](const TruePoseReading&) { ++report_.true_poses; },
+                            [&](const ImuReading&) { ++report_.imu_readings; }},
                  *record);
       return record;
     }
@@ -132,7 +133,8 @@ void TextLogReader::Take(ParsedLine parsed, std::size_t line_number) {
                           Look(std::move(sweep));
                         },
                         [&](OdometryReading& reading) { Look(reading); },
-                        [&](TruePoseReading& reading) { Look(reading); }},
+                        [&](TruePoseReading& reading) { Look(reading); },
+                        [&](ImuReading& reading) { Look(reading); }},
              parsed);
 }
 
@@ -199,7 +201,8 @@ void TextLogReader::Deliver(Message message) {
                           }
                         },
                         [&](const OdometryReading& reading) { filler_.Push(reading); },
-                        [&](const TruePoseReading& reading) { filler_.Push(reading); }},
+                        [&](const TruePoseReading& reading) { filler_.Push(reading); },
+                        [&](const ImuReading& reading) { filler_.Push(reading); }},
              message);
 }
 

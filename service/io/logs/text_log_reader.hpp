@@ -33,7 +33,7 @@ class TextLogReader final : public LogReader {
   LogProgress progress() const override;
 
  private:
-  using Message = std::variant<Sweep, OdometryReading, TruePoseReading>;
+  using Message = std::variant<Sweep, OdometryReading, TruePoseReading, ImuReading>;
 
   void Recognize();
   void ReadOn();

@@ -27,7 +27,8 @@ struct ReplayOptions {
 };
 
 /// Publishes recorded scans as a robot does.
-/// @tparam Kind of the scans. @tparam Source has Peek(), Next() and progress(), as LogSource.
+/// @tparam Kind of the scans. @tparam Source has Peek(), Next() and progress(), and maybe imu(), as
+/// LogSource.
 template <class Kind, class Source>
 class NetworkReplay {
  public:
@@ -36,10 +37,10 @@ class NetworkReplay {
       : source_(source),
         participant_(network),
         reports_(participant_, {options.robot}),
-        robot_(
-            participant_,
-            dds::RobotNames(options.robot),
-            source.Peek()->T_odom_robot ? dds::OdometryUse::kPublished : dds::OdometryUse::kNone),
+        robot_(participant_,
+               dds::RobotNames(options.robot),
+               source.Peek()->T_odom_robot ? dds::OdometryUse::kPublished : dds::OdometryUse::kNone,
+               HasImu(source) ? dds::ImuUse::kPublished : dds::ImuUse::kNone),
         window_(reports_, kScansOnTheirWay),
         progress_(options.progress) {
     if (options.factor) pace_.emplace(*options.factor);
@@ -68,6 +69,7 @@ class NetworkReplay {
         if (interruption.requested()) return false;
       }
       if (interruption.requested()) return false;
+      PublishImu();
       if (!robot_.Publish(*observation)) ++late_;
       if (!pace_) KeepToAnswers(observation->scan.stamp);
       ShowProgress();
@@ -98,6 +100,16 @@ class NetworkReplay {
   static constexpr std::size_t kScansOnTheirWay = 4;
   static constexpr auto kPatience = std::chrono::seconds(10);
   static constexpr auto kLook = std::chrono::milliseconds(200);
+
+  static bool HasImu(const Source& source) {
+    if constexpr (requires { source.has_imu(); }) return source.has_imu();
+    return false;
+  }
+  void PublishImu() {
+    if constexpr (requires { source_.imu(); }) {
+      if (has_imu_) robot_.PublishImu(source_.imu());
+    }
+  }
 
   /// Waits for a reporter: a service that hears the robot reports on it a moment later.
   void WaitForReporter() {
@@ -135,6 +147,7 @@ class NetworkReplay {
   BasicAnswerWindow<Kind> window_;
   std::optional<Pace> pace_;
   StatusLine progress_;
+  bool has_imu_ = HasImu(source_);  // Asked after a look at the first scan.
   bool is_answered_ = false;
   std::size_t late_ = 0;
 };

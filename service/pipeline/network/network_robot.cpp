@@ -40,8 +40,11 @@ NetworkRobot::NetworkRobot(const dds::Participant& participant,
       has_begun_(!TellsStart(simulation, robot)),
       reports_(participant, {NameOf(simulation, robot)}),
       commands_(participant, dds::RobotNames(NameOf(simulation, robot))),
-      publisher_(
-          participant, dds::RobotNames(NameOf(simulation, robot)), dds::OdometryUse::kPublished),
+      publisher_(participant,
+                 dds::RobotNames(NameOf(simulation, robot)),
+                 dds::OdometryUse::kPublished,
+                 simulation.robots()[robot].options().gyro.enabled ? dds::ImuUse::kPublished
+                                                                   : dds::ImuUse::kNone),
       window_(reports_, kScansOnTheirWay) {}
 
 bool NetworkRobot::WaitForListener(std::chrono::nanoseconds timeout) {
@@ -67,6 +70,7 @@ void NetworkRobot::Take(const sim::Reading& reading) {
   if (!HasBegun(reading)) return;
   std::optional<Pose2> T_odom_end;
   if (reading.scan.sweep.count() > 0) T_odom_end = reading.T_odom_robot * reading.T_first_last;
+  publisher_.PublishImu(reading.imu);
   publisher_.Publish({.scan = reading.scan, .T_odom_robot = reading.T_odom_robot}, T_odom_end);
   if (pace_ == NetworkPace::kFree) return;
   window_.NoteSent(reading.scan.stamp);

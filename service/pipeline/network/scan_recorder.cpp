@@ -24,6 +24,10 @@ void ScanRecorder::TakeOdometry(std::string_view, Timestamp stamp, const Pose2& 
   odometry_.Add(stamp, T_odom_robot);
 }
 
+void ScanRecorder::TakeImu(std::string_view, const ImuReading& reading) {
+  if (gyro_.Add(reading)) write_(reading);
+}
+
 void ScanRecorder::ExpectOdometry(std::string_view, bool expected) { expects_odometry_ = expected; }
 
 void ScanRecorder::WriteReady() {
@@ -45,7 +49,7 @@ void ScanRecorder::WriteFirst() {
   LaserScan& scan = waiting_.front().scan;
   const std::optional<Pose2> T_odom_robot = odometry_.At(scan.stamp);
   const Pose2 mounting = scan.geometry.T_robot_laser;
-  scan = team::AsFromOnePlace(std::move(scan), odometry_);
+  scan = team::AsFromOnePlace(std::move(scan), odometry_, gyro_);
   write_(io::ScanReading{
       .scan = std::move(scan), .T_odom_robot = T_odom_robot, .laser = NameOf(mounting)});
   waiting_.pop_front();

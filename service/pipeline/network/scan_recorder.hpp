@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "qwsm/logs/log_record.hpp"
+#include "qwsm/sensor/gyro_track.hpp"
 #include "service/team/session/odometry_buffer.hpp"
 #include "service/team/session/robot_listener.hpp"
 
@@ -29,6 +30,7 @@ class ScanRecorder final : public team::RobotListener<team::Planar> {
   bool TakeScan(std::string_view robot, LaserScan scan) override;
   void TakeOdometry(std::string_view robot, Timestamp stamp, const Pose2& T_odom_robot) override;
   void ExpectOdometry(std::string_view robot, bool expected) override;
+  void TakeImu(std::string_view robot, const ImuReading& reading) override;
   void PlaceAt(std::string_view, const UncertainPose2&) override {}
 
   /// Writes the scans whose odometry is known, or will not come.
@@ -45,11 +47,14 @@ class ScanRecorder final : public team::RobotListener<team::Planar> {
     Clock::time_point arrived;
   };
 
+  static constexpr std::size_t kImuReadingsKept = 4096;
+
   void WriteFirst();
   std::string NameOf(const Pose2& T_robot_laser);
 
   Write write_;
   team::OdometryBuffer<Pose2> odometry_;
+  GyroTrack gyro_{kImuReadingsKept};
   bool expects_odometry_ = false;
   std::deque<Waiting> waiting_;
   std::vector<Pose2> T_robot_laser_;  // Of the lasers heard.

@@ -12,6 +12,10 @@
 namespace qwsm::pipeline {
 namespace {
 
+// Scans and readings of one moment may be minutes apart in a log of text, but not more.
+constexpr std::size_t kGyroReadingsKept = 65'536;
+constexpr std::size_t kMostScansHeld = 16;
+
 void Mirror(LaserGeometry& geometry) {
   geometry.first_bearing_rad = -geometry.first_bearing_rad;
   geometry.bearing_step_rad = -geometry.bearing_step_rad;
@@ -22,13 +26,17 @@ void Mirror(LaserGeometry& geometry) {
 LogSource::LogSource(const std::vector<std::filesystem::path>& logs,
                      const io::LogOptions& options,
                      bool mirrored)
-    : warn_(options.on_fault), mirrored_(mirrored), stamp_offset_s_(options.stamp_offset_s) {
+    : warn_(options.on_fault),
+      mirrored_(mirrored),
+      stamp_offset_s_(options.stamp_offset_s),
+      gyro_(kGyroReadingsKept) {
   for (const std::filesystem::path& log : logs) readers_.push_back(io::OpenLog(log, options));
 }
 
 std::optional<Observation> LogSource::Next() {
   std::optional<Observation> observation = ahead_ ? std::exchange(ahead_, std::nullopt) : Read();
   if (observation) ++scans_;
+  imu_ = std::exchange(imu_read_, {});
   return observation;
 }
 
@@ -38,23 +46,49 @@ const Observation* LogSource::Peek() {
 }
 
 std::optional<Observation> LogSource::Read() {
-  while (current_ < readers_.size()) {
-    std::optional<io::LogRecord> record = readers_[current_]->Next();
-    if (!record) {
-      ++current_;
-    } else if (auto* reading = std::get_if<io::ScanReading>(&*record)) {
-      Observation observation{.scan = std::move(reading->scan),
-                              .T_odom_robot = reading->T_odom_robot,
-                              .gyro_rad = reading->gyro_rad};
-      if (mirrored_) Mirror(observation.scan.geometry);
-      Check(observation);
-      CheckStamps(observation);
-      return observation;
-    } else if (const auto* pose = std::get_if<io::TruePoseReading>(&*record)) {
-      truth_.push_back({.stamp = pose->stamp, .T_map_robot = pose->T_world_robot});
-    }
+  std::optional<io::ScanReading> reading = ReadScan();
+  if (!reading) return std::nullopt;
+  Observation observation{.scan = std::move(reading->scan), .T_odom_robot = reading->T_odom_robot};
+  observation.gyro_rad = gyro_.At(observation.scan.stamp);
+  if (mirrored_) Mirror(observation.scan.geometry);
+  Check(observation);
+  CheckStamps(observation);
+  return observation;
+}
+
+// Where there is a gyro, a scan waits until readings up to its stamp are read.
+std::optional<io::ScanReading> LogSource::ReadScan() {
+  const auto must_read = [this] {
+    if (held_.empty()) return true;
+    return held_.size() < kMostScansHeld && !gyro_.empty() &&
+           !gyro_.Covers(held_.front().scan.stamp);
+  };
+  try {
+    while (!failure_ && must_read() && ReadRecord()) continue;
+  } catch (const io::LogError&) {
+    failure_ = std::current_exception();
   }
-  return std::nullopt;
+  if (held_.empty() && failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+  if (held_.empty()) return std::nullopt;
+  io::ScanReading first = std::move(held_.front());
+  held_.pop_front();
+  return first;
+}
+
+/// Reads one record. @return false at the end of the last log.
+bool LogSource::ReadRecord() {
+  if (current_ == readers_.size()) return false;
+  std::optional<io::LogRecord> record = readers_[current_]->Next();
+  if (!record) {
+    ++current_;
+  } else if (auto* reading = std::get_if<io::ScanReading>(&*record)) {
+    held_.push_back(std::move(*reading));
+  } else if (const auto* pose = std::get_if<io::TruePoseReading>(&*record)) {
+    truth_.push_back({.stamp = pose->stamp, .T_map_robot = pose->T_world_robot});
+  } else if (const auto* imu = std::get_if<ImuReading>(&*record)) {
+    if (gyro_.Add(*imu)) imu_read_.push_back(*imu);
+  }
+  return true;
 }
 
 void LogSource::Check(const Observation& observation) {
@@ -108,11 +142,14 @@ std::vector<std::string> LogSource::Describe() const {
   std::vector<std::string> lines;
   for (const auto& reader : readers_) {
     const io::LogReport& report = reader->report();
-    lines.push_back(fmt::format("{}: {} log, {} scans, {} odometry readings in {} {}",
+    const std::string imu =
+        report.imu_readings > 0 ? fmt::format(", {} of an imu", report.imu_readings) : "";
+    lines.push_back(fmt::format("{}: {} log, {} scans, {} odometry readings{} in {} {}",
                                 report.name,
                                 report.format,
                                 report.scans,
                                 report.odometry_readings,
+                                imu,
                                 report.lines,
                                 report.line_name));
     for (const std::string& note : report.notes) {

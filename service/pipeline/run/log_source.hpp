@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -10,6 +12,7 @@
 #include <vector>
 
 #include "qwsm/logs/log_reader.hpp"
+#include "qwsm/sensor/gyro_track.hpp"
 #include "qwsm/sensor/stamp_check.hpp"
 #include "qwsm/sensor/turn_check.hpp"
 #include "service/pipeline/run/scan_source.hpp"
@@ -35,11 +38,19 @@ class LogSource final : public ScanSource {
   /// The observation that Next() will give; null at the end.
   const Observation* Peek();
 
+  /// What the inertial sensor felt since the scan before, up to the first reading that is not
+  /// before the scan that Next() gave last.
+  const std::vector<ImuReading>& imu() const { return imu_; }
+  /// Whether the logs had an inertial sensor so far.
+  bool has_imu() const { return !gyro_.empty(); }
+
   /// Lines for the record: one per log, and one per kind of fault.
   std::vector<std::string> Describe() const override;
 
  private:
   std::optional<Observation> Read();
+  std::optional<io::ScanReading> ReadScan();
+  bool ReadRecord();
   void Check(const Observation& observation);
   void CheckStamps(const Observation& observation);
 
@@ -55,6 +66,11 @@ class LogSource final : public ScanSource {
   std::size_t scans_ = 0;
   std::optional<Observation> ahead_;  // Observation that was peeked at.
   Trajectory truth_;
+  std::deque<io::ScanReading> held_;  // Scans whose turn by the gyro is to be read yet.
+  std::exception_ptr failure_;        // To be thrown when these are given.
+  GyroTrack gyro_;
+  std::vector<ImuReading> imu_read_;  // Since Next() gave a scan.
+  std::vector<ImuReading> imu_;
 };
 
 }  // namespace qwsm::pipeline

@@ -37,6 +37,7 @@ void SimulatedLog::Take(const sim::Reading& reading) {
   paths_.odometry.push_back({.stamp = stamp, .T_map_robot = T_world_odometry_});
 
   carmen_.Write(io::TruePoseReading{stamp, reading.T_world_robot, reading.T_odom_robot});
+  for (const ImuReading& imu : reading.imu) carmen_.Write(imu);
   carmen_.Write(io::ScanReading{reading.scan, reading.T_odom_robot, LaserName(reading.laser)});
   io::WriteTumLine(truth_.stream(), paths_.truth.back());
   io::WriteTumLine(odometry_.stream(), paths_.odometry.back());

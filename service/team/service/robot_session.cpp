@@ -65,7 +65,8 @@ void RobotSession::Answer(Work& work,
                           std::span<const ScanPoint> points,
                           const std::optional<Pose2>& claimed_mounting) {
   const auto begun = steady_clock::now();
-  const Observation observation{.scan = std::move(work.scan), .T_odom_robot = work.T_odom_robot};
+  const Observation observation{
+      .scan = std::move(work.scan), .T_odom_robot = work.T_odom_robot, .gyro_rad = work.gyro_rad};
   work.scan.stamp = observation.scan.stamp;
   is_placed_ = is_placed_ && !work.was_elsewhere;
   ContestedTracker::Tracked tracked = Track(work, observation, points, claimed_mounting);

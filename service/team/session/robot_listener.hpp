@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "qwsm/sensor/imu_reading.hpp"
 #include "service/team/scans/sensor_kind.hpp"
 
 namespace qwsm::team {
@@ -35,6 +36,11 @@ class RobotListener {
   /// Tells, again and again, whether somebody publishes the robot's odometry: only then do scans
   /// wait for it.
   virtual void ExpectOdometry(std::string_view robot, bool expected) = 0;
+  /// Takes a reading of the robot's inertial sensor, about the robot's axes. Not all sensors need
+  /// it.
+  virtual void TakeImu(std::string_view /*robot*/, const ImuReading& /*reading*/) {}
+  /// Tells, again and again, whether somebody publishes such readings; see ExpectOdometry().
+  virtual void ExpectImu(std::string_view /*robot*/, bool /*expected*/) {}
   /// Takes somebody's word on where the robot is in the map.
   virtual void PlaceAt(std::string_view robot, const typename Kind::UncertainPose& map_robot) = 0;
 };

@@ -28,6 +28,11 @@ constexpr std::size_t kMostSensors = 16;
 double TurnRad(const Pose2& motion) { return std::abs(motion.theta_rad); }
 double TurnRad(const slam6d::Pose3& motion) { return slam6d::RotationAngle(motion.rotation); }
 
+std::chrono::nanoseconds WaitOf(const SessionOptions& options) {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+      std::chrono::duration<double>(options.odometry_wait_s));
+}
+
 LatencySummary Summarize(const LatencyHistogram& histogram) {
   return {.median = histogram.Quantile(0.5),
           .p99 = histogram.Quantile(0.99),
@@ -154,6 +159,31 @@ void SessionIntake<Kind>::ExpectOdometry(bool expected) {
 }
 
 template <class Kind>
+void SessionIntake<Kind>::TakeImu(const ImuReading& reading) {
+  const std::lock_guard lock(mutex_);
+  switch (imu_guard_.Judge(reading.stamp)) {
+    case StampVerdict::kDuplicate:
+    case StampVerdict::kWrongTime:
+      return;
+    case StampVerdict::kClockReset:
+      gyro_.Restart();
+      tilt_.Restart();
+      break;
+    case StampVerdict::kInOrder:
+    case StampVerdict::kLate:
+      break;
+  }
+  gyro_.Add(reading);
+  tilt_.Add(reading);
+}
+
+template <class Kind>
+void SessionIntake<Kind>::ExpectImu(bool expected) {
+  const std::lock_guard lock(mutex_);
+  expects_imu_ = expected;
+}
+
+template <class Kind>
 void SessionIntake<Kind>::GoOnFrom(Timestamp stamp, const std::optional<Pose>& T_odom_robot) {
   const std::lock_guard lock(mutex_);
   static_cast<void>(guard_.Judge(stamp));  // If it comes once more it is a duplicate.
@@ -166,17 +196,29 @@ std::optional<Lane::Time> SessionIntake<Kind>::ReadyAt() const {
   const std::lock_guard lock(mutex_);
   if (queue_.empty()) return std::nullopt;
   const Arrival& next = queue_.front();
-  return std::max(next.arrived, AwaitsOdometryUntil(next));
+  return std::max({next.arrived, AwaitsOdometryUntil(next), AwaitsImuUntil(next)});
+}
+
+// Until when the robot's motion has to be known for a scan.
+template <class Kind>
+Timestamp SessionIntake<Kind>::KnownUntil(const Arrival& next) const {
+  return options_.deskew ? EndOf(next.scan) : next.scan.stamp;
+}
+
+template <class Kind>
+Lane::Time SessionIntake<Kind>::AwaitsImuUntil(const Arrival& next) const {
+  const Timestamp stamp = KnownUntil(next);
+  const bool may_come = expects_imu_ && !gyro_.Covers(stamp) && gyro_.Covers(stamp - kOdometryGone);
+  return next.arrived + (may_come ? WaitOf(options_) : std::chrono::nanoseconds::zero());
 }
 
 // Without odometry nobody knows how far a robot has come since it was heard last, so its first
 // scans wait longer: they may have come just before who publishes odometry knew of this service.
 template <class Kind>
 Lane::Time SessionIntake<Kind>::AwaitsOdometryUntil(const Arrival& next) const {
-  const Timestamp stamp = options_.deskew ? EndOf(next.scan) : next.scan.stamp;
+  const Timestamp stamp = KnownUntil(next);
   if (!expects_odometry_ || odometry_.Covers(stamp)) return next.arrived;
-  const auto wait = std::chrono::duration_cast<std::chrono::nanoseconds>(
-      std::chrono::duration<double>(options_.odometry_wait_s));
+  const std::chrono::nanoseconds wait = WaitOf(options_);
   if (!hears_odometry_)
     return first_arrived_.value_or(next.arrived) + std::max(wait, kOdometryGone);
   return next.arrived + (odometry_.Covers(stamp - kOdometryGone) ? wait : wait.zero());
@@ -188,12 +230,15 @@ std::optional<typename SessionIntake<Kind>::Work> SessionIntake<Kind>::Take() {
   DropScansBeforeOdometry();
   if (queue_.empty()) return std::nullopt;
   Arrival next = queue_.Pop();
-  if (options_.deskew) next.scan = AsFromOnePlace(std::move(next.scan), odometry_);
+  LeaveOutFloorOf(tilt_, options_.laser_height_m, next.scan);
+  if (options_.deskew) next.scan = AsFromOnePlace(std::move(next.scan), odometry_, gyro_);
   Work work{.scan = std::move(next.scan),
             .arrived = next.arrived,
             .T_odom_robot = {},
+            .gyro_rad = {},
             .T_robot_sensor_claimed = next.T_robot_sensor_claimed};
   work.T_odom_robot = odometry_.At(work.scan.stamp);
+  work.gyro_rad = gyro_.At(work.scan.stamp);
   work.is_interrupted = std::exchange(is_interrupted_, false);
   work.was_elsewhere = std::exchange(was_elsewhere_, false);
   WatchOdometry(work);

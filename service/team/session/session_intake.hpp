@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "qwsm/sensor/gyro_track.hpp"
+#include "qwsm/sensor/tilt_track.hpp"
 #include "service/team/scans/sensor_kind.hpp"
 #include "service/team/session/latency_histogram.hpp"
 #include "service/team/session/odometry_buffer.hpp"
@@ -34,6 +36,7 @@ class SessionIntake {
     Scan scan;
     Lane::Time arrived{};
     std::optional<Pose> T_odom_robot;
+    std::optional<double> gyro_rad;              ///< As in Observation.
     std::optional<Pose> T_robot_sensor_claimed;  ///< Claim of RobotListener::TakeContestedScan().
     bool is_interrupted = false;  ///< The robot, or its clock, was away since the last scan.
     bool was_elsewhere = false;   ///< Whether another service knows better where the robot is.
@@ -71,6 +74,9 @@ class SessionIntake {
   void TakeOdometry(Timestamp stamp, const Pose& T_odom_robot);
   /// Says whether scans are to wait for odometry. They wait from the first reading on.
   void ExpectOdometry(bool expected);
+  void TakeImu(const ImuReading& reading);
+  /// Says whether scans are to wait for the inertial sensor, once it was heard.
+  void ExpectImu(bool expected);
 
   /// Goes on from a scan that a run before this one took, with its stamp and odometry.
   void GoOnFrom(Timestamp stamp, const std::optional<Pose>& T_odom_robot);
@@ -104,10 +110,14 @@ class SessionIntake {
     StampGuard guard;
   };
 
+  static constexpr std::size_t kImuReadingsKept = 4096;
+
   StampGuard& GuardOf(const Scan& scan);
   bool IsHere() const;
   void ThinOut(Scan& scan);
   Lane::Time AwaitsOdometryUntil(const Arrival& next) const;
+  Lane::Time AwaitsImuUntil(const Arrival& next) const;
+  Timestamp KnownUntil(const Arrival& next) const;
   void DropScansBeforeOdometry();
   void WatchOdometry(Work& work);
 
@@ -120,6 +130,10 @@ class SessionIntake {
   StampGuard guard_;  // Of a sensor that was not heard yet.
   std::deque<SensorStamps> guards_;
   OdometryBuffer<Pose> odometry_;
+  GyroTrack gyro_{kImuReadingsKept};
+  TiltTrack tilt_{kImuReadingsKept};
+  StampGuard imu_guard_;
+  bool expects_imu_ = false;
   bool expects_odometry_ = false;
   bool hears_odometry_ = false;              // Whether there was odometry since the robot joined.
   std::optional<Lane::Time> first_arrived_;  // Arrival of the first scan since the robot joined.

@@ -94,6 +94,15 @@ class SessionList final : public RobotListener<typename Session::Kind> {
   void ExpectOdometry(std::string_view robot, bool expected) override {
     if (const auto session = Of(robot)) session->intake().ExpectOdometry(expected);
   }
+  void TakeImu(std::string_view robot, const ImuReading& reading) override {
+    const auto session = Of(robot);
+    if (!session) return;
+    session->intake().TakeImu(reading);
+    Wake();
+  }
+  void ExpectImu(std::string_view robot, bool expected) override {
+    if (const auto session = Of(robot)) session->intake().ExpectImu(expected);
+  }
   void PlaceAt(std::string_view robot, const typename Kind::UncertainPose& map_robot) override {
     if (const auto session = Of(robot)) session->PlaceAt(map_robot);
   }

@@ -32,6 +32,7 @@ struct SessionOptions {
   int max_readings = 5000;
   double odometry_wait_s = 0.05;
   bool deskew = true;
+  double laser_height_m = 0.0;
   double max_speed_mps = 5.0;
   double max_turn_rate_radps = 10.0;
 };
@@ -50,10 +51,18 @@ void Describe(Visitor& visit, SessionOptions& o) {
          .max = 20'000'000});
   visit("odometry_wait_s",
         o.odometry_wait_s,
-        {.help = "how long a scan waits for the odometry of its moment", .min = 0, .max = 10});
+        {.help = "how long a scan waits for the odometry, and the gyro, of its moment",
+         .min = 0,
+         .max = 10});
   visit("deskew",
         o.deskew,
         {.help = "beams whose messages have times are put where they were measured, by odometry"});
+  visit("laser_height_m",
+        o.laser_height_m,
+        {.help = "above the floor: beams of a robot that leans, by its imu, and sees the floor are "
+                 "left out; 0: none",
+         .min = 0,
+         .max = 10});
   visit("max_speed_mps",
         o.max_speed_mps,
         {.help = "odometry that moves faster has jumped", .min = 0.01, .max = 1000});

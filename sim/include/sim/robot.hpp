@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "qwsm/mapping/observation.hpp"
+#include "qwsm/sensor/imu_reading.hpp"
 #include "sim/driver.hpp"
 #include "sim/gyro.hpp"
 #include "sim/laser.hpp"
@@ -127,6 +128,8 @@ struct Reading {
   qwsm::Pose2 T_first_last;
   qwsm::Pose2 T_world_robot;       ///< True pose.
   std::optional<double> gyro_rad;  ///< Angle turned since the start, by the gyro; not wrapped.
+  /// What the gyro felt since the robot's reading before, up to the end of this one.
+  std::vector<qwsm::ImuReading> imu{};
 };
 
 /// What a mapper is told of a reading: the scan as from the place of its first beam.
@@ -154,8 +157,8 @@ class Robot {
              qwsm::Timestamp now,
              std::chrono::nanoseconds step);
 
-  /// Reads encoders and gyro, after the step.
-  void Advance(const PhysicsWorld& world, std::chrono::nanoseconds step);
+  /// Reads encoders and gyro, after the step, which ends now.
+  void Advance(const PhysicsWorld& world, qwsm::Timestamp now, std::chrono::nanoseconds step);
 
   /// Casts the beams that are due by now. @param completed takes the scans that are complete.
   void Scan(const PhysicsWorld& world, qwsm::Timestamp now, std::vector<Reading>& completed);
@@ -181,12 +184,14 @@ class Robot {
   void CarryIfDue(PhysicsWorld& world, qwsm::Timestamp now);
   void BeginScan(const PhysicsWorld& world, qwsm::Timestamp now, MountedLaser& mounted);
   void EndScan(qwsm::LaserScan scan, qwsm::Timestamp now, Reading& reading) const;
+  void ReadGyro(const PhysicsWorld& world, qwsm::Timestamp now, std::chrono::nanoseconds step);
 
   RobotOptions options_;
   BodyId body_;
   WheelDrive drive_;
   WheelOdometry odometry_;
   Gyro gyro_;
+  std::vector<qwsm::ImuReading> imu_;  // Since the last reading.
   std::vector<MountedLaser> lasers_;
   std::size_t times_carried_ = 0;
   Driver driver_;

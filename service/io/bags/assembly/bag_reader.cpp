@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "qwsm/sensor/deskew.hpp"
+#include "qwsm/sensor/floor.hpp"
 #include "qwsm/sensor/scan_limits.hpp"
 #include "service/io/bags/messages/message_reader.hpp"
 
@@ -54,9 +55,14 @@ BagReader::BagReader(const std::filesystem::path& path, const LogOptions& option
   report_.format = contents_.files.front().messages().format();
   report_.compression = contents_.files.front().compression();
   choice_ = ChooseRobot(contents_, options_, report_, faults_);
+  for (const ImuReading& reading : choice_.imu) {
+    gyro_.Add(reading);
+    tilt_.Add(reading);
+  }
   TakePlaces();
   contents_.transforms.clear();
   contents_.odometry.clear();
+  contents_.imus.clear();
   TellOfOthers();
 }
 
@@ -99,6 +105,12 @@ std::optional<OdometryReading> BagReader::NextOf(const OdometryTrack& track,
   return track.reading(next);
 }
 
+/// Whether what was given of the inertial sensor does not reach up to a moment yet.
+bool BagReader::IsImuDue(Timestamp until) const {
+  return next_imu_ < choice_.imu.size() &&
+         (next_imu_ == 0 || choice_.imu[next_imu_ - 1].stamp < until);
+}
+
 std::optional<LogRecord> BagReader::Next() {
   const Timestamp until =
       next_scan_ < places_.size() ? places_[next_scan_].scan.stamp : Timestamp::max();
@@ -113,6 +125,10 @@ std::optional<LogRecord> BagReader::Next() {
     ++next_odometry_;
     ++report_.odometry_readings;
     return *odometry;
+  }
+  if (IsImuDue(until)) {
+    ++report_.imu_readings;
+    return choice_.imu[next_imu_++];
   }
   return NextScan();
 }
@@ -132,6 +148,7 @@ std::optional<LogRecord> BagReader::NextScan() {
       faults_.OfMessage(topic, place.scan.sequence, error.what());
     }
   }
+  TellOfFloor();
   return std::nullopt;
 }
 
@@ -147,13 +164,30 @@ LaserScan BagReader::Deskew(LaserScan scan,
   const std::optional<Pose2> T_odom_last = choice_.odometry.At(scan.stamp + sweep, 0);
   if (!T_odom_last) return scan;
   Pose2 T_first_last = T_odom_first->Inverse() * *T_odom_last;
-  const std::optional<double> gyro_first_rad = choice_.gyro.At(scan.stamp);
-  const std::optional<double> gyro_last_rad = choice_.gyro.At(scan.stamp + sweep);
+  const std::optional<double> gyro_first_rad = gyro_.At(scan.stamp);
+  const std::optional<double> gyro_last_rad = gyro_.At(scan.stamp + sweep);
   // Its bias does not count within a scan.
   if (gyro_first_rad && gyro_last_rad) {
     T_first_last.theta_rad = NormalizeAngle(*gyro_last_rad - *gyro_first_rad);
   }
   return Deskewed(scan, T_first_last);
+}
+
+/// @param height_m 0 where it is not known
+void BagReader::LeaveOutFloorOf(double height_m, LaserScan& scan) {
+  const std::optional<Tilt> tilt = tilt_.At(scan.stamp);
+  if (!tilt || height_m <= 0.0) return;
+  const std::size_t left_out = LeaveOutFloor(*tilt, height_m, scan);
+  floor_beams_ += left_out;
+  leaning_scans_ += left_out > 0 ? 1 : 0;
+}
+
+/// Tells once, at the end, of beams that were left out.
+void BagReader::TellOfFloor() {
+  if (floor_beams_ == 0) return;
+  report_.notes.push_back("the robot leant in " + std::to_string(leaning_scans_) +
+                          " scans: " + std::to_string(std::exchange(floor_beams_, 0)) +
+                          " beams that may have hit the floor are left out");
 }
 
 ScanReading BagReader::ReadScan(const Place& place) {
@@ -165,12 +199,12 @@ ScanReading BagReader::ReadScan(const Place& place) {
   const double sweep_s = SweepOf(message, options_);
   ScanReading reading{.scan = ScanOf(std::move(message), laser),
                       .T_odom_robot = choice_.odometry.At(place.scan.stamp, place.scan.sequence),
-                      .laser = laser.name,
-                      .gyro_rad = choice_.gyro.At(place.scan.stamp)};
+                      .laser = laser.name};
   reading.scan.stamp = place.scan.stamp;
   LaserGeometry& geometry = reading.scan.geometry;
   if (options_.range_max_m) geometry.range_max_m = *options_.range_max_m;
   if (options_.T_robot_laser) geometry.T_robot_laser = *options_.T_robot_laser;
+  LeaveOutFloorOf(options_.laser_height_m.value_or(laser.height_m), reading.scan);
   reading.scan = Deskew(std::move(reading.scan), sweep_s, reading.T_odom_robot);
   return reading;
 }

@@ -9,13 +9,16 @@
 #include <vector>
 
 #include "qwsm/logs/log_reader.hpp"
+#include "qwsm/sensor/gyro_track.hpp"
+#include "qwsm/sensor/tilt_track.hpp"
 #include "service/io/bags/assembly/bag_survey.hpp"
 #include "service/io/bags/assembly/robot_choice.hpp"
 
 namespace qwsm::io {
 
 /// Reads a bag as a log: survey -> choice of a robot -> its scans, odometry and true poses in the
-/// order of their stamps.
+/// order of their stamps; readings of an inertial sensor up to the first that is not before the
+/// scan that follows, so that what it felt until then is known.
 class BagReader final : public LogReader {
  public:
   /// Surveys a bag. @throws LogError where it is none, or the options do not fit it.
@@ -35,8 +38,11 @@ class BagReader final : public LogReader {
 
   void TellOfOthers();
   void TakePlaces();
+  bool IsImuDue(Timestamp until) const;
   std::optional<LogRecord> NextScan();
   ScanReading ReadScan(const Place& place);
+  void LeaveOutFloorOf(double height_m, LaserScan& scan);
+  void TellOfFloor();
   LaserScan Deskew(LaserScan scan, double sweep_s, const std::optional<Pose2>& T_odom_first) const;
   std::optional<OdometryReading> NextOf(const OdometryTrack& track,
                                         std::size_t next,
@@ -51,6 +57,11 @@ class BagReader final : public LogReader {
   std::size_t next_scan_ = 0;
   std::size_t next_odometry_ = 0;
   std::size_t next_truth_ = 0;
+  std::size_t next_imu_ = 0;
+  GyroTrack gyro_;
+  TiltTrack tilt_;
+  std::size_t leaning_scans_ = 0;
+  std::size_t floor_beams_ = 0;
   std::string buffer_;
 };
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/io/bags/assembly/bag_survey.hpp"
 
+#include <set>
 #include <utility>
 
 #include "service/io/bags/containers/chunk_codec.hpp"
@@ -11,6 +12,7 @@ namespace qwsm::io {
 namespace {
 
 constexpr std::size_t kMostUnknownTypes = 50;
+constexpr std::size_t kMostLasers = 64;  // More are a mistake.
 
 std::string_view LastPartOf(std::string_view topic) { return topic.substr(topic.rfind('/') + 1); }
 
@@ -60,13 +62,25 @@ class Surveyor {
                 std::string_view bytes,
                 std::uint32_t file) {
     const RosHeader header = DecodeHeader(bytes, topic.encoding);
-    ScanTopic& scans = contents_.scans[topic.name];
-    if (scans.places.empty()) scans.frame = FrameName(header.frame);
+    ScanTopic& scans = LaserOn(topic.name, FrameName(header.frame));
     scans.places.push_back({.stamp = header.stamp,
                             .sequence = report_.lines,
                             .address = message.address,
                             .file = file,
                             .topic = static_cast<std::uint32_t>(message.topic)});
+  }
+
+  ScanTopic& LaserOn(const std::string& topic, const std::string& frame) {
+    ScanTopic& first = contents_.scans[topic];
+    if (first.places.empty()) first.frame = frame;
+    if (first.frame == frame) return first;
+    if (lasers_.size() >= kMostLasers && !lasers_.contains(topic + frame)) {
+      throw MessageError("its frame is that of one laser too many");
+    }
+    lasers_.insert(topic + frame);
+    ScanTopic& other = contents_.scans[topic + "[" + frame + "]"];
+    other.frame = frame;
+    return other;
   }
 
   void TakeOdometry(const BagTopic& topic, std::string_view bytes) {
@@ -78,9 +92,9 @@ class Surveyor {
   }
 
   void TakeImu(const BagTopic& topic, const ImuMessage& imu) {
-    GyroTopic& gyro = contents_.gyros[topic.name];
-    gyro.frame = FrameName(imu.header.frame);
-    gyro.track.Add(imu.header.stamp, imu.turn_rate_rad_s);
+    ImuTopic& known = contents_.imus[topic.name];
+    known.frame = FrameName(imu.frame);
+    known.readings.push_back(imu.reading);
   }
 
   void TakeTruth(const BagTopic& topic, const OdometryMessage& truth) {
@@ -109,11 +123,13 @@ class Surveyor {
   LogReport& report_;
   BagFaults& faults_;
   std::string buffer_;
+  std::set<std::string> lasers_;  // Topics and frames of those that share a topic with another.
 };
 
 }  // namespace
 
 std::string NamespaceOf(std::string_view topic) {
+  topic = topic.substr(0, topic.find('['));
   const std::size_t slash = topic.rfind('/');
   return std::string(slash == std::string_view::npos ? std::string_view() : topic.substr(0, slash));
 }

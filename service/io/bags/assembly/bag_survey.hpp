@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "qwsm/sensor/imu_reading.hpp"
 #include "service/io/bags/assembly/bag_faults.hpp"
-#include "service/io/bags/assembly/gyro_track.hpp"
 #include "service/io/bags/assembly/odometry_track.hpp"
 #include "service/io/bags/assembly/transform_tree.hpp"
 #include "service/io/bags/containers/bag_files.hpp"
@@ -27,7 +27,7 @@ struct MessagePlace {
   std::uint32_t topic = 0;  ///< Index among the file's topics.
 };
 
-/// A topic of scans.
+/// The scans of one laser on a topic.
 struct ScanTopic {
   std::string frame;
   std::vector<MessagePlace> places;
@@ -39,10 +39,10 @@ struct OdometryTopic {
   OdometryTrack track;
 };
 
-/// A topic of a gyro.
-struct GyroTopic {
+/// A topic of an inertial sensor.
+struct ImuTopic {
   std::string frame;
-  GyroTrack track;
+  std::vector<ImuReading> readings;  ///< In the order of the bag, about the sensor's axes.
 };
 
 /// What a bag holds: read once from begin to end, and kept but for the scans themselves.
@@ -51,14 +51,15 @@ struct GyroTopic {
 /// seen before the first scan is given.
 struct BagContents {
   std::vector<OpenBagFile> files;
+  /// By topic; lasers on one topic, told apart by their frames, as "/scan", "/scan[rear]" ...
   std::map<std::string, ScanTopic> scans;
   std::map<std::string, OdometryTopic> odometry;
-  std::map<std::string, GyroTopic> gyros;
+  std::map<std::string, ImuTopic> imus;
   std::map<std::string, OdometryTrack> truth;       ///< Topics of a simulator's ground truth.
   std::map<std::string, TransformTree> transforms;  ///< By namespace: "" or "/robot1".
 };
 
-/// The namespace of a topic: "/robot1" of "/robot1/scan", "" of "/scan".
+/// The namespace of a topic: "/robot1" of "/robot1/scan" and "/robot1/scan[rear]", "" of "/scan".
 std::string NamespaceOf(std::string_view topic);
 
 /// Hands over every message of a bag, file after file.

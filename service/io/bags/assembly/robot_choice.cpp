@@ -71,7 +71,7 @@ class Chooser {
     if (topics.empty()) return choice;
     const std::string robot_frame = ChooseOdometry(topics.front(), choice.odometry);
     choice.lasers = MountAll(topics, robot_frame);
-    ChooseGyro(robot_frame, choice.gyro);
+    ChooseImu(robot_frame, choice.imu);
     for (auto& [topic, track] : contents_.truth) {
       if (RobotOf(topic) == robot_) choice.truth = std::move(track);
     }
@@ -148,11 +148,14 @@ class Chooser {
     if (options_.scan_topics.empty()) return KeysOf(contents_.scans);
     std::vector<std::string> topics;
     for (const std::string& name : options_.scan_topics) {
-      if (!contents_.scans.contains(AsTopic(name))) {
-        Refuse("has no scans on '" + AsTopic(name) + "'; it has them on " +
-               ListOf(KeysOf(contents_.scans)));
+      const std::size_t before = topics.size();
+      for (const auto& [topic, scans] : contents_.scans) {
+        const bool is_on_it = topic == AsTopic(name) || topic.starts_with(AsTopic(name) + "[");
+        if (is_on_it) topics.push_back(topic);
       }
-      topics.push_back(AsTopic(name));
+      if (topics.size() > before) continue;
+      Refuse("has no scans on '" + AsTopic(name) + "'; it has them on " +
+             ListOf(KeysOf(contents_.scans)));
     }
     return topics;
   }
@@ -228,20 +231,23 @@ class Chooser {
     return best;
   }
 
-  /// The robot's gyro, of several that with the most messages: /imu/data and /imu/data_raw are one.
-  void ChooseGyro(const std::string& robot_frame, GyroTrack& track) {
+  /// The robot's inertial sensor, of several topics that with the most messages: /imu/data and
+  /// /imu/data_raw are one sensor.
+  void ChooseImu(const std::string& robot_frame, std::vector<ImuReading>& readings) {
     std::string best;
-    for (const auto& [topic, gyro] : contents_.gyros) {
+    for (const auto& [topic, imu] : contents_.imus) {
       if (RobotOf(topic) != robot_) continue;
-      if (best.empty() || gyro.track.size() > contents_.gyros[best].track.size()) best = topic;
+      if (best.empty() || imu.readings.size() > contents_.imus[best].readings.size()) best = topic;
     }
     if (best.empty()) return;
-    const std::string& frame = contents_.gyros[best].frame;
-    const std::optional<Transform3> T_robot_gyro = Transforms().Find(robot_frame, frame);
+    const std::string& frame = contents_.imus[best].frame;
+    const std::optional<Transform3> T_robot_imu = Transforms().Find(robot_frame, frame);
     report_.notes.push_back("turns from the gyro of " + best + ", of '" + frame + "'" +
-                            (T_robot_gyro ? "" : ", taken as upright on the robot"));
-    track = std::move(contents_.gyros[best].track);
-    track.Integrate(T_robot_gyro.value_or(Transform3{}).rotation);
+                            (T_robot_imu ? "" : ", taken as upright on the robot"));
+    readings = std::move(contents_.imus[best].readings);
+    const Quaternion rotation = T_robot_imu.value_or(Transform3{}).rotation;
+    for (ImuReading& reading : readings) reading = OnRobot(reading, rotation);
+    std::ranges::stable_sort(readings, {}, &ImuReading::stamp);
   }
 
   /// The lasers as they sit; of several that nobody asked for, those that fit a level map.
@@ -283,6 +289,9 @@ class Chooser {
     if (T_robot_laser) {
       const double uprightness = UprightnessOf(T_robot_laser->rotation);
       laser.T_robot_laser = Planar(*T_robot_laser);
+      // Where there is a frame on the floor, that is what counts.
+      const auto T_floor_laser = Transforms().Find("base_footprint", frame);
+      laser.height_m = std::max(0.0, T_floor_laser.value_or(*T_robot_laser).z_m);
       laser.is_upside_down = uprightness < 0.0;
       laser.is_level = std::abs(uprightness) > kLevel;
       if (!laser.is_level) TellTilt(topic, uprightness);

@@ -14,6 +14,7 @@ struct LaserChoice {
   std::string topic;
   std::string name;  ///< "front"; of several, the others are "rear", "laser3" ...
   Pose2 T_robot_laser;
+  double height_m = 0.0;        ///< Above the floor, or the robot's frame; 0: not known.
   bool is_upside_down = false;  ///< Its bearings count clockwise, seen from above.
   bool is_placed = false;       ///< Transforms say where it sits.
   bool is_level = true;
@@ -23,7 +24,7 @@ struct LaserChoice {
 struct RobotChoice {
   std::vector<LaserChoice> lasers;
   OdometryTrack odometry;
-  GyroTrack gyro;
+  std::vector<ImuReading> imu;  ///< By stamp, about the robot's axes.
   OdometryTrack truth;
 };
 

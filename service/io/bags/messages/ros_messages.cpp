@@ -10,7 +10,6 @@
 namespace qwsm::io {
 namespace {
 
-constexpr double kFastestTurn_rad_s = 100.0;
 constexpr std::uint32_t kNanosecondsInSecond = 1'000'000'000;
 // A transform is never shorter than its stamp, two lengths and seven numbers.
 constexpr std::size_t kLeastTransformBytes = 72;
@@ -34,6 +33,20 @@ Quaternion TakeQuaternion(MessageReader& fields) {
   q.z = fields.Double();
   q.w = fields.Double();
   return q;
+}
+
+Eigen::Vector3d TakeVector(MessageReader& fields) {
+  Eigen::Vector3d vector;
+  for (double& value : vector) value = fields.Double();
+  return vector;
+}
+
+/// The covariance of what stands before it: it begins with -1 where that is not measured.
+bool TakeIsMeasured(MessageReader& fields) {
+  constexpr int kOthers = 8;
+  const double first = fields.Double();
+  for (int i = 0; i < kOthers; ++i) fields.Double();
+  return first != -1.0;
 }
 
 Transform3 TakeTransform(MessageReader& fields) {
@@ -86,15 +99,19 @@ OdometryMessage DecodeOdometry(std::string_view bytes, Encoding encoding) {
 }
 
 ImuMessage DecodeImu(std::string_view bytes, Encoding encoding) {
-  constexpr int kOrientationAndItsCovariance = 4 + 9;
   MessageReader fields(bytes, encoding);
-  ImuMessage imu;
-  imu.header = TakeHeader(fields);
-  for (int i = 0; i < kOrientationAndItsCovariance; ++i) fields.Double();
-  for (double& rate_rad_s : imu.turn_rate_rad_s) {
-    rate_rad_s = fields.Double();
-    if (!(std::abs(rate_rad_s) <= kFastestTurn_rad_s)) throw MessageError("it turns at no rate");
-  }
+  const RosHeader header = TakeHeader(fields);
+  ImuMessage imu{.frame = header.frame, .reading = {.stamp = header.stamp}};
+  const Quaternion orientation = TakeQuaternion(fields);
+  const bool is_orientation_known = TakeIsMeasured(fields);
+  imu.reading.turn_rate_rad_s = TakeVector(fields);
+  if (!TakeIsMeasured(fields)) throw MessageError("it says that it measures no turn rate");
+  const Eigen::Vector3d acceleration_mps2 = TakeVector(fields);
+  if (TakeIsMeasured(fields)) imu.reading.acceleration_mps2 = acceleration_mps2;
+  const bool is_rotation = std::isfinite(UprightnessOf(orientation));
+  if (is_orientation_known && is_rotation) imu.reading.orientation = orientation;
+  const std::string_view objection = ObjectionTo(imu.reading);
+  if (!objection.empty()) throw MessageError(std::string(objection));
   return imu;
 }
 

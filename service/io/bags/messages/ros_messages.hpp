@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "qwsm/sensor/imu_reading.hpp"
 #include "qwsm/sensor/laser_scan.hpp"
 #include "service/io/bags/containers/message_source.hpp"
 #include "service/io/bags/messages/message_reader.hpp"
@@ -45,8 +45,8 @@ struct OdometryMessage {
 };
 
 struct ImuMessage {
-  RosHeader header;
-  std::array<double, 3> turn_rate_rad_s{};  ///< About the axes of its frame.
+  std::string frame;
+  ImuReading reading;  ///< About the axes of its frame.
 };
 
 struct TransformMessage {

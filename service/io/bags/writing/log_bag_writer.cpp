@@ -15,6 +15,7 @@ constexpr const char* kRobotFrame = "base_link";
 const TopicToWrite kOdometry{"/odom", "nav_msgs/msg/Odometry"};
 const TopicToWrite kTransforms{"/tf", "tf2_msgs/msg/TFMessage"};
 const TopicToWrite kMountings{"/tf_static", "tf2_msgs/msg/TFMessage", true};
+const TopicToWrite kImu{"/imu", "sensor_msgs/msg/Imu"};
 const TopicToWrite kTruth{"/ground_truth", "nav_msgs/msg/Odometry"};
 
 /// The name of a laser as a part of a topic's: letters, digits and underscores.
@@ -34,6 +35,7 @@ void LogBagWriter::Write(const LogRecord& record) {
     WriteOdometry(odometry->stamp, odometry->T_odom_robot);
   }
   if (const auto* truth = std::get_if<TruePoseReading>(&record)) WriteTruth(*truth);
+  if (const auto* imu = std::get_if<ImuReading>(&record)) WriteImu(*imu);
 }
 
 void LogBagWriter::WriteScan(const ScanReading& reading) {
@@ -59,6 +61,11 @@ void LogBagWriter::WriteTruth(const TruePoseReading& reading) {
   bag_->Write(kTruth,
               reading.stamp,
               EncodeOdometry(reading.stamp, "world", kRobotFrame, reading.T_world_robot));
+}
+
+void LogBagWriter::WriteImu(const ImuReading& reading) {
+  CheckRosTime(reading.stamp);
+  bag_->Write(kImu, reading.stamp, EncodeImu(reading, kRobotFrame));
 }
 
 void LogBagWriter::WriteMounting(Timestamp stamp,

@@ -11,8 +11,8 @@
 namespace qwsm::io {
 
 /// Writes what a log says as messages of ROS 2: /scan, /odom and the same on /tf, /tf_static for
-/// where lasers sit, /ground_truth. Read as a log again it gives the same scans, with the same
-/// odometry, bit for bit, unless stamps step back: a bag is read in their order.
+/// where lasers sit, /imu, /ground_truth. Read as a log again it gives the same scans, with the
+/// same odometry, bit for bit, unless stamps step back: a bag is read in their order.
 class LogBagWriter {
  public:
   /// Writes into a bag, which outlives this.
@@ -25,6 +25,7 @@ class LogBagWriter {
   void WriteScan(const ScanReading& reading);
   void WriteOdometry(Timestamp stamp, const Pose2& T_odom_robot);
   void WriteTruth(const TruePoseReading& reading);
+  void WriteImu(const ImuReading& reading);
   void WriteMounting(Timestamp stamp, const std::string& frame, const Pose2& T_robot_laser);
 
   BagFile* bag_;

@@ -46,6 +46,11 @@ constexpr std::array kDefinitions{
           "std_msgs/Header header\nfloat32 angle_min\nfloat32 angle_max\n"
           "float32 angle_increment\nfloat32 time_increment\nfloat32 scan_time\n"
           "float32 range_min\nfloat32 range_max\nfloat32[] ranges\nfloat32[] intensities\n"},
+    Entry{"sensor_msgs/Imu",
+          "std_msgs/Header header\ngeometry_msgs/Quaternion orientation\n"
+          "float64[9] orientation_covariance\ngeometry_msgs/Vector3 angular_velocity\n"
+          "float64[9] angular_velocity_covariance\ngeometry_msgs/Vector3 linear_acceleration\n"
+          "float64[9] linear_acceleration_covariance\n"},
     Entry{"sensor_msgs/PointField",
           "uint8 INT8=1\nuint8 UINT8=2\nuint8 INT16=3\nuint8 UINT16=4\nuint8 INT32=5\n"
           "uint8 UINT32=6\nuint8 FLOAT32=7\nuint8 FLOAT64=8\n"
@@ -101,6 +106,8 @@ constexpr std::array kDefinitions{
 constexpr std::array kHashes{
     Entry{"sensor_msgs/LaserScan",
           "RIHS01_64c191398013af96509d518dac71d5164f9382553fce5c1f8cca5be7924bd828"},
+    Entry{"sensor_msgs/Imu",
+          "RIHS01_7d9a00ff131080897a5ec7e26e315954b8eae3353c3f995c55faf71574000b5b"},
     Entry{"nav_msgs/Odometry",
           "RIHS01_3cc97dc7fb7502f8714462c526d369e35b603cfc34d946e3f2eda2766dfec6e0"},
     Entry{"nav_msgs/OccupancyGrid",

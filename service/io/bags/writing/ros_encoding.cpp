@@ -43,6 +43,16 @@ void AddZeros(CdrWriter& fields, int count) {
   for (int i = 0; i < count; ++i) fields.Add(0.0);
 }
 
+void AddVector(CdrWriter& fields, const Eigen::Vector3d& vector) {
+  for (const double value : vector) fields.Add(value);
+}
+
+/// A covariance of three axes of which it is only known whether there is anything.
+void AddUnknownCovariance(CdrWriter& fields, bool is_measured) {
+  fields.Add(is_measured ? 0.0 : -1.0);
+  AddZeros(fields, 8);
+}
+
 int PlanarIndex(int axis) {
   for (int i = 0; i < 3; ++i) {
     if (kPlanarAxes[static_cast<std::size_t>(i)] == axis) return i;
@@ -79,6 +89,20 @@ std::string EncodeLaserScan(const LaserScan& scan, std::string_view frame) {
   fields.Add(static_cast<std::uint32_t>(scan.size()));
   for (const float range_m : scan.ranges_m) fields.Add(range_m);
   fields.Add(std::uint32_t{0});  // Intensities.
+  return fields.bytes();
+}
+
+std::string EncodeImu(const ImuReading& reading, std::string_view frame) {
+  CdrWriter fields;
+  AddHeader(fields, reading.stamp, frame);
+  const Quaternion q = reading.orientation.value_or(Quaternion{});
+  AddVector(fields, {q.x, q.y, q.z});
+  fields.Add(q.w);
+  AddUnknownCovariance(fields, reading.orientation.has_value());
+  AddVector(fields, reading.turn_rate_rad_s);
+  AddUnknownCovariance(fields, true);
+  AddVector(fields, reading.acceleration_mps2.value_or(Eigen::Vector3d::Zero()));
+  AddUnknownCovariance(fields, reading.acceleration_mps2.has_value());
   return fields.bytes();
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "qwsm/mapping/occupancy_grid.hpp"
+#include "qwsm/sensor/imu_reading.hpp"
 #include "qwsm/sensor/laser_scan.hpp"
 
 /// What goes into a bag as messages of ROS 2, in CDR. Numbers come back bit for bit.
@@ -16,6 +17,8 @@ namespace qwsm::io {
 void CheckRosTime(Timestamp stamp);
 
 std::string EncodeLaserScan(const LaserScan& scan, std::string_view frame);
+/// As sensor_msgs/Imu; covariances are not known.
+std::string EncodeImu(const ImuReading& reading, std::string_view frame);
 /// The pose of a frame in its parent as nav_msgs/Odometry; speeds are 0.
 std::string EncodeOdometry(Timestamp stamp,
                            std::string_view frame,

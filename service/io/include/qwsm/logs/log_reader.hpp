@@ -54,6 +54,8 @@ struct LogOptions {
   std::string robot;
   /// Of a bag: time from a scan's first beam to its last, in seconds; else as its messages say.
   std::optional<double> sweep_s;
+  /// Of a bag: height of the laser above the floor; else as its transforms say.
+  std::optional<double> laser_height_m{};
   /// Of a bag: what is added to the stamps of scans, in seconds.
   double stamp_offset_s = 0.0;
   std::optional<Pose2> T_robot_laser;       ///< Replaces what the log says of the mounting.

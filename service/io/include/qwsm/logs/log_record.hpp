@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "qwsm/geometry/pose2.hpp"
+#include "qwsm/sensor/imu_reading.hpp"
 #include "qwsm/sensor/laser_scan.hpp"
 
 namespace qwsm::io {
@@ -17,9 +18,6 @@ struct ScanReading {
   std::optional<Pose2> T_odom_robot;
   /// Name of the laser: "front", "rear", "laser3" (CARMEN), "laser:0" (Player).
   std::string laser;
-  /// Angle turned since some moment as the robot's gyro tells it, where the log has one; not
-  /// wrapped.
-  std::optional<double> gyro_rad{};
 };
 
 /// The robot's own dead reckoning.
@@ -35,7 +33,8 @@ struct TruePoseReading {
   std::optional<Pose2> T_odom_robot;
 };
 
-/// What a log says, one message at a time, in the order of the file.
-using LogRecord = std::variant<ScanReading, OdometryReading, TruePoseReading>;
+/// What a log says, one message at a time, in the order of the file. Readings of an inertial sensor
+/// are about the robot's axes.
+using LogRecord = std::variant<ScanReading, OdometryReading, TruePoseReading, ImuReading>;
 
 }  // namespace qwsm::io

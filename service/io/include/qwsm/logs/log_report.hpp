@@ -28,9 +28,10 @@ struct LogReport {
   bool has_stamps = true;   ///< False where the format has no stamps and they were made up.
   std::size_t lines = 0;
   std::string_view line_name = "lines";  ///< What is counted as such: lines, entries, messages.
-  std::size_t scans = 0;                 ///< Scans delivered, like the next two counts.
+  std::size_t scans = 0;                 ///< Scans delivered, like the next three counts.
   std::size_t odometry_readings = 0;
   std::size_t true_poses = 0;
+  std::size_t imu_readings = 0;
   /// Scans not delivered: of lasers that were not asked for, or repeated sweeps.
   std::size_t other_scans = 0;
   /// Messages known, and of no use here: PARAM, SYNC, sonar, GPS, ...
