@@ -62,6 +62,29 @@ test('nothing stands in the way of those who see or hear differently', async () 
   await page.keyboard.press('l');
 });
 
+test('the map is zoomed, turned and shown whole again, and stays as it was left', async () => {
+  const camera = () => inPage(() => ({...window.qwsm.view.camera}));
+  const [px, py] = [500, 420];
+  const under = ([x, y]) => page.evaluate(([mapX, mapY]) => window.qwsm.view.camera.planeToScreen(mapX, mapY), [x, y]);
+  await page.mouse.move(px, py);
+  const place = await page.evaluate(([x, y]) => window.qwsm.view.camera.toMap(x, y), [px, py]);
+  const {scale} = await camera();
+  await page.mouse.wheel(0, -300);
+  await until(async () => (await camera()).scale > 1.5 * scale, 'the map is enlarged');
+  // What the pointer is at stays there, also when the page is brought up to date.
+  await new Promise((resolve) => setTimeout(resolve, 600));
+  const [nowX, nowY] = await under(place);
+  assert.ok(Math.hypot(nowX - px, nowY - py) < 3, `${nowX}, ${nowY}`);
+  assert.match(await page.locator('#place-text').textContent(), /^-?\d+\.\d\d, -?\d+\.\d\d m$/);
+  await page.locator('#map').focus();
+  await page.keyboard.press('Shift+ArrowLeft');
+  assert.ok((await camera()).turn > 0.2);
+  await page.locator('#upright').click();
+  await until(async () => (await camera()).turn === 0, 'the map is upright');
+  await page.keyboard.press('f');
+  await until(async () => Math.abs((await camera()).scale / scale - 1) < 0.3, 'all is shown again');
+});
+
 test('dragging says where a robot is', async () => {
   await inPage(() => { window.qwsm.state.selected = 'robot_1'; });
   await page.locator('[data-tool="start"]').click();
@@ -94,13 +117,34 @@ test('a victim is marked, and known to the service', async () => {
   await untilInPage(() => document.getElementById('marks').textContent.includes('Victim: Anna, awake'), 'the mark is in the list');
 });
 
+test('without a pointer, a hazard is marked in the middle of the map, and removed', async () => {
+  await page.locator('#map').focus();
+  await page.keyboard.press('2');
+  await page.keyboard.press('Enter');
+  await page.locator('#mark-text').fill('gas');
+  await page.keyboard.press('Enter');
+  await untilInPage(() => [...window.qwsm.model.marks.values()].some(({text}) => text === 'gas'), 'the mark has come back');
+  const {off, id} = await inPage(() => {
+    const {camera} = window.qwsm.view;
+    const {x, y, id} = [...window.qwsm.model.marks.values()].find(({text}) => text === 'gas');
+    return {off: Math.hypot(x - camera.x, y - camera.y), id};
+  });
+  assert.ok(off < 1e-6);
+  await page.evaluate((mark) => window.qwsm.actions.editMark(mark), id);
+  await page.evaluate(kAxe);
+  const {violations} = await inPage(() => window.axe.run(document));
+  assert.deepEqual(violations.map(({id: rule, nodes}) => [rule, nodes.map(({html}) => html)]), []);
+  await page.locator('#mark-remove').click();
+  await untilInPage(() => document.querySelectorAll('.mark').length === 1, 'one mark is left');
+});
+
 test('the page comes back with the service after kill -9', async () => {
   service.kill('SIGKILL');
   await service.ended;
   await untilInPage(() => document.getElementById('link').dataset.state === 'lost', 'the page says that the service is gone');
   service = await programs.serve(port);
   await untilInPage(() => document.getElementById('link').dataset.state === 'live', 'the page is live again');
-  await untilInPage(() => window.qwsm.model.marks.size === 1, 'the mark is there again');
+  await untilInPage(() => document.querySelectorAll('.mark').length === 1, 'the mark is there again');
   await untilInPage(() => window.qwsm.model.maps.get('/map_tiles')?.chunks.size > 0, 'the map is there again');
   await untilInPage(() => [...window.qwsm.model.robots.values()].every((robot) => Date.now() - robot.arrived_ms < 1000), 'all robots are answered again');
 });

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The list of robots, the chosen one's figures, marks, and what the service tells.
 import {drawChart} from './chart.js';
-import {inkOn, kMarkKinds} from './map_view.js';
-import {condition, Status} from './model.js';
+import {inkOn, kMarkKinds} from './colors.js';
+import {condition, Status} from './robot.js';
 
 const kChart_s = 120;
 const kChartPoints = 240;
@@ -23,13 +23,13 @@ const metres = (m) => m < 0.995 ? `${(100 * m).toFixed(1)} cm` : `${m.toFixed(2)
 const age = (s) => s === Infinity ? '' : s < 2 ? 'now' : s < 90 ? `${Math.floor(s)} s ago` : `${Math.floor(s / 60)} min ago`;
 
 export class Panel {
-  // `actions`: select(name), centre(name), follow(name), place(name), editMark(id), showMark(id),
-  // showEvent(event).
+  // `actions`: select(name), showRobot(name), follow(name), place(name), showMark(id), showEvent(event).
   constructor(model, state, actions) {
     this.model = model;
     this.state = state;
     this.actions = actions;
     this.rows = new Map();
+    this.order = [];  // Names of the robots, who needs attention first.
     $('panel-fold').onclick = () => {
       const folded = $('panel').classList.toggle('folded');
       $('panel-fold').setAttribute('aria-expanded', String(!folded));
@@ -40,6 +40,7 @@ export class Panel {
   update(now_ms) {
     const robots = [...this.model.robots.values()].map((robot) => ({robot, how: condition(robot, now_ms)}));
     robots.sort((a, b) => b.how.level - a.how.level || a.robot.name.localeCompare(b.robot.name, undefined, {numeric: true}));
+    this.order = robots.map(({robot}) => robot.name);
     $('nobody').hidden = robots.length > 0;
     setText($('robot-count'), robots.length ? `${robots.length}, who needs attention first` : '');
     robots.forEach(({robot, how}, place) => this.#updateRow(robot, how, place));
@@ -72,7 +73,7 @@ export class Panel {
     const button = element('button', {className: 'robot', type: 'button'}, badge,
       element('span', {className: 'name', textContent: robot.name || 'robot'}), ageNode, stateNode);
     button.onclick = () => this.actions.select(robot.name);
-    button.ondblclick = () => this.actions.centre(robot.name);
+    button.ondblclick = () => this.actions.showRobot(robot.name);
     return {item: element('li', {}, button), button, age: ageNode, state: stateNode};
   }
 
@@ -122,7 +123,7 @@ export class Panel {
     this.detail = {facts, sigma, residual};
     $('detail').replaceChildren(
       element('h2', {textContent: robot.name || 'robot'}), list, sigmaTitle, sigma, residualTitle, residual,
-      element('div', {className: 'row'}, button('Show', () => this.actions.centre(robot.name)),
+      element('div', {className: 'row'}, button('Show', () => this.actions.showRobot(robot.name)),
         button('Follow', () => this.actions.follow(robot.name)), button('Say where it is', () => this.actions.place(robot.name))));
   }
 
