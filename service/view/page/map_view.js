@@ -5,12 +5,14 @@ import {Background, drawPoints} from './background.js';
 import {Camera} from './camera.js';
 import {boxOf} from './cloud_picture.js';
 import {kThemes} from './colors.js';
+import {Labels} from './labels.js';
 import {condition, kSilent_s} from './robot.js';
-import {drawCaption, drawEllipse, drawMark, drawMarkText, drawRobot} from './symbols.js';
+import {captionRoom, drawAttention, drawCaption, drawEllipse, drawMark, drawMarkText, drawRobot, markRadius, robotRadius} from './symbols.js';
 
 const kGlide_ms = 60;  // In which a robot's picture comes to where the robot is.
 const kFar_m = 1;  // From there it jumps.
 const kAroundRobot_m = 3;
+const kUnremarkable = {level: 0};
 
 // A robot moves on the screen instead of jumping ten times a second.
 function glide(robot, pose, now_ms) {
@@ -71,10 +73,13 @@ export class MapView {
     c.setTransform(1, 0, 0, 1, 0, 0);
     c.drawImage(this.background.picture(now_ms), 0, 0);
     c.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
-    const robots = this.model.robotsInMap();
-    if (shownStamp === null && layers.scans && this.camera.isFromAbove) for (const robot of robots) this.#drawScan(c, robot, now_ms);
-    if (layers.marks) this.#drawMarks(c);
-    this.#drawRobots(c, robots, now_ms);
+    const drawn = this.#posed(now_ms);
+    if (shownStamp === null && layers.scans && this.camera.isFromAbove) for (const {robot} of drawn) this.#drawScan(c, robot, now_ms);
+    const marks = layers.marks ? [...this.model.marks.values()].filter(({removed}) => !removed) : [];
+    const captions = this.#captions(c, marks, drawn);
+    this.#drawMarks(c, marks, captions);
+    this.#drawRobots(c, drawn);
+    for (const {how, room} of captions) drawCaption(c, room, how);
     this.overlay?.(c, this.camera, this.theme);
     ++this.frames;
     this.#noteLatencies();
@@ -97,24 +102,45 @@ export class MapView {
     drawPoints(c, this.camera, robot.points, Math.max(2, Math.min(4, this.camera.scale * 0.05)));
   }
 
-  #drawMarks(c) {
-    const marks = [...this.model.marks.values()].filter(({removed}) => !removed);
-    for (const mark of marks) if (mark.text) drawMarkText(c, this.camera, mark, this.theme);
+  #drawRobots(c, drawn) {
+    if (this.state.layers.uncertainty && this.camera.isFromAbove) {
+      for (const {robot, pose} of drawn) if (pose.cov) drawEllipse(c, this.camera, robot, pose);
+    }
+    for (const {robot, pose, how} of drawn) {
+      drawRobot(c, this.camera, robot, pose, {theme: this.theme, isSelected: robot.name === this.state.selected, isFaded: how.level >= 2});
+      if (how.level > 0) drawAttention(c, this.camera, pose, how.level);
+    }
+  }
+
+  // Where words are on robots that need attention: off marks, robots and each other.
+  #captions(c, marks, drawn) {
+    const labels = new Labels();
+    for (const mark of marks) labels.block(...this.camera.toScreen(mark.x, mark.y), markRadius(this.camera));
+    for (const {pose} of drawn) labels.block(...this.camera.toScreen(pose.x, pose.y, pose.z), robotRadius(this.camera));
+    const needy = drawn.filter(({how}) => how.level > 0).sort((a, b) => b.how.level - a.how.level);
+    return needy.map(({pose, how}) => ({how, room: captionRoom(c, this.camera, pose, how.caption, labels)})).filter(({room}) => room);
+  }
+
+  // Their words may be driven over.
+  #drawMarks(c, marks, captions) {
+    const labels = new Labels();
+    for (const {room} of captions) labels.keepOff(room);
+    for (const mark of marks) labels.block(...this.camera.toScreen(mark.x, mark.y), markRadius(this.camera));
+    for (const mark of marks) if (mark.text) drawMarkText(c, this.camera, mark, this.theme, labels);
     for (const mark of marks) drawMark(c, this.camera, mark);
   }
 
-  // Words come last, and the chosen robot lies on top of the others.
-  #drawRobots(c, robots, now_ms) {
-    const {selected, shownStamp, layers} = this.state;
-    const isLive = shownStamp === null;
-    const drawn = [];
-    for (const robot of robots) {
-      const pose = isLive ? robot.last : robot.poseAt(shownStamp);
-      if (pose) drawn.push({robot, pose: isLive ? glide(robot, pose, now_ms) : pose, how: isLive ? condition(robot, now_ms) : {level: 0}});
+  // Robots with the poses that they are drawn at, the chosen one on top of the others.
+  #posed(now_ms) {
+    const {selected, shownStamp} = this.state;
+    const posed = [];
+    for (const robot of this.model.robotsInMap()) {
+      const pose = shownStamp === null ? robot.last : robot.poseAt(shownStamp);
+      if (!pose) continue;
+      posed.push(shownStamp === null
+        ? {robot, pose: glide(robot, pose, now_ms), how: condition(robot, now_ms)}
+        : {robot, pose, how: kUnremarkable});
     }
-    drawn.sort((a, b) => (a.robot.name === selected) - (b.robot.name === selected));
-    if (layers.uncertainty && this.camera.isFromAbove) for (const {robot, pose} of drawn) if (pose.cov) drawEllipse(c, this.camera, robot, pose);
-    for (const {robot, pose, how} of drawn) drawRobot(c, this.camera, robot, pose, {theme: this.theme, isSelected: robot.name === selected, isFaded: how.level >= 2});
-    for (const {pose, how} of drawn) if (how.level > 0) drawCaption(c, this.camera, pose, how);
+    return posed.sort((a, b) => (a.robot.name === selected) - (b.robot.name === selected));
   }
 }

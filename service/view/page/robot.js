@@ -9,6 +9,8 @@ const kMostTrail = 4000;
 const kTrailStep_m = 0.05;
 export const kSilent_s = 3;  // A robot that stands is reported every 1.5 s.
 
+const kLongDeadReckoning_s = 3;
+
 // What a match report says; and of a simulated robot that nobody answers, that it is where it is.
 export const Status = {first: 0, matched: 1, extended: 2, deadReckoned: 3, simulated: 4};
 
@@ -95,20 +97,23 @@ export class Robot {
 
 const ago = (s) => s < 90 ? `${Math.round(s)} s` : s < 5400 ? `${Math.round(s / 60)} min` : `${Math.round(s / 3600)} h`;
 
-// How a robot is, in words, and how much it needs attention: 0 not, 3 most.
+// How a robot is: `text` says it in the list, `caption` on the map. `level` tells how much it needs
+// attention: 0 not, 3 most.
 export function condition(robot, now_ms) {
   const age_s = robot.arrived_ms ? (now_ms - robot.arrived_ms) / 1000 : Infinity;
-  if (robot.health === 'unplaced') return {level: 3, text: 'lost: searching for its place on the map', age_s};
-  if (robot.health === 'lost') return {level: 2, text: age_s < Infinity ? `gone for ${ago(age_s)}; this is where it was last` : 'gone', age_s};
-  if (!robot.last) return {level: robot.health === 'expected' ? 1 : 2, text: robot.health === 'expected' ? 'expected, not heard of yet' : 'no pose yet', age_s};
-  if (robot.health?.includes('at its end')) return {level: 0, text: robot.health, age_s};
-  if (age_s > kSilent_s) return {level: 2, text: `silent for ${ago(age_s)}`, age_s};
-  if (robot.last.status === Status.deadReckoned) {
-    const since_s = robot.lastMatch === null ? 0 : robot.last.stamp - robot.lastMatch;
-    return {level: since_s > 3 ? 2 : 1, text: `dead reckoning for ${ago(since_s)}`, age_s};
+  const is = (level, text, caption = text) => ({level, text, caption, age_s});
+  const {health, last} = robot;
+  if (health === 'unplaced') return is(3, 'lost: searching for its place on the map', 'lost, searching');
+  if (health === 'lost') return age_s < Infinity ? is(2, `gone for ${ago(age_s)}; last place shown`, `gone ${ago(age_s)}`) : is(2, 'gone');
+  if (!last) return health === 'expected' ? is(1, 'expected, not heard of yet') : is(2, 'no pose yet');
+  if (health?.includes('at its end')) return is(0, health);
+  if (age_s > kSilent_s) return is(2, `silent for ${ago(age_s)}`, `silent ${ago(age_s)}`);
+  if (last.status === Status.deadReckoned) {
+    const since_s = robot.lastMatch === null ? 0 : last.stamp - robot.lastMatch;
+    return is(since_s > kLongDeadReckoning_s ? 2 : 1, `dead reckoning for ${ago(since_s)}`);
   }
-  if (robot.isApart) return {level: 2, text: 'lost: in a map of its own, searching for its place', age_s};
-  if (robot.last.status === Status.simulated) return {level: 0, text: 'simulated; no service answers it', age_s};
-  if (robot.health === 'answered by another service') return {level: 0, text: 'matched, by another service', age_s};
-  return {level: 0, text: robot.last.status === Status.extended ? 'matched, exploring' : 'matched', age_s};
+  if (robot.isApart) return is(2, 'lost: in a map of its own, searching for its place', 'lost, searching');
+  if (last.status === Status.simulated) return is(0, 'simulated; no service answers it');
+  if (health === 'answered by another service') return is(0, 'matched, by another service');
+  return is(0, last.status === Status.extended ? 'matched, exploring' : 'matched');
 }

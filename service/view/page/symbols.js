@@ -8,7 +8,12 @@ const kEllipse_sigmas = 2.45;  // Holds 95 % of a Gaussian of two dimensions.
 const kWidestEllipse_px = 20000;
 const kCaptionColors = ['', '#8a4b00', '#b3261e', '#b3261e'];  // By how much attention is needed.
 
+const kWordsFont = `600 12px ${kFont}`;
+const kCaption_px = 19;
+
 const within = (low, value, high) => Math.min(high, Math.max(low, value));
+export const robotRadius = (camera) => within(11, 0.3 * camera.scale, 26);
+export const markRadius = (camera) => within(11, 0.35 * camera.scale, 20);
 
 function drawCentred(c, text, px, py, font, color) {
   c.font = font;
@@ -30,7 +35,7 @@ function traceDrop(c, camera, px, py, radius, theta) {
 // A drop that points where the robot looks, with its number.
 export function drawRobot(c, camera, robot, pose, {theme, isSelected, isFaded}) {
   const [px, py] = camera.toScreen(pose.x, pose.y, pose.z);
-  const radius = within(11, 0.3 * camera.scale, 26);
+  const radius = robotRadius(camera);
   traceDrop(c, camera, px, py, radius, pose.theta);
   c.globalAlpha = isFaded ? 0.55 : 1;
   c.lineWidth = isSelected ? 6 : 3.5;
@@ -52,18 +57,33 @@ export function drawRobot(c, camera, robot, pose, {theme, isSelected, isFaded}) 
   c.stroke();
 }
 
-// A robot that needs attention says so on the map, too, in words.
-export function drawCaption(c, camera, pose, {level, text}) {
-  const [px, robotY] = camera.toScreen(pose.x, pose.y, pose.z);
-  const py = robotY + within(11, 0.3 * camera.scale, 26) + 15;
-  const font = `600 12px ${kFont}`;
-  c.font = font;
-  const width = c.measureText(text).width + 14;
+// A robot that needs attention says so on the map, too: by a sign, and in words where there is room.
+export function drawAttention(c, camera, pose, level) {
+  const [px, py] = camera.toScreen(pose.x, pose.y, pose.z);
+  const off = 0.75 * robotRadius(camera);
+  c.beginPath();
+  c.arc(px + off, py - off, 7, 0, 2 * Math.PI);
+  c.fillStyle = kCaptionColors[level];
+  c.fill();
+  c.lineWidth = 1.5;
+  c.strokeStyle = '#fff';
+  c.stroke();
+  drawCentred(c, '!', px + off, py - off + 0.5, `800 11px ${kFont}`, '#fff');
+}
+
+// @return room for that, as Labels.place() does.
+export function captionRoom(c, camera, pose, caption, labels) {
+  c.font = kWordsFont;
+  const width = c.measureText(caption).width + 14;
+  return labels.place(...camera.toScreen(pose.x, pose.y, pose.z), 1.2 * robotRadius(camera), width, kCaption_px);
+}
+
+export function drawCaption(c, {x, y, wide, high}, {level, caption}) {
   c.fillStyle = kCaptionColors[level];
   c.beginPath();
-  c.roundRect(px - width / 2, py - 9, width, 19, 9);
+  c.roundRect(x - wide, y - high, 2 * wide, 2 * high, high);
   c.fill();
-  drawCentred(c, text, px, py + 1, font, '#fff');
+  drawCentred(c, caption, x, y + 1, kWordsFont, '#fff');
 }
 
 // Where a robot is with 95 %.
@@ -98,7 +118,7 @@ function traceMark(c, shape, px, py, r) {
 export function drawMark(c, camera, mark) {
   const kind = kMarkKinds[mark.kind] ?? kMarkKinds.note;
   const [px, py] = camera.toScreen(mark.x, mark.y);
-  const r = within(11, 0.35 * camera.scale, 20);
+  const r = markRadius(camera);
   traceMark(c, kind.shape, px, py, r);
   c.fillStyle = kind.color;
   c.fill();
@@ -108,9 +128,10 @@ export function drawMark(c, camera, mark) {
   drawCentred(c, mark.number || '', px, py + 1, `700 ${Math.round(r)}px ${kFont}`, inkOn(kind.color));
 }
 
-export function drawMarkText(c, camera, mark, theme) {
-  const [px, py] = camera.toScreen(mark.x, mark.y);
-  drawOutlined(c, mark.text, px, py + within(11, 0.35 * camera.scale, 20) + 13, `600 12px ${kFont}`, theme);
+export function drawMarkText(c, camera, mark, theme, labels) {
+  c.font = kWordsFont;
+  const room = labels.place(...camera.toScreen(mark.x, mark.y), markRadius(camera), c.measureText(mark.text).width, kCaption_px - 4);
+  if (room) drawOutlined(c, mark.text, room.x, room.y, kWordsFont, theme);
 }
 
 // Text that can be read on anything.
