@@ -93,6 +93,7 @@ export class Camera {
   glideTo({x = this.x, y = this.y, scale = this.scale, turn = this.turn}) { this.#goal = {x, y, scale, turn}; }
 
   stop() { this.#goal = null; }
+  get isGliding() { return this.#goal !== null; }
 
   // Goes on to where it was sent. @return whether it has moved.
   step(passed_ms) {

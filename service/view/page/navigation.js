@@ -31,14 +31,19 @@ export class Navigation {
   showAll() {
     this.#showsAll = true;
     this.state.followed = null;
-    this.update();
+    const whole = this.#whole();
+    if (whole) this.camera.glideTo(whole);
     this.changed();
   }
 
-  // Goes along with a map that grows.
+  #whole() {
+    const bounds = this.view.bounds();
+    return bounds && this.camera.fitting(bounds, margins());
+  }
+
+  // Goes along with a map that grows: in steps, as to glide would be to draw all of it in each frame.
   update() {
-    const bounds = this.#showsAll ? this.view.bounds() : null;
-    if (bounds) this.camera.glideTo(this.camera.fitting(bounds, margins()));
+    if (this.#showsAll && !this.camera.isGliding) Object.assign(this.camera, this.#whole());
     $('side').hidden = this.model.clouds.size === 0;
   }
 
