@@ -83,6 +83,7 @@ test('the map is zoomed, turned and shown whole again, and stays as it was left'
   await until(async () => (await camera()).turn === 0, 'the map is upright');
   await page.keyboard.press('f');
   await until(async () => Math.abs((await camera()).scale / scale - 1) < 0.3, 'all is shown again');
+  await untilInPage(() => !window.qwsm.view.camera.isGliding, 'the map has come to rest');
 });
 
 test('dragging says where a robot is', async () => {
@@ -252,6 +253,26 @@ test('a browser that hangs holds nobody up, and comes back', async (t) => {
   await hanging.waitForFunction(() => [...window.qwsm.model.robots.values()].every((robot) => Date.now() - robot.arrived_ms < 2000));
   await other.close();
   await server.close();
+});
+
+test('whoever comes after a drive in space sees the model, the way and where the robot is now', async () => {
+  const otherPort = await freePort();
+  const {serving, replayed} = programs.driveInSpace(otherPort);
+  await until(() => serving.said.includes('look at'), 'the service in space tells its address');
+  await replayed();
+  const late = await browser.newPage({viewport: {width: 1280, height: 800}});
+  await late.goto(`http://localhost:${otherPort}/`);
+  await late.waitForFunction(() => window.qwsm.model.clouds.get('/mole/cloud_map')?.length > 3000 && window.qwsm.model.robots.get('mole')?.history.length === 5);
+  const {trail, off, side} = await late.evaluate(() => {
+    const {model, view} = window.qwsm;
+    const {trail, last} = model.robots.get('mole');
+    document.getElementById('side').click();
+    return {trail: trail.length, off: Math.hypot(last.x - trail.at(-1).x, last.y - trail.at(-1).y), side: view.camera.from};
+  });
+  assert.deepEqual({trail, side}, {trail: 5, side: 'south'});
+  assert.ok(off < 0.01, 'the robot is at the end of its way');
+  await late.close();
+  serving.kill('SIGKILL');
 });
 
 test('the page is encrypted where the service has a certificate', async () => {

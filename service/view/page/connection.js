@@ -29,6 +29,8 @@ export class Connection {
     this.#subscribe();
   }
 
+  get topics() { return new Set([...this.channels.values()].map(({topic}) => topic)); }
+
   publish(topic, schemaName, payload) {
     if (this.socket?.readyState !== WebSocket.OPEN) return false;
     this.prepare(topic, schemaName);

@@ -14,24 +14,30 @@ class Chunk {
     this.known = null;  // Cells between which something is known: left, bottom, right, top.
   }
   put(tile, firstX, firstY) {
-    let at = 0;
+    let x = 0, y = 0;
     for (const run of tile.runs) {
       const state = run >> 6;
-      for (let left = (run & 63) + 1; left > 0; --left, ++at) {
-        const x = firstX + at % tile.width;
-        const y = firstY + Math.floor(at / tile.width);
-        // A picture's first row is the highest.
-        this.states[(this.side - 1 - y) * this.side + x] = state;
-        if (state > 0) this.#extend(x, y);
+      for (let left = (run & 63) + 1; left > 0;) {
+        const count = Math.min(left, tile.width - x);
+        this.#fill(state, firstX + x, firstY + y, count);
+        left -= count;
+        x += count;
+        if (x === tile.width) { x = 0; ++y; }
       }
     }
     this.canvas = null;
   }
-  #extend(x, y) {
-    this.known ??= {left: x, bottom: y, right: x + 1, top: y + 1};
+  // Cells of one row.
+  #fill(state, x, y, count) {
+    const begin = (this.side - 1 - y) * this.side + x;  // A picture's first row is the highest.
+    this.states.fill(state, begin, begin + count);
+    if (state === 0) return;
+    this.known ??= {left: x, bottom: y, right: x, top: y};
     const {left, bottom, right, top} = this.known;
-    if (x < left) this.known.left = x; else if (x >= right) this.known.right = x + 1;
-    if (y < bottom) this.known.bottom = y; else if (y >= top) this.known.top = y + 1;
+    if (x < left) this.known.left = x;
+    if (x + count > right) this.known.right = x + count;
+    if (y < bottom) this.known.bottom = y;
+    if (y >= top) this.known.top = y + 1;
   }
   // `palette`: for unknown, free, occupied, each [r, g, b, a].
   picture(palette) {

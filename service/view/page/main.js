@@ -36,6 +36,7 @@ function wants({topic, schemaName}) {
   if (!decodes(schemaName) || topic === '/tf') return false;
   // Of clouds the model, not what each scan added to it.
   if (schemaName === 'sensor_msgs/msg/PointCloud2') return topic.endsWith('/cloud_map');
+  if (schemaName === 'nav_msgs/msg/Path') return connection.topics.has(topic.replace(/path$/, 'cloud_map'));
   if (schemaName === 'nav_msgs/msg/Odometry') return topic.endsWith('/ground_truth') && model.needsTruth(topic);
   if (schemaName === 'qwsm_msgs/msg/RelevantScan') return state.layers.relevant || state.looksBack;
   return true;

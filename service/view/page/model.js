@@ -65,6 +65,10 @@ export class Model {
       case 'qwsm_msgs/msg/RegistrationReport':
       case 'qwsm_msgs/msg/MatchReport': return this.#takeReport(message, times);
       case 'nav_msgs/msg/Odometry': return this.#takeTruth(this.robot(robotName), message, times);
+      case 'nav_msgs/msg/Path':
+        this.robot(robotName).takePath(message.poses);
+        ++this.mapVersion;
+        return;
       case 'sensor_msgs/msg/LaserScan': return this.#takeScan(this.robot(robotName), message);
       case 'sensor_msgs/msg/PointCloud2':
         this.clouds.set(channel.topic, message.points);

@@ -35,6 +35,7 @@ export class Robot {
     this.isSecond = Math.floor(place / kRobotColors.length) % 2 === 1;
     this.history = [];
     this.trail = [];
+    this.path = new Map();  // Of one that scans in space: corrected poses, by their stamps.
     this.loops = [];  // Pairs of entries of the history that were recognised as near each other.
     this.relevant = [];  // Its relevant scans, by their stamps.
     this.scans = [];  // Recent ones that wait for their pose.
@@ -53,15 +54,24 @@ export class Robot {
     const {stamp, pose, covariance, status, reason, meanResidual, overlap, scans, dropped, latency} = report;
     if (this.last && (stamp < this.last.stamp - 1 || report.frame !== this.frame)) this.beginAnew();
     this.frame = report.frame;
-    this.history.push({stamp, published_ms, ...pose, cov: covariance, status, reason, residual_m: meanResidual, overlap, scans, dropped, latency});
+    const place = this.path.get(stamp) ?? pose;
+    this.history.push({stamp, published_ms, ...place, cov: covariance, status, reason, residual_m: meanResidual, overlap, scans, dropped, latency});
     if (this.history.length > kMostHistory) this.history.splice(0, kMostHistory / 10);
     if (status !== Status.deadReckoned) this.lastMatch = stamp;
     this.arrived_ms = told_ms;
     this.published_ms = published_ms;
     this.isFresh = true;
     const end = this.trail.at(-1);
-    if (!end || Math.hypot(pose.x - end.x, pose.y - end.y) > kTrailStep_m) this.trail.push({x: pose.x, y: pose.y, z: pose.z, stamp, published_ms});
+    const isNew = !end || (stamp > end.stamp && Math.hypot(pose.x - end.x, pose.y - end.y) > kTrailStep_m);
+    if (isNew) this.trail.push({x: pose.x, y: pose.y, z: pose.z, stamp, published_ms});
     if (this.trail.length > kMostTrail) this.trail = this.trail.filter((_, i) => i % 2 === 0 || i > kMostTrail / 2);
+  }
+  // All of its way in space, as it is known now.
+  takePath(poses) {
+    this.path = new Map(poses.map((pose) => [pose.stamp, pose]));
+    for (const entry of this.history) Object.assign(entry, this.path.get(entry.stamp));
+    const end = poses.at(-1)?.stamp ?? -Infinity;
+    this.trail = [...poses, ...this.trail.filter(({stamp}) => stamp > end)];
   }
   // Where it was told to be before the map was corrected goes with the scan that was taken next to it.
   follow(scans, published_ms) {
@@ -79,7 +89,7 @@ export class Robot {
     this.history = this.history.map(moved);
     this.frame = scans.at(-1).frame ?? this.frame;
   }
-  beginAnew() { this.history = []; this.trail = []; this.loops = []; this.lastMatch = null; }
+  beginAnew() { this.history = []; this.trail = []; this.loops = []; this.path.clear(); this.lastMatch = null; }
 
   // What is known of it until a stamp, from its relevant scans of before this page was opened on.
   pathUntil(stamp) {
