@@ -40,6 +40,17 @@ after(async () => {
 const inPage = (ask) => page.evaluate(ask);
 const untilInPage = (ask, what) => until(() => inPage(ask), what);
 
+// In the dark and in the light, as the page is now.
+async function assertAccessible(state) {
+  await page.evaluate(kAxe);
+  for (const theme of ['dark', 'light']) {
+    await page.evaluate((name) => { document.documentElement.dataset.theme = name; }, theme);
+    const {violations} = await inPage(() => window.axe.run(document));
+    assert.deepEqual(violations.map(({id, nodes}) => [state, theme, id, nodes.map(({html}) => html)]), []);
+  }
+  await inPage(() => { document.documentElement.dataset.theme = window.qwsm.state.theme; });
+}
+
 test('four robots are on the map, with their state in words', async () => {
   await untilInPage(() => window.qwsm.model.robots.size === 4, 'four robots');
   await untilInPage(() => document.querySelectorAll('.robot').length === 4, 'four robots in the list');
@@ -53,12 +64,7 @@ test('four robots are on the map, with their state in words', async () => {
 test('nothing stands in the way of those who see or hear differently', async () => {
   await page.keyboard.press('l');
   await page.locator('.robot').first().click();
-  for (const theme of ['dark', 'light']) {
-    await page.evaluate(kAxe);
-    const {violations} = await inPage(() => window.axe.run(document));
-    assert.deepEqual(violations.map(({id, nodes}) => [theme, id, nodes.map(({html}) => html)]), []);
-    await page.keyboard.press('t');
-  }
+  await assertAccessible('layers and a chosen robot');
   await page.keyboard.press('l');
 });
 
@@ -132,9 +138,7 @@ test('without a pointer, a hazard is marked in the middle of the map, and remove
   });
   assert.ok(off < 1e-6);
   await page.evaluate((mark) => window.qwsm.actions.editMark(mark), id);
-  await page.evaluate(kAxe);
-  const {violations} = await inPage(() => window.axe.run(document));
-  assert.deepEqual(violations.map(({id: rule, nodes}) => [rule, nodes.map(({html}) => html)]), []);
+  await assertAccessible('a dialog');
   await page.locator('#mark-remove').click();
   await untilInPage(() => document.querySelectorAll('.mark').length === 1, 'one mark is left');
 });
@@ -143,6 +147,8 @@ test('the page comes back with the service after kill -9', async () => {
   service.kill('SIGKILL');
   await service.ended;
   await untilInPage(() => document.getElementById('link').dataset.state === 'lost', 'the page says that the service is gone');
+  await untilInPage(() => document.querySelectorAll('.robot[data-level="2"]').length === 4, 'all are told to be silent');
+  await assertAccessible('no service, silent robots');
   service = await programs.serve(port);
   await untilInPage(() => document.getElementById('link').dataset.state === 'live', 'the page is live again');
   await untilInPage(() => document.querySelectorAll('.mark').length === 1, 'the mark is there again');
@@ -157,6 +163,7 @@ test('the time line goes back to what the journal holds', async () => {
   await page.keyboard.press('PageDown');
   assert.ok(await inPage(() => window.qwsm.state.shownStamp < window.qwsm.model.span.last));
   assert.match(await page.locator('#time-text').textContent(), / ago$/);
+  await assertAccessible('looking back');
   await page.keyboard.press('End');
   await page.locator('#live').click();
   assert.equal(await inPage(() => window.qwsm.state.shownStamp), null);
