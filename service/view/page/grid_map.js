@@ -5,6 +5,10 @@ import {packed} from './colors.js';
 
 const kChunkTiles = 8;  // Tiles of a chunk, along each side.
 
+export const union = (a, b) => ({
+  left: Math.min(a.left, b.left), bottom: Math.min(a.bottom, b.bottom), right: Math.max(a.right, b.right), top: Math.max(a.top, b.top),
+});
+
 // Cells of some tiles as one picture.
 class Chunk {
   constructor(cells) {
@@ -85,7 +89,7 @@ export class GridMap {
       if (!known) continue;
       const cell_m = size_m / side;
       const box = {left: x + known.left * cell_m, bottom: y + known.bottom * cell_m, right: x + known.right * cell_m, top: y + known.top * cell_m};
-      bounds = bounds ? {left: Math.min(bounds.left, box.left), bottom: Math.min(bounds.bottom, box.bottom), right: Math.max(bounds.right, box.right), top: Math.max(bounds.top, box.top)} : box;
+      bounds = bounds ? union(bounds, box) : box;
     }
     return bounds;
   }

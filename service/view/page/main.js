@@ -14,6 +14,7 @@ import {Tools} from './tools.js';
 
 const kPanelPeriod_ms = 250;
 const kMoving_ms = 200;
+const kPrepared_ms = 3000;  // Robots that have reported within that can be told where they are.
 const kPoseSchema = 'geometry_msgs/msg/PoseWithCovarianceStamped';
 const kMarkSchema = 'qwsm_msgs/msg/Mark';
 const kMarkTopic = '/qwsm/marks';
@@ -76,6 +77,13 @@ function showLink(how, text) {
 }
 
 const topicOf = (robot, part) => robot ? `/${robot}/${part}` : `/${part}`;
+
+// Who listens to a robot's place takes a moment to be found: long before an operator has drawn an arrow.
+function preparePlaces(now_ms) {
+  for (const [name, {arrived_ms}] of model.robots) {
+    if (now_ms - arrived_ms < kPrepared_ms) connection.prepare(topicOf(name, 'initialpose'), kPoseSchema);
+  }
+}
 
 function tellPlace(name, pose) {
   if (connection.publish(topicOf(name, 'initialpose'), kPoseSchema, encodeInitialPose(pose))) model.tell(`${name || 'robot'} was told where it is`);
@@ -180,6 +188,7 @@ function updateNow(now_ms) {
   model.placeLateScans();
   navigation.update();
   connection.want(wants);
+  preparePlaces(now_ms);
   changed();
 }
 

@@ -5,6 +5,7 @@ import {Background, drawPoints} from './background.js';
 import {Camera} from './camera.js';
 import {boxOf} from './cloud_picture.js';
 import {kThemes} from './colors.js';
+import {union} from './grid_map.js';
 import {Labels} from './labels.js';
 import {condition, kSilent_s} from './robot.js';
 import {captionRoom, drawAttention, drawCaption, drawEllipse, drawMark, drawMarkText, drawRobot, markRadius, robotRadius} from './symbols.js';
@@ -61,9 +62,7 @@ export class MapView {
       const [right, up] = this.camera.project(last.x, last.y, last.z);
       boxes.push({left: right - kAroundRobot_m, right: right + kAroundRobot_m, bottom: up - kAroundRobot_m, top: up + kAroundRobot_m});
     }
-    if (boxes.length === 0) return null;
-    const least = (side) => Math.min(...boxes.map((box) => box[side])), most = (side) => Math.max(...boxes.map((box) => box[side]));
-    return {left: least('left'), right: most('right'), bottom: least('bottom'), top: most('top')};
+    return boxes.length > 0 ? boxes.reduce(union) : null;
   }
 
   draw(now_ms) {

@@ -7,6 +7,7 @@ import {Robot, Status} from './robot.js';
 
 const kRecentScans = 4;
 const kLateAnswer_ms = 300;
+const kNoticeable_m = 0.01;  // Of a scan that is moved.
 
 // Of one mark, what is newer; services decide alike.
 function supersedes(mark, known) {
@@ -175,14 +176,20 @@ export class Model {
       const scans = epoch.scans.filter((scan) => scan.robot === robot.name);
       if (scans.length > 0) robot.follow(scans, published_ms);
     }
-    const joints = new Set(epoch.scans.filter((scan) => scan.frame !== scan.frameBefore).map((scan) => `${scan.frameBefore} was found in ${scan.frame}: they are one map now`));
+    this.#tellEpoch(epoch, told_ms);
+    ++this.mapVersion;
+  }
+
+  #tellEpoch(epoch, told_ms) {
+    const joined = epoch.scans.filter((scan) => scan.frame !== scan.frameBefore);
+    const joints = new Set(joined.map((scan) => `${scan.frameBefore} was found in ${scan.frame}: they are one map now`));
     for (const joint of joints) this.tell(joint, epoch.stamp || this.now);
     const moved = epoch.scans.filter((scan) => scan.frame === scan.frameBefore);
-    ++this.mapVersion;
     if (joints.size > 0 && moved.every(({before, pose}) => before.x === pose.x && before.y === pose.y)) return;
     const moves_m = moved.map(({before, pose}) => Math.hypot(pose.x - before.x, pose.y - before.y));
     const most_m = Math.max(0, ...moves_m);
-    this.tell(`the map was corrected: ${moves_m.filter((m) => m > 0.01).length} of ${moves_m.length} scans moved, by ${most_m < 1 ? `${(100 * most_m).toFixed(0)} cm` : `${most_m.toFixed(1)} m`} at most`,
+    const most = most_m < 1 ? `${(100 * most_m).toFixed(0)} cm` : `${most_m.toFixed(1)} m`;
+    this.tell(`the map was corrected: ${moves_m.filter((m) => m > kNoticeable_m).length} of ${moves_m.length} scans moved, by ${most} at most`,
       epoch.stamp || this.now, {at_ms: told_ms, moves: moved.map(({before, pose}) => ({before, pose}))});
   }
 
@@ -214,10 +221,16 @@ export class Model {
     for (const {name, message, values} of status) {
       const what = name.replace(/^qwsm: /, '');
       if (what === 'service') this.service = {...this.service, name: message, ...values};
-      else if (what === 'journal') this.service.journal = `${values.stored} stored, ${values.waiting} waiting${message.includes('/') || message.includes('.db') ? '' : ` (${message})`}`;
+      else if (what === 'journal') this.#takeJournal(message, values);
       else if (what === 'refused samples') this.#takeRefusals(values);
       else this.#takeRobotHealth(what, message, values);
     }
+  }
+
+  // The message is the journal's file as long as nothing is wrong.
+  #takeJournal(message, {stored, waiting}) {
+    const trouble = message.includes('/') || message.includes('.db') ? '' : ` (${message})`;
+    this.service.journal = `${stored} stored, ${waiting} waiting${trouble}`;
   }
 
   #takeRefusals(values) {

@@ -11,6 +11,12 @@ const $ = (id) => document.getElementById(id);
 const metres = (m) => m < 0.995 ? `${(100 * m).toFixed(1)} cm` : `${m.toFixed(2)} m`;
 const age = (s) => s === Infinity ? '' : s < 2 ? 'now' : s < 90 ? `${Math.floor(s)} s ago` : `${Math.floor(s / 60)} min ago`;
 
+// How sure its place is, and how much of its scan the map confirms.
+function qualityOf({last, sigma_m}) {
+  if (!last || last.status === Status.simulated) return '';
+  return ` · ±${metres(sigma_m)} · ${Math.round(100 * last.overlap)} % agree`;
+}
+
 export class Panel {
   // `actions`: select(name), showRobot(name), follow(name), place(name), showMark(id), showEvent(event).
   constructor(model, state, actions) {
@@ -49,8 +55,7 @@ export class Panel {
     row.button.dataset.level = how.level;
     row.button.setAttribute('aria-pressed', String(this.state.selected === robot.name));
     setText(row.age, age(how.age_s));
-    const quality = robot.last && how.level === 0 && robot.last.status !== Status.simulated ? ` · ±${metres(robot.sigma_m)} · ${Math.round(100 * robot.last.overlap)} % agree` : '';
-    setText(row.state, (how.level > 0 ? '▲ ' : '') + how.text + quality);
+    setText(row.state, (how.level > 0 ? '▲ ' : '') + how.text + (how.level > 0 ? '' : qualityOf(robot)));
     const list = $('robots');
     if (list.children[place] !== row.item) list.insertBefore(row.item, list.children[place] ?? null);
   }
@@ -84,7 +89,8 @@ export class Panel {
     $('marks').replaceChildren(...marks.flatMap((mark) => {
       if (mark.removed) return [];
       const {word} = kMarkKinds[mark.kind] ?? kMarkKinds.note;
-      const button = element('button', {className: 'mark', type: 'button', textContent: `${mark.number} · ${word}${mark.text ? ': ' + mark.text : ''}`});
+      const textContent = `${mark.number} · ${word}${mark.text ? `: ${mark.text}` : ''}`;
+      const button = element('button', {className: 'mark', type: 'button', textContent});
       button.onclick = () => this.actions.showMark(mark.id);
       return [element('li', {}, button)];
     }));
@@ -102,11 +108,16 @@ export class Panel {
 
   #updateService() {
     const {name, map_scans: scans, map_points: points, robots, journal, refused, uptime_s: uptime} = this.model.service;
-    const facts = {'Name': name, 'Robots': robots, 'Map': scans && `${scans} scans, ${points} points`, 'Journal': journal, 'Refused': refused === undefined ? undefined : `${refused} samples`, 'Up for': uptime && `${Math.floor(uptime / 60)} min ${uptime % 60} s`};
+    const facts = {
+      'Name': name, 'Robots': robots, 'Map': scans && `${scans} scans, ${points} points`, 'Journal': journal,
+      'Refused': refused === undefined ? undefined : `${refused} samples`,
+      'Up for': uptime && `${Math.floor(uptime / 60)} min ${uptime % 60} s`,
+    };
     const key = JSON.stringify(facts);
     if (key !== this.factsKey) {
       this.factsKey = key;
-      $('service').replaceChildren(...Object.entries(facts).flatMap(([what, text]) => text === undefined ? [] : [element('dt', {textContent: what}), element('dd', {textContent: text})]));
+      const told = Object.entries(facts).filter(([, text]) => text !== undefined);
+      $('service').replaceChildren(...told.flatMap(([what, text]) => [element('dt', {textContent: what}), element('dd', {textContent: text})]));
     }
     const newest = this.model.events[0];
     if (newest === this.newestEvent && this.state.shownEvent === this.shownEvent) return;

@@ -122,7 +122,9 @@ export class Tools {
     const isMeasure = this.state.tool === 'measure';
     const length_m = this.#distance(from, to), degrees = Math.atan2(to[1] - from[1], to[0] - from[0]) * 180 / Math.PI;
     const text = isMeasure ? `${length_m.toFixed(2)} m` : `${degrees.toFixed(0)}°`;
-    this.view.overlay = (c, camera, theme) => drawStretch(c, camera.planeToScreen(...from), camera.planeToScreen(...to), {text, isArrow: !isMeasure, theme});
+    this.view.overlay = (c, camera, theme) => {
+      drawStretch(c, camera.planeToScreen(...from), camera.planeToScreen(...to), {text, isArrow: !isMeasure, theme});
+    };
   }
 
   #up(event) {
@@ -140,8 +142,9 @@ export class Tools {
   // Does what the tool is for.
   #finish([x, y]) {
     const {tool, selected} = this.state;
+    const [fromX, fromY] = this.#anchor ?? [x, y];
     if (this.#isMarking) this.actions.mark(tool, x, y);
-    else if (tool === 'start') this.actions.place(selected, {x: this.#anchor[0], y: this.#anchor[1], theta: Math.atan2(y - this.#anchor[1], x - this.#anchor[0])});
+    else if (tool === 'start') this.actions.place(selected, {x: fromX, y: fromY, theta: Math.atan2(y - fromY, x - fromX)});
     this.choose('look');
   }
 
