@@ -87,7 +87,12 @@ class LiveView::Parts final : public WebHandler {
 
  private:
   void TakeTopics(std::vector<dds::PublishedTopic> topics) {
-    server_.Post([this, topics = std::move(topics)] { board_.TakeTopics(topics); });
+    server_.Post([this, topics = std::move(topics)] {
+      board_.TakeTopics(topics);
+      for (const dds::PublishedTopic& topic : topics) {
+        if (Board::IsKeptUnasked(topic.type)) Want(topic.name);
+      }
+    });
   }
   void TakeSamples(std::vector<dds::TopicSamples> samples) {
     server_.Post([this, samples = std::move(samples)] {

@@ -5,6 +5,7 @@
 // Needs build/release/bin/qwsm and build/release/bench/team_load, which plays the robots at 10 Hz.
 //   live    one page in chromium: frames/s, publication to screen
 //   cost    scan to pose without and with four who look on as pages do, in turns of 5 s; best with 200 SECONDS
+//   late    from asking for a page until a map of 100 x 100 m at 5 cm is in it and drawn, of SECONDS pages
 //   idle    what a page is sent while robots stand, when they are silent; without a page's choice, while they drive
 import {spawn} from 'node:child_process';
 import {readFileSync, writeFileSync} from 'node:fs';
@@ -75,6 +76,34 @@ async function measureLive() {
     latencies.sort((a, b) => a - b);
     console.log(`live    ${robots} robots: ${(frames / watched_s).toFixed(1)} frames/s; publication to screen median ${quantile(latencies, 0.5).toFixed(0)} ms, p99 ${quantile(latencies, 0.99).toFixed(0)} ms, of ${latencies.length}`);
     await driven;
+    await browser.close();
+  });
+}
+
+// Until all tiles have come and the next frame is drawn.
+async function measureLate() {
+  const kTiles = 32 * 32;
+  await withService(async (programs, port) => {
+    programs.publishLargeMap();
+    const browser = await chromium.launch({executablePath: process.env.QWSM_CHROMIUM ?? '/usr/bin/chromium', args: kBrowserArguments});
+    const took_ms = [];
+    for (let i = 0; i <= Number(seconds); ++i) {
+      const page = await browser.newPage({viewport: {width: 1440, height: 900}});
+      await page.addInitScript(([tiles]) => {
+        const look = () => {
+          requestAnimationFrame(look);
+          const isThere = window.qwsm?.model.maps.get('/large/map_tiles')?.tiles.size === tiles;
+          if (isThere && !window.drawn_ms) requestAnimationFrame(() => { window.drawn_ms ??= performance.now(); });
+        };
+        requestAnimationFrame(look);
+      }, [kTiles]);
+      await page.goto(`http://localhost:${port}/`);
+      await page.waitForFunction(() => window.drawn_ms > 0);
+      if (i > 0) took_ms.push(await page.evaluate(() => window.drawn_ms));  // Before the first, the map has to be made.
+      await page.close();
+    }
+    took_ms.sort((a, b) => a - b);
+    console.log(`late    the whole map is drawn after ${quantile(took_ms, 0.5).toFixed(0)} ms in the median, ${took_ms.at(-1).toFixed(0)} ms at most, of ${took_ms.length} pages`);
     await browser.close();
   });
 }
@@ -173,7 +202,7 @@ async function measureIdle() {
   });
 }
 
-const measurements = {live: measureLive, cost: measureCost, idle: measureIdle};
+const measurements = {live: measureLive, late: measureLate, cost: measureCost, idle: measureIdle};
 for (const [name, measure] of Object.entries(measurements)) {
   if (!only || only === name) await measure();
 }

@@ -40,6 +40,17 @@ after(async () => {
 const inPage = (ask) => page.evaluate(ask);
 const untilInPage = (ask, what) => until(() => inPage(ask), what);
 
+// In the dark and in the light, as the page is now.
+async function assertAccessible(state) {
+  await page.evaluate(kAxe);
+  for (const theme of ['dark', 'light']) {
+    await page.evaluate((name) => { document.documentElement.dataset.theme = name; }, theme);
+    const {violations} = await inPage(() => window.axe.run(document));
+    assert.deepEqual(violations.map(({id, nodes}) => [state, theme, id, nodes.map(({html}) => html)]), []);
+  }
+  await inPage(() => { document.documentElement.dataset.theme = window.qwsm.state.theme; });
+}
+
 test('four robots are on the map, with their state in words', async () => {
   await untilInPage(() => window.qwsm.model.robots.size === 4, 'four robots');
   await untilInPage(() => document.querySelectorAll('.robot').length === 4, 'four robots in the list');
@@ -53,35 +64,55 @@ test('four robots are on the map, with their state in words', async () => {
 test('nothing stands in the way of those who see or hear differently', async () => {
   await page.keyboard.press('l');
   await page.locator('.robot').first().click();
-  for (const theme of ['dark', 'light']) {
-    await page.evaluate(kAxe);
-    const {violations} = await inPage(() => window.axe.run(document));
-    assert.deepEqual(violations.map(({id, nodes}) => [theme, id, nodes.map(({html}) => html)]), []);
-    await page.keyboard.press('t');
-  }
+  await assertAccessible('layers and a chosen robot');
   await page.keyboard.press('l');
+});
+
+test('the map is zoomed, turned and shown whole again, and stays as it was left', async () => {
+  const camera = () => inPage(() => ({...window.qwsm.view.camera}));
+  const [px, py] = [500, 420];
+  await page.mouse.move(px, py);
+  // The map grows, and moves, until the wheel is turned.
+  await inPage(() => addEventListener('wheel', ({offsetX, offsetY}) => { window.wheeled = window.qwsm.view.camera.toMap(offsetX, offsetY); }, {capture: true, once: true}));
+  const {scale} = await camera();
+  await page.mouse.wheel(0, -300);
+  await until(async () => (await camera()).scale > 1.5 * scale, 'the map is enlarged');
+  // What the pointer is at stays there, also when the page is brought up to date.
+  await new Promise((resolve) => setTimeout(resolve, 600));
+  const [nowX, nowY] = await inPage(() => window.qwsm.view.camera.planeToScreen(...window.wheeled));
+  assert.ok(Math.hypot(nowX - px, nowY - py) < 3, `${nowX}, ${nowY}`);
+  assert.match(await page.locator('#place-text').textContent(), /^-?\d+\.\d\d, -?\d+\.\d\d m$/);
+  await page.locator('#map').focus();
+  await page.keyboard.press('Shift+ArrowLeft');
+  assert.ok((await camera()).turn > 0.2);
+  await page.locator('#upright').click();
+  await until(async () => (await camera()).turn === 0, 'the map is upright');
+  await page.keyboard.press('f');
+  await until(async () => Math.abs((await camera()).scale / scale - 1) < 0.3, 'all is shown again');
+  await untilInPage(() => !window.qwsm.view.camera.isGliding, 'the map has come to rest');
 });
 
 test('dragging says where a robot is', async () => {
   await inPage(() => { window.qwsm.state.selected = 'robot_1'; });
   await page.locator('[data-tool="start"]').click();
-  const {from, place, reports, contradicted} = await inPage(() => {
+  const {from, reports, contradicted} = await inPage(() => {
     const {view, model} = window.qwsm;
     const robot = model.robots.get('robot_1');
     const {x, y} = robot.last;
     const place = {x: x + (x > view.camera.x ? -5 : 5), y};
-    return {from: view.camera.toScreen(place.x, place.y), place, reports: robot.history.length, contradicted: Number(robot.counts.contradicted_poses)};
+    return {from: view.camera.toScreen(place.x, place.y), reports: robot.history.length, contradicted: Number(robot.counts.contradicted_poses)};
   });
   await page.mouse.move(...from);
   await page.mouse.down();
   await page.mouse.move(from[0], from[1] - 60, {steps: 4});
   await page.mouse.up();
-  // The service puts that to a trial, and its scans contradict: it is too far off to be found from there.
-  await until(() => page.evaluate(([told, since, before]) => {
+  // The service puts that to a trial: the robot jumps there, or as far as its scans agree with a room that is alike,
+  // or they contradict.
+  await until(() => page.evaluate(([since, before]) => {
     const {history, counts} = window.qwsm.model.robots.get('robot_1');
-    const isThere = history.slice(since).some(({x, y}) => Math.hypot(x - told.x, y - told.y) < 0.75);
-    return isThere || Number(counts.contradicted_poses) > before;
-  }, [place, reports, contradicted]), 'the service has heard of it');
+    const jumps = history.some((pose, i) => i >= since && Math.hypot(pose.x - history[i - 1].x, pose.y - history[i - 1].y) > 1);
+    return jumps || Number(counts.contradicted_poses) > before;
+  }, [reports, contradicted]), 'the service has heard of it');
 });
 
 test('a victim is marked, and known to the service', async () => {
@@ -94,13 +125,34 @@ test('a victim is marked, and known to the service', async () => {
   await untilInPage(() => document.getElementById('marks').textContent.includes('Victim: Anna, awake'), 'the mark is in the list');
 });
 
+test('without a pointer, a hazard is marked in the middle of the map, and removed', async () => {
+  await page.locator('#map').focus();
+  await page.keyboard.press('2');
+  await page.keyboard.press('Enter');
+  await page.locator('#mark-text').fill('gas');
+  await page.keyboard.press('Enter');
+  await untilInPage(() => [...window.qwsm.model.marks.values()].some(({text}) => text === 'gas'), 'the mark has come back');
+  const {off, id} = await inPage(() => {
+    const {camera} = window.qwsm.view;
+    const {x, y, id} = [...window.qwsm.model.marks.values()].find(({text}) => text === 'gas');
+    return {off: Math.hypot(x - camera.x, y - camera.y), id};
+  });
+  assert.ok(off < 1e-6);
+  await page.evaluate((mark) => window.qwsm.actions.editMark(mark), id);
+  await assertAccessible('a dialog');
+  await page.locator('#mark-remove').click();
+  await untilInPage(() => document.querySelectorAll('.mark').length === 1, 'one mark is left');
+});
+
 test('the page comes back with the service after kill -9', async () => {
   service.kill('SIGKILL');
   await service.ended;
   await untilInPage(() => document.getElementById('link').dataset.state === 'lost', 'the page says that the service is gone');
+  await untilInPage(() => document.querySelectorAll('.robot[data-level="2"]').length === 4, 'all are told to be silent');
+  await assertAccessible('no service, silent robots');
   service = await programs.serve(port);
   await untilInPage(() => document.getElementById('link').dataset.state === 'live', 'the page is live again');
-  await untilInPage(() => window.qwsm.model.marks.size === 1, 'the mark is there again');
+  await untilInPage(() => document.querySelectorAll('.mark').length === 1, 'the mark is there again');
   await untilInPage(() => window.qwsm.model.maps.get('/map_tiles')?.chunks.size > 0, 'the map is there again');
   await untilInPage(() => [...window.qwsm.model.robots.values()].every((robot) => Date.now() - robot.arrived_ms < 1000), 'all robots are answered again');
 });
@@ -111,7 +163,8 @@ test('the time line goes back to what the journal holds', async () => {
   await untilInPage(() => window.qwsm.model.relevant.size > 10, 'relevant scans of before');
   await page.keyboard.press('PageDown');
   assert.ok(await inPage(() => window.qwsm.state.shownStamp < window.qwsm.model.span.last));
-  assert.match(await page.locator('#time-text').textContent(), /before/);
+  assert.match(await page.locator('#time-text').textContent(), / ago$/);
+  await assertAccessible('looking back');
   await page.keyboard.press('End');
   await page.locator('#live').click();
   assert.equal(await inPage(() => window.qwsm.state.shownStamp), null);
@@ -208,6 +261,26 @@ test('a browser that hangs holds nobody up, and comes back', async (t) => {
   await hanging.waitForFunction(() => [...window.qwsm.model.robots.values()].every((robot) => Date.now() - robot.arrived_ms < 2000));
   await other.close();
   await server.close();
+});
+
+test('whoever comes after a drive in space sees the model, the way and where the robot is now', async () => {
+  const otherPort = await freePort();
+  const {serving, replayed} = programs.driveInSpace(otherPort);
+  await until(() => serving.said.includes('look at'), 'the service in space tells its address');
+  await replayed();
+  const late = await browser.newPage({viewport: {width: 1280, height: 800}});
+  await late.goto(`http://localhost:${otherPort}/`);
+  await late.waitForFunction(() => window.qwsm.model.clouds.get('/mole/cloud_map')?.length > 3000 && window.qwsm.model.robots.get('mole')?.history.length === 5);
+  const {trail, off, side} = await late.evaluate(() => {
+    const {model, view} = window.qwsm;
+    const {trail, last} = model.robots.get('mole');
+    document.getElementById('side').click();
+    return {trail: trail.length, off: Math.hypot(last.x - trail.at(-1).x, last.y - trail.at(-1).y), side: view.camera.from};
+  });
+  assert.deepEqual({trail, side}, {trail: 5, side: 'south'});
+  assert.ok(off < 0.01, 'the robot is at the end of its way');
+  await late.close();
+  serving.kill('SIGKILL');
 });
 
 test('the page is encrypted where the service has a certificate', async () => {

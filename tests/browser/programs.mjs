@@ -60,6 +60,17 @@ export class Programs {
       '--network', 'interface=lo', '--network', `tag=${this.tag}`, ...more]);
   }
 
+  // A service for robots that scan in space, and one that drives by it: `replayed()` ends when it has.
+  driveInSpace(port) {
+    const slam6d = join(kPrograms, 'slam6d'), scans = join(this.folder, 'scans'), network = ['--set', 'network.interface=lo', '--set', `network.tag=${this.tag}-space`];
+    const serving = this.start(['serve', '--view', '--set', `view.port=${port}`, ...network], slam6d);
+    const replayed = async () => {
+      await this.start(['sim', 'park', '--scans', '5', '--output', scans, '--set', 'sim.laser.beams=181', '--set', 'sim.laser.sweeps=180'], slam6d).ended;
+      await this.start(['replay', scans, '--robot', 'mole', '--rate', 'max', ...network], slam6d).ended;
+    };
+    return {serving, replayed};
+  }
+
   // Somebody who publishes a map of 100 x 100 m at 5 cm.
   publishLargeMap() {
     return this.start([this.tag], join(kPrograms, '..', 'tests', 'browser', 'large_map'));

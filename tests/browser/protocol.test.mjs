@@ -70,6 +70,8 @@ test('a client of Foxglove gets everything that is published, and says where a r
   assert.ok(last.get('/diagnostics').status.some(({name}) => name === 'qwsm: robot_1'));
   assert.ok(last.get('/tf').transforms.length > 0);
 
+  // Foxglove advertises such topics as soon as it is connected.
+  client.advertise({topic: '/move_base_simple/goal', encoding: 'cdr', schemaName: 'geometry_msgs/msg/PoseStamped'});
   const pose = channels.get('/robot_1/pose');
   const id = client.advertise({topic: '/robot_1/initialpose', encoding: 'cdr', schemaName: pose.schemaName});
   const writer = new serialization.MessageWriter(definitionOf(pose));

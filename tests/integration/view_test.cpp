@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstring>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "service/dds/service/mark_exchange.hpp"
 #include "service/dds/wire/robot_names.hpp"
 #include "service/dds/wire/scan_conversion.hpp"
+#include "service/io/journal/journal_file.hpp"
 #include "tests/support/drawn_map.hpp"
 #include "tests/support/robot_in_room.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -75,10 +77,16 @@ TEST_F(View, TakesWhereARobotIs) {
       robot.participant(), "/robot1/initialpose", dds::Profile::kSensorIn);
   Onlooker onlooker(service.port());
   ASSERT_TRUE(onlooker.Subscribe("/robot1/match_report", 1));  // By then the robot is known.
-  const std::string begin = R"({"op":"advertise","channels":[{"id":5,"encoding":"cdr",)"
+  const std::string begin = R"({"op":"advertise","channels":[{"encoding":"cdr",)"
                             R"("schemaName":"geometry_msgs/msg/PoseWithCovarianceStamped",)";
-  onlooker.client().SendFrame(WebClient::kText, begin + R"("topic":"/robot1/initialpose"}]})");
-  onlooker.client().SendFrame(WebClient::kText, begin + R"("topic":"/nobody/initialpose"}]})");
+  onlooker.client().SendFrame(WebClient::kText,
+                              begin + R"("id":5,"topic":"/robot1/initialpose"}]})");
+  // Foxglove offers what nobody takes, too: an error is only to publish it.
+  onlooker.client().SendFrame(WebClient::kText,
+                              begin + R"("id":6,"topic":"/nobody/initialpose"}]})");
+  onlooker.client().SendFrame(WebClient::kBinary, std::string("\1\7\0\0\0\0", 6));
+  EXPECT_TRUE(onlooker.client().ReceiveWith("channel 7 was not advertised"));
+  onlooker.client().SendFrame(WebClient::kBinary, std::string("\1\6\0\0\0\0", 6));
   EXPECT_TRUE(onlooker.client().ReceiveWith("'/nobody/initialpose' is not taken"));
 
   std::string message("\1\5\0\0\0\0\1\0\0", 9);  // Channel 5, little-endian CDR.
@@ -261,6 +269,41 @@ TEST_F(View, MarksOutliveTheService) {
   const Outcome heard = network_.Run({"export", "--live", "--geotiff", folder.path() / "live"});
   EXPECT_EQ(heard.exit_code, 0) << heard.errors;
   EXPECT_NE(ReadFile(folder.path() / "live_pois.csv").find(listed), std::string::npos);
+}
+
+// Two services have each marked a victim 1, and hear of each other later.
+TEST_F(View, ServicesThatMeetNumberTheirMarksApart) {
+  const TemporaryFolder folder;
+  const dds::Participant participant({.interface = "lo", .tag = network_.tag()});
+  dds::Refusals refusals([](const std::string& text) { ADD_FAILURE() << text; });
+  const auto journal_of = [&](const std::string& name) {
+    return team::MarkJournal(folder.path() / name, [](const std::string&) {});
+  };
+  const auto exchange_with = [&](const std::string& name, Timestamp stamp) {
+    io::JournalFile::Continue(folder.path() / name, "scans", "base");
+    journal_of(name).Keep(
+        {{.stamp = stamp, .id = name, .number = 1, .kind = "victim", .p_map_m = {2.0, 3.0}}});
+    auto exchange = std::make_unique<dds::MarkExchange>(participant, refusals, journal_of(name));
+    exchange->Start();
+    return exchange;
+  };
+  const auto numbers_of = [](const std::vector<team::Mark>& marks) {
+    std::map<std::string, std::uint32_t> numbers;
+    for (const team::Mark& mark : marks) numbers[mark.id] = mark.number;
+    return numbers;
+  };
+  const auto first = exchange_with("later", 2s);
+  const auto second = exchange_with("earlier", 1s);
+  const std::map<std::string, std::uint32_t> apart{{"earlier", 1}, {"later", 2}};
+  for (const auto& exchange : {first.get(), second.get()}) {
+    for (int i = 0; i < 200 && numbers_of(exchange->marks()) != apart; ++i) usleep(20'000);
+    EXPECT_EQ(numbers_of(exchange->marks()), apart);
+  }
+  for (const std::string name : {"later", "earlier"}) {
+    const team::MarkJournal journal = journal_of(name);
+    for (int i = 0; i < 200 && numbers_of(journal.Load()) != apart; ++i) usleep(20'000);
+    EXPECT_EQ(numbers_of(journal.Load()), apart) << name;
+  }
 }
 
 TEST_F(View, AMarkMovesWithTheScanItStandsOn) {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "service/io/files/binary.hpp"
@@ -63,6 +64,58 @@ TEST(MarkBook, NumbersStay) {
   for (const char* id : {"b", "a", "c"}) book.Take(book.Completed(MarkOf(id, 1s)));
   EXPECT_EQ(book.Completed(MarkOf("a", 2s)).number, 2U);
   EXPECT_EQ(book.Completed(MarkOf("d", 2s)).number, 4U);
+}
+
+// Two services that did not hear each other have both given the numbers from 1 on.
+TEST(MarkBook, MarksOfSeveralSourcesAreNumberedApart) {
+  Mark anna = MarkOf("b", 1s, "Anna");
+  Mark bert = MarkOf("a", 2s, "Bert");
+  Mark gone = MarkOf("c", 3s);
+  anna.number = bert.number = 1;
+  gone.number = 7;
+  gone.is_removed = true;
+  MarkBook one;
+  MarkBook other;
+  for (const Mark& mark : {anna, bert, gone}) one.Take(mark);
+  for (const Mark& mark : {gone, bert, anna, MarkOf("d", 4s)}) other.Take(mark);
+  const std::vector<Mark> renumbered = one.NumberApart();
+  ASSERT_EQ(renumbered.size(), 1U);
+  EXPECT_EQ(renumbered.front().text, "Bert");  // Anna was there before.
+  EXPECT_EQ(renumbered.front().number, 8U);    // The number of one that was removed is not free.
+  EXPECT_TRUE(Supersedes(renumbered.front(), bert));
+  EXPECT_TRUE(one.NumberApart().empty());
+  // Others come to the same, and number who has none.
+  ASSERT_EQ(other.NumberApart().size(), 2U);
+  EXPECT_FALSE(other.Take(renumbered.front()));
+  EXPECT_EQ(other.marks().back().number, 9U);
+}
+
+TEST(MarkBook, WhoNumbersDifferentlyComesToTheSame) {
+  Mark low = MarkOf("a", 1s);
+  low.revision = 1;
+  low.number = 4;
+  Mark high = low;
+  high.number = 5;
+  for (const auto& [first, second] : {std::pair(low, high), std::pair(high, low)}) {
+    MarkBook book;
+    book.Take(first);
+    book.Take(second);
+    EXPECT_EQ(book.marks().front().number, 5U);
+  }
+}
+
+TEST(Mark, ListsOfSeveralSourcesAreMerged) {
+  Mark anna = MarkOf("a", 1s, "Anna");
+  Mark bert = MarkOf("b", 2s, "Bert");
+  anna.number = bert.number = 1;
+  Mark moved = anna;
+  moved.revision = 1;
+  moved.p_map_m.x() = 9.0;
+  const std::vector<Mark> merged = Merged(std::vector<Mark>{anna, bert, moved});
+  ASSERT_EQ(merged.size(), 2U);
+  EXPECT_EQ(merged[0].number, 1U);
+  EXPECT_EQ(merged[0].p_map_m.x(), 9.0);
+  EXPECT_EQ(merged[1].number, 2U);
 }
 
 TEST(MarkBook, AMarkGoesWithTheScanItStandsOn) {

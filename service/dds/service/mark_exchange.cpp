@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/dds/service/mark_exchange.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <utility>
 
 #include "service/dds/wire/mark_conversion.hpp"
@@ -35,9 +37,9 @@ MarkExchange::~MarkExchange() {
 }
 
 void MarkExchange::Start() {
-  for (const team::Mark& mark : journal_.Load()) {
-    if (book_.Take(mark)) writer_.Write(ToWire(mark, map_frame_));
-  }
+  for (const team::Mark& mark : journal_.Load()) book_.Take(mark);
+  unkept_ = book_.NumberApart();
+  for (const team::Mark& mark : book_.marks()) writer_.Write(ToWire(mark, map_frame_));
   thread_ = std::jthread([this](const std::stop_token& stop) { Work(stop); });
 }
 
@@ -96,6 +98,8 @@ void MarkExchange::HearMarks() {
     const team::Mark mark = FromWire(sample);
     if (book_.Take(mark)) news.push_back(mark);
   });
+  if (news.empty()) return;
+  std::ranges::move(book_.NumberApart(), std::back_inserter(news));
   TellAndKeep(news);
 }
 

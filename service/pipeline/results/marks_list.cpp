@@ -13,7 +13,7 @@
 namespace qwsm::pipeline {
 
 std::vector<io::PointOfInterest> PointsOf(std::span<const team::Mark> marks) {
-  std::vector<team::Mark> sorted(marks.begin(), marks.end());
+  std::vector<team::Mark> sorted = team::Merged(marks);
   std::erase_if(sorted, [](const team::Mark& mark) { return mark.is_removed; });
   std::ranges::sort(sorted, {}, &team::Mark::number);
   std::vector<io::PointOfInterest> points;

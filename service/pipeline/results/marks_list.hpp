@@ -14,8 +14,8 @@ namespace qwsm::pipeline {
 /// Name of the list of marks in a folder of results.
 inline constexpr const char* kMarksFile = "marks.csv";
 
-/// The marks that are there still, as the RoboCup Rescue League lists them, by their numbers; times
-/// are UTC.
+/// The marks that are there still, as the RoboCup Rescue League lists them, by their numbers, of
+/// which each is given once; times are UTC.
 std::vector<io::PointOfInterest> PointsOf(std::span<const team::Mark> marks);
 
 /// Leaves the marks in a folder of results; where there are none, nothing. @throws io::WriteError.

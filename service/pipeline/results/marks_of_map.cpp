@@ -15,7 +15,7 @@ void SaveMap(const std::filesystem::path& path,
              const ScanMap& map,
              std::span<const team::Mark> marks) {
   std::vector<std::string> encoded;
-  for (const team::Mark& mark : marks) encoded.push_back(team::EncodeMark(mark));
+  for (const team::Mark& mark : team::Merged(marks)) encoded.push_back(team::EncodeMark(mark));
   io::SaveMap(path, map, encoded);
 }
 

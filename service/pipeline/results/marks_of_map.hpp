@@ -11,7 +11,7 @@
 
 namespace qwsm::pipeline {
 
-/// Saves a map with what operators marked on it. @throws io::WriteError
+/// Saves a map with what operators marked on it, of several sources maybe. @throws io::WriteError
 void SaveMap(const std::filesystem::path& path,
              const ScanMap& map,
              std::span<const team::Mark> marks);

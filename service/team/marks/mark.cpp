@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <set>
 #include <tuple>
+#include <utility>
 
 namespace qwsm::team {
 namespace {
@@ -32,7 +35,40 @@ std::string_view ObjectionTo(const Mark& mark) {
 }
 
 bool Supersedes(const Mark& mark, const Mark& known) {
-  return std::tie(mark.stamp, mark.revision) > std::tie(known.stamp, known.revision);
+  return std::tie(mark.stamp, mark.revision, mark.number) >
+         std::tie(known.stamp, known.revision, known.number);
+}
+
+// The numbers of marks that were removed are not given again: people remember them.
+std::vector<Mark> NumberApart(std::span<Mark> marks) {
+  std::uint32_t last = 0;
+  std::vector<Mark*> there;
+  for (Mark& mark : marks) {
+    last = std::max(last, mark.number);
+    if (!mark.is_removed) there.push_back(&mark);
+  }
+  std::ranges::sort(there, {}, [](const Mark* mark) { return std::tie(mark->stamp, mark->id); });
+  std::set<std::uint32_t> taken{0};
+  std::vector<Mark> renumbered;
+  for (Mark* mark : there) {
+    if (taken.insert(mark->number).second) continue;
+    mark->number = ++last;
+    ++mark->revision;
+    renumbered.push_back(*mark);
+  }
+  return renumbered;
+}
+
+std::vector<Mark> Merged(std::span<const Mark> marks) {
+  std::map<std::string_view, Mark> newest;
+  for (const Mark& mark : marks) {
+    const auto [known, is_new] = newest.try_emplace(mark.id, mark);
+    if (!is_new && Supersedes(mark, known->second)) known->second = mark;
+  }
+  std::vector<Mark> merged;
+  for (auto& [id, mark] : newest) merged.push_back(std::move(mark));
+  NumberApart(merged);
+  return merged;
 }
 
 }  // namespace qwsm::team

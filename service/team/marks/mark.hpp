@@ -5,8 +5,10 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "qwsm/sensor/laser_scan.hpp"
 
@@ -24,7 +26,7 @@ struct MarkAnchor {
 /// Something that an operator marked on the map: a victim, a hazard, or something else.
 struct Mark {
   Timestamp stamp{};           ///< When it was marked or changed: of one id, the newest counts.
-  std::uint64_t revision = 0;  ///< How often corrections of the map have moved it since.
+  std::uint64_t revision = 0;  ///< How often services have moved or numbered it since.
   std::string id{};            ///< Chosen by whoever made it, never used again.
   std::uint32_t number = 0;    ///< By which people call it; 0: it has none yet.
   std::string kind{};          ///< victim, hazard or note.
@@ -38,7 +40,15 @@ struct Mark {
 /// Says why a mark must not be taken; empty if it may.
 std::string_view ObjectionTo(const Mark& mark);
 
-/// Whether a mark takes the place of one of the same id.
+/// Whether a mark takes the place of one of the same id. All who hear both decide alike.
 bool Supersedes(const Mark& mark, const Mark& known);
+
+/// Gives a number of its own to each mark that is there still and has none, or one that a mark of
+/// before has, too: services that do not hear each other count alike. O(n log n).
+/// @returns the marks that have got a new number, of a new revision.
+std::vector<Mark> NumberApart(std::span<Mark> marks);
+
+/// Marks of several sources as one list: of each id the newest, and no two under one number.
+std::vector<Mark> Merged(std::span<const Mark> marks);
 
 }  // namespace qwsm::team

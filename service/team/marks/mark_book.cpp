@@ -71,6 +71,13 @@ std::vector<Mark> MarkBook::Place(std::span<const ScanPlace> places) {
   return moved;
 }
 
+std::vector<Mark> MarkBook::NumberApart() {
+  std::vector<Mark> all = marks();
+  std::vector<Mark> renumbered = team::NumberApart(all);
+  for (const Mark& mark : renumbered) marks_[mark.id] = mark;
+  return renumbered;
+}
+
 std::vector<Mark> MarkBook::marks() const {
   std::vector<Mark> marks;
   for (const auto& [id, mark] : marks_) marks.push_back(mark);

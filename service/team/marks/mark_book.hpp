@@ -39,6 +39,10 @@ class MarkBook {
   /// @returns the marks that have moved, of a new revision.
   std::vector<Mark> Place(std::span<const ScanPlace> places);
 
+  /// Sees to it that no two marks have one number, once marks of others have come (NumberApart).
+  /// @returns the marks that have got a new one.
+  std::vector<Mark> NumberApart();
+
   std::vector<Mark> marks() const;
 
  private:

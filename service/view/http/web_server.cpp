@@ -44,11 +44,12 @@ class WebServer::Listener {
       acceptor_.bind(endpoint);
       acceptor_.listen();
     } catch (const boost::system::system_error& error) {
-      throw WebError(
-          fmt::format("view: cannot listen on {} port {}: {}; set view.address, view.port",
-                      options.address,
-                      options.port,
-                      error.code().message()));
+      throw WebError(fmt::format(
+          "view: cannot listen on {} port {}: {}; set view.address, view.port, or 0 for any "
+          "port that is free (qwsm sim: --page port=0)",
+          options.address,
+          options.port,
+          error.code().message()));
     }
     Accept();
     Tick();

@@ -17,6 +17,8 @@ namespace {
 
 constexpr std::string_view kGridType = "nav_msgs/msg/OccupancyGrid";
 constexpr std::string_view kTileType = "qwsm_msgs/msg/MapTile";
+constexpr std::string_view kReportType = "qwsm_msgs/msg/MatchReport";
+constexpr std::string_view kRegistrationType = "qwsm_msgs/msg/RegistrationReport";
 constexpr std::string_view kTilesSuffix = "_tiles";
 
 Urgency UrgencyOf(std::string_view type) {
@@ -27,8 +29,12 @@ Urgency UrgencyOf(std::string_view type) {
   return Urgency::kPose;
 }
 
-/// Of what is kept for late comers, as much as its writers keep (docs/dds.md).
+/// Of what is kept for late comers, as much as its writers keep (docs/dds.md). Of a robot that
+/// scans in space each answer counts: it says which loops were closed.
 RecencyOptions RecencyOf(const dds::PublishedTopic& topic) {
+  if (topic.type == kRegistrationType) {
+    return {.depth = 4096, .for_late_comers = ForLateComers::kAll};
+  }
   if (!topic.is_latched) return {};
   RecencyOptions options{.depth = 1, .for_late_comers = ForLateComers::kAll};
   if (topic.type == "qwsm_msgs/msg/RelevantScan") options.depth = 262'144;
@@ -118,6 +124,10 @@ void Board::TakeMap(const Source& source, const Sample& sample) {
   } catch (const io::MessageError& error) {
     warn_(fmt::format("{}: the map is not shown: {}", source.topic.name, error.what()));
   }
+}
+
+bool Board::IsKeptUnasked(std::string_view type) {
+  return type == kReportType || type == kRegistrationType;
 }
 
 bool Board::IsPoseTopic(std::string_view topic) const {

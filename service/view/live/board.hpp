@@ -49,6 +49,9 @@ class Board {
   const Channels& channels() const { return channels_; }
   /// Grows when channels come or go.
   std::uint64_t version() const { return version_; }
+  /// Whether topics of a type are to be read though nobody has asked for them: where robots were
+  /// last is told to whoever comes when they are gone.
+  static bool IsKeptUnasked(std::string_view type);
   /// Whether the topic is one on which a robot can be told where it is.
   bool IsPoseTopic(std::string_view topic) const;
 

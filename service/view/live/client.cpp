@@ -32,6 +32,11 @@ std::uint64_t NowNs() {
                                         .count());
 }
 
+bool IsMarks(const ClientChannel& channel) {
+  return channel.encoding == "cdr" && channel.schema == kMarkSchema &&
+         channel.topic == dds::kMarksTopic;
+}
+
 }  // namespace
 
 Client::Client(const Board& board, const Uplink& uplink, std::string greeting)
@@ -56,12 +61,26 @@ void Client::TakeBytes(std::string_view bytes) {
 }
 
 void Client::Publish(const ClientData& data) {
-  const auto topic = publications_.find(data.channel);
-  if (topic == publications_.end()) {
+  const auto channel = publications_.find(data.channel);
+  if (channel == publications_.end()) {
     throw ProtocolError(fmt::format("channel {} was not advertised", data.channel));
   }
-  if (topic->second == dds::kMarksTopic) return uplink_.tell_mark(DecodeToldMark(data.cdr));
-  uplink_.tell_pose(topic->second, DecodeToldPose(data.cdr));
+  const std::string& topic = channel->second.topic;
+  if (IsMarks(channel->second)) return uplink_.tell_mark(DecodeToldMark(data.cdr));
+  if (IsPose(channel->second)) return uplink_.tell_pose(topic, DecodeToldPose(data.cdr));
+  throw ProtocolError(
+      fmt::format("'{}' is not taken; only, in cdr, {} as {}, and NAME/initialpose of a robot that "
+                  "is there as {}",
+                  topic,
+                  dds::kMarksTopic,
+                  kMarkSchema,
+                  kPoseSchema));
+}
+
+bool Client::IsPose(const ClientChannel& channel) const {
+  return channel.encoding == "cdr" &&
+         (channel.schema == kPoseSchema || channel.schema == kOldPoseSchema) &&
+         board_.IsPoseTopic(channel.topic);
 }
 
 void Client::Take(const Subscribe& subscribe) {
@@ -105,24 +124,14 @@ void Client::Take(const Advertise& advertise) {
   for (const ClientChannel& channel : advertise.channels) Add(channel);
 }
 
+// Foxglove advertises goals and points as soon as it connects: who publishes nothing does nothing
+// wrong. Whether a channel is taken shows when something comes.
 void Client::Add(const ClientChannel& channel) {
-  const bool is_pose = (channel.schema == kPoseSchema || channel.schema == kOldPoseSchema) &&
-                       board_.IsPoseTopic(channel.topic);
-  const bool is_mark = channel.schema == kMarkSchema && channel.topic == dds::kMarksTopic;
-  if (channel.encoding != "cdr" || !(is_pose || is_mark)) {
-    return Tell(StatusLevel::kError,
-                fmt::format("'{}' is not taken; only, in cdr, {} as {}, and NAME/initialpose of a "
-                            "robot that is there as {}",
-                            channel.topic,
-                            dds::kMarksTopic,
-                            kMarkSchema,
-                            kPoseSchema));
-  }
   if (publications_.size() >= kMostPublications) {
     return Tell(StatusLevel::kError, "there are too many channels of this client");
   }
-  publications_.insert_or_assign(channel.id, channel.topic);
-  if (is_pose) uplink_.prepare_pose(channel.topic);
+  publications_.insert_or_assign(channel.id, channel);
+  if (IsPose(channel)) uplink_.prepare_pose(channel.topic);
 }
 
 void Client::Take(const Unadvertise& unadvertise) {

@@ -71,6 +71,7 @@ class Client {
   void Add(const Subscription& subscription);
   void Add(const ClientChannel& channel);
   void Publish(const ClientData& data);
+  bool IsPose(const ClientChannel& channel) const;
   void Tell(StatusLevel level, const std::string& text);
   void NoteChannels();
   void DropReadings(const std::function<bool(const Reading&)>& is_void);
@@ -83,7 +84,7 @@ class Client {
   std::set<std::uint32_t> advertised_;
   std::set<std::uint32_t> subscriptions_;
   std::array<Round, std::size(kUrgencies)> rounds_;
-  std::map<std::uint32_t, std::string> publications_;  // Topics by the client's channels.
+  std::map<std::uint32_t, ClientChannel> publications_;  // The client's own, by their ids.
   Clock::time_point next_time_{};
 };
 

@@ -28,5 +28,5 @@ export function drawChart(canvas, values, {color, ink, floor, unit}) {
   c.fillStyle = ink;
   c.font = '11px system-ui, "DejaVu Sans", sans-serif';
   c.textAlign = 'left';
-  c.fillText(`${top.toPrecision(2)} ${unit}`, 4, 12);
+  c.fillText(`${Number(top.toPrecision(2))} ${unit}`, 4, 12);
 }

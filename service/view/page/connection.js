@@ -29,9 +29,11 @@ export class Connection {
     this.#subscribe();
   }
 
+  get topics() { return new Set([...this.channels.values()].map(({topic}) => topic)); }
+
+  // @return whether that is on its way. What is said right after prepare() may be lost.
   publish(topic, schemaName, payload) {
-    if (this.socket?.readyState !== WebSocket.OPEN) return false;
-    this.prepare(topic, schemaName);
+    if (!this.prepare(topic, schemaName)) return false;
     const message = new Uint8Array(5 + payload.length);
     message[0] = 1;
     new DataView(message.buffer).setUint32(1, this.publications.get(topic), true);
@@ -40,11 +42,14 @@ export class Connection {
     return true;
   }
 
+  // Says that something will be published: the service looks for who listens. @return whether it hears.
   prepare(topic, schemaName) {
-    if (this.publications.has(topic)) return;
+    if (this.socket?.readyState !== WebSocket.OPEN) return false;
+    if (this.publications.has(topic)) return true;
     const id = ++this.lastId;
     this.publications.set(topic, id);
     this.#send({op: 'advertise', channels: [{id, topic, encoding: 'cdr', schemaName}]});
+    return true;
   }
 
   #connect() {

@@ -92,6 +92,15 @@ const readers = {
     const [, , qz, qw] = r.float64s(4);
     return {...head, pose: {x, y, theta: yawOf(qz, qw)}};
   },
+  'nav_msgs/msg/Path': (r) => ({
+    ...header(r),
+    poses: r.list(() => {
+      const {stamp} = header(r);
+      const [x, y, z] = r.float64s(3);
+      const [, , qz, qw] = r.float64s(4);
+      return {stamp, x, y, z, theta: yawOf(qz, qw)};
+    }),
+  }),
   'tf2_msgs/msg/TFMessage': (r) => r.list(transform),
   'diagnostic_msgs/msg/DiagnosticArray': (r) => ({
     ...header(r),

@@ -1,35 +1,31 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-// The list of robots, the chosen one's figures, marks, and what the service tells.
-import {drawChart} from './chart.js';
-import {inkOn, kMarkKinds} from './map_view.js';
-import {condition, Status} from './model.js';
+// The list of robots, marks, and what the service tells.
+import {inkOn, kMarkKinds} from './colors.js';
+import {Detail} from './detail.js';
+import {element, setText} from './elements.js';
+import {condition, Status} from './robot.js';
 
-const kChart_s = 120;
-const kChartPoints = 240;
 const $ = (id) => document.getElementById(id);
-
-function element(tag, properties = {}, ...children) {
-  const made = Object.assign(document.createElement(tag), properties);
-  made.append(...children);
-  return made;
-}
-
-function setText(node, text) {
-  if (node.textContent !== text) node.textContent = text;
-}
 
 const metres = (m) => m < 0.995 ? `${(100 * m).toFixed(1)} cm` : `${m.toFixed(2)} m`;
 const age = (s) => s === Infinity ? '' : s < 2 ? 'now' : s < 90 ? `${Math.floor(s)} s ago` : `${Math.floor(s / 60)} min ago`;
 
+// How sure its place is, and how much of its scan the map confirms.
+function qualityOf({last, sigma_m}) {
+  if (!last || last.status === Status.simulated) return '';
+  return ` · ±${metres(sigma_m)} · ${Math.round(100 * last.overlap)} % agree`;
+}
+
 export class Panel {
-  // `actions`: select(name), centre(name), follow(name), place(name), editMark(id), showMark(id),
-  // showEvent(event).
+  // `actions`: select(name), showRobot(name), follow(name), place(name), showMark(id), showEvent(event).
   constructor(model, state, actions) {
     this.model = model;
     this.state = state;
     this.actions = actions;
+    this.detail = new Detail(state, actions);
     this.rows = new Map();
+    this.order = [];  // Names of the robots, who needs attention first.
     $('panel-fold').onclick = () => {
       const folded = $('panel').classList.toggle('folded');
       $('panel-fold').setAttribute('aria-expanded', String(!folded));
@@ -40,8 +36,10 @@ export class Panel {
   update(now_ms) {
     const robots = [...this.model.robots.values()].map((robot) => ({robot, how: condition(robot, now_ms)}));
     robots.sort((a, b) => b.how.level - a.how.level || a.robot.name.localeCompare(b.robot.name, undefined, {numeric: true}));
+    this.order = robots.map(({robot}) => robot.name);
     $('nobody').hidden = robots.length > 0;
-    setText($('robot-count'), robots.length ? `${robots.length}, who needs attention first` : '');
+    const order = this.state.shownStamp === null ? 'who needs attention first' : 'as they are now';
+    setText($('robot-count'), robots.length ? `${robots.length}, ${order}` : '');
     robots.forEach(({robot, how}, place) => this.#updateRow(robot, how, place));
     this.#updateDetail();
     this.#updateMarks();
@@ -57,8 +55,7 @@ export class Panel {
     row.button.dataset.level = how.level;
     row.button.setAttribute('aria-pressed', String(this.state.selected === robot.name));
     setText(row.age, age(how.age_s));
-    const quality = robot.last && how.level === 0 && robot.last.status !== Status.simulated ? ` · ±${metres(robot.sigma_m)} · ${Math.round(100 * robot.last.overlap)} % agree` : '';
-    setText(row.state, (how.level > 0 ? '▲ ' : '') + how.text + quality);
+    setText(row.state, (how.level > 0 ? '▲ ' : '') + how.text + (how.level > 0 ? '' : qualityOf(robot)));
     const list = $('robots');
     if (list.children[place] !== row.item) list.insertBefore(row.item, list.children[place] ?? null);
   }
@@ -72,58 +69,15 @@ export class Panel {
     const button = element('button', {className: 'robot', type: 'button'}, badge,
       element('span', {className: 'name', textContent: robot.name || 'robot'}), ageNode, stateNode);
     button.onclick = () => this.actions.select(robot.name);
-    button.ondblclick = () => this.actions.centre(robot.name);
+    button.ondblclick = () => this.actions.showRobot(robot.name);
     return {item: element('li', {}, button), button, age: ageNode, state: stateNode};
   }
 
+  // The chosen robot's figures stand below it in the list.
   #updateDetail() {
     const robot = this.model.robots.get(this.state.selected);
-    $('detail').hidden = !robot?.last;
-    if (!robot?.last) return;
-    if (this.detailOf !== robot.name) this.#makeDetail(robot);
-    const now = this.state.shownStamp ?? robot.last.stamp;
-    const path = robot.pathUntil(now);
-    const pose = path.at(-1) ?? robot.history[0];
-    const {facts, sigma, residual} = this.detail;
-    const degrees = ((pose.theta * 180 / Math.PI) % 360 + 360) % 360;
-    const figures = {
-      'Place': `${pose.x.toFixed(2)}, ${pose.y.toFixed(2)} m`, 'Heading': `${degrees.toFixed(0)}°`,
-      'Match': pose.reason || 'good', 'Latency': pose.latency === undefined ? '–' : `${(1000 * pose.latency).toFixed(1)} ms`,
-      'Scans': pose.scans === undefined ? '–' : `${pose.scans}, ${pose.dropped} dropped`,
-    };
-    for (const [name, text] of Object.entries(figures)) setText(facts[name], text);
-    const recent = path.filter(({stamp}) => stamp > now - kChart_s);
-    const step = Math.max(1, Math.floor(recent.length / kChartPoints));
-    const shown = recent.filter((_, i) => i % step === 0);
-    const style = getComputedStyle(document.documentElement);
-    const ink = style.getPropertyValue('--muted'), color = style.getPropertyValue('--accent');
-    drawChart(sigma, shown.map(({stamp, cov}) => ({stamp, value: 100 * Math.sqrt(Math.max(0, cov[0] + cov[4]))})), {color, ink, floor: 1, unit: 'cm'});
-    // What was in the journal tells no residual.
-    drawChart(residual, shown.filter(({residual_m}) => residual_m !== undefined).map(({stamp, residual_m}) => ({stamp, value: 1000 * residual_m})), {color, ink, floor: 5, unit: 'mm'});
-  }
-
-  #makeDetail(robot) {
-    this.detailOf = robot.name;
-    const facts = {};
-    const list = element('dl', {className: 'facts'});
-    for (const name of ['Place', 'Heading', 'Match', 'Latency', 'Scans']) {
-      facts[name] = element('dd');
-      list.append(element('dt', {textContent: name}), facts[name]);
-    }
-    const chart = (title) => {
-      const canvas = element('canvas', {className: 'chart'});
-      canvas.setAttribute('role', 'img');
-      canvas.setAttribute('aria-label', `${title}, last two minutes`);
-      return [element('div', {className: 'chart-title'}, element('span', {textContent: title}), element('span', {textContent: 'last 2 min'})), canvas];
-    };
-    const [sigmaTitle, sigma] = chart('Uncertainty');
-    const [residualTitle, residual] = chart('Residual of the match');
-    const button = (text, act) => Object.assign(element('button', {textContent: text, type: 'button'}), {onclick: act});
-    this.detail = {facts, sigma, residual};
-    $('detail').replaceChildren(
-      element('h2', {textContent: robot.name || 'robot'}), list, sigmaTitle, sigma, residualTitle, residual,
-      element('div', {className: 'row'}, button('Show', () => this.actions.centre(robot.name)),
-        button('Follow', () => this.actions.follow(robot.name)), button('Say where it is', () => this.actions.place(robot.name))));
+    const row = this.rows.get(robot?.name);
+    this.detail.show(row && robot.last ? robot : null, row?.item);
   }
 
   #updateMarks() {
@@ -135,7 +89,8 @@ export class Panel {
     $('marks').replaceChildren(...marks.flatMap((mark) => {
       if (mark.removed) return [];
       const {word} = kMarkKinds[mark.kind] ?? kMarkKinds.note;
-      const button = element('button', {className: 'mark', type: 'button', textContent: `${mark.number} · ${word}${mark.text ? ': ' + mark.text : ''}`});
+      const textContent = `${mark.number} · ${word}${mark.text ? `: ${mark.text}` : ''}`;
+      const button = element('button', {className: 'mark', type: 'button', textContent});
       button.onclick = () => this.actions.showMark(mark.id);
       return [element('li', {}, button)];
     }));
@@ -153,11 +108,16 @@ export class Panel {
 
   #updateService() {
     const {name, map_scans: scans, map_points: points, robots, journal, refused, uptime_s: uptime} = this.model.service;
-    const facts = {'Name': name, 'Robots': robots, 'Map': scans && `${scans} scans, ${points} points`, 'Journal': journal, 'Refused': refused === undefined ? undefined : `${refused} samples`, 'Up for': uptime && `${Math.floor(uptime / 60)} min ${uptime % 60} s`};
+    const facts = {
+      'Name': name, 'Robots': robots, 'Map': scans && `${scans} scans, ${points} points`, 'Journal': journal,
+      'Refused': refused === undefined ? undefined : `${refused} samples`,
+      'Up for': uptime && `${Math.floor(uptime / 60)} min ${uptime % 60} s`,
+    };
     const key = JSON.stringify(facts);
     if (key !== this.factsKey) {
       this.factsKey = key;
-      $('service').replaceChildren(...Object.entries(facts).flatMap(([what, text]) => text === undefined ? [] : [element('dt', {textContent: what}), element('dd', {textContent: text})]));
+      const told = Object.entries(facts).filter(([, text]) => text !== undefined);
+      $('service').replaceChildren(...told.flatMap(([what, text]) => [element('dt', {textContent: what}), element('dd', {textContent: text})]));
     }
     const newest = this.model.events[0];
     if (newest === this.newestEvent && this.state.shownEvent === this.shownEvent) return;

@@ -5,6 +5,8 @@
 const kSteps = 1000;
 const $ = (id) => document.getElementById(id);
 
+const timeAgo = (s) => s < 60 ? `${Math.floor(s)} s ago` : `${Math.floor(s / 60)} min ${Math.floor(s % 60)} s ago`;
+
 export class TimeLine {
   // `actions`: lookBack() when the past is asked for, changed().
   constructor(model, state, actions) {
@@ -24,9 +26,9 @@ export class TimeLine {
   }
 
   #seek(step) {
-    const {span} = this.model;
-    if (!span) return;
     this.actions.lookBack();
+    const {span} = this.model;
+    if (!span) return this.live();  // What the journal holds is on its way.
     this.state.shownStamp = step >= kSteps ? null : span.first + (span.last - span.first) * step / kSteps;
     this.actions.changed();
     this.update();
@@ -36,9 +38,8 @@ export class TimeLine {
     const {span} = this.model;
     const isLive = this.state.shownStamp === null;
     $('live').setAttribute('aria-pressed', String(isLive));
-    $('time-slider').disabled = !span;
     const back_s = isLive || !span ? 0 : span.last - this.state.shownStamp;
-    const text = isLive ? 'now' : `${Math.floor(back_s / 60)} min ${Math.floor(back_s % 60)} s before`;
+    const text = isLive ? 'now' : timeAgo(back_s);
     if ($('time-text').value !== text) {
       $('time-text').value = text;
       $('time-slider').setAttribute('aria-valuetext', text);

@@ -1,32 +1,46 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
 // What pointer and keyboard do on the map.
-import {kMarkKinds} from './map_view.js';
+import {kMarkKinds} from './colors.js';
+import {drawAim, drawStretch} from './symbols.js';
 
 const kClick_px = 6;
 const kNear_px = 26;
 const kKeyPan_px = 60;
+const kKeyTurn_rad = Math.PI / 12;
+const kKeyZoom = 1.25;
+const kWheelZoom = 0.0015;  // Of each unit of a wheel, as a logarithm.
+const kTwist_rad = 0.2;  // By which two fingers turn the map, and not just zoom.
 
 const kHints = {
-  look: '', measure: 'Drag from here to there',
-  start: 'Drag from where the robot is to where it looks', victim: 'Click where the victim is', hazard: 'Click where the hazard is', note: 'Click where the note belongs',
+  look: '', measure: 'Drag from here to there', start: 'drag from where the robot is to where it looks',
+  victim: 'Click where the victim is', hazard: 'Click where the hazard is', note: 'Click where the note belongs',
 };
+const isDragged = (tool) => tool === 'measure' || tool === 'start';
+const angleOf = ([ax, ay], [bx, by]) => Math.atan2(ay - by, bx - ax);  // Of the way from a to b on a screen.
 
 export class Tools {
-  // `actions`: select(name), place(name, pose), mark(kind, x, y), editMark(id), changed(), stopFollowing().
+  #pointers = new Map();  // Where each is, by its id.
+  #pressed = null;  // Where the first was pressed.
+  #anchor = null;  // What a drag began on, on the map.
+  #isTurning = false;
+  #twist = 0;
+
+  // `actions`: select(name), place(name, pose), mark(kind, x, y), editMark(id), lookFrom(side), changed(),
+  // moved() and zoomed() when the operator has done that with the map, pointed(place) at somewhere on it.
   constructor(view, model, state, actions) {
-    this.view = view;
-    this.model = model;
-    this.state = state;
-    this.actions = actions;
-    this.pointers = new Map();
-    const canvas = view.canvas;
-    canvas.addEventListener('pointerdown', (event) => this.#down(event));
-    canvas.addEventListener('pointermove', (event) => this.#move(event));
-    canvas.addEventListener('pointerup', (event) => this.#up(event));
-    canvas.addEventListener('pointercancel', (event) => this.#cancel(event));
-    canvas.addEventListener('wheel', (event) => this.#wheel(event), {passive: false});
-    canvas.addEventListener('keydown', (event) => this.#key(event));
+    Object.assign(this, {view, model, state, actions});
+    const {canvas} = view;
+    const listen = (type, act, options) => canvas.addEventListener(type, (event) => act.call(this, event), options);
+    listen('pointerdown', this.#down);
+    listen('pointermove', this.#move);
+    listen('pointerup', this.#up);
+    listen('pointercancel', this.#cancel);
+    listen('pointerleave', () => this.actions.pointed(null));
+    listen('wheel', this.#wheel, {passive: false});
+    listen('dblclick', this.#doubleClick);
+    listen('contextmenu', (event) => event.preventDefault());
+    listen('keydown', this.#key);
     for (const button of document.querySelectorAll('[data-tool]')) button.addEventListener('click', () => this.choose(button.dataset.tool));
   }
 
@@ -38,11 +52,13 @@ export class Tools {
     }
     if (tool !== 'look' && tool !== 'measure') this.actions.lookFrom('above');  // Places are of the map.
     this.state.tool = tool;
-    if (tool !== 'look') this.actions.stopFollowing();  // The map must not move under the hand.
+    if (tool !== 'look') this.actions.moved();  // The map must not move under the hand.
     for (const button of document.querySelectorAll('[data-tool]')) button.setAttribute('aria-pressed', String(button.dataset.tool === tool));
     this.view.canvas.style.cursor = tool === 'look' ? 'grab' : 'crosshair';
-    this.hint(tool === 'start' ? `${this.state.selected || 'robot'}: ${kHints.start.toLowerCase()}` : kHints[tool]);
+    this.hint(tool === 'start' ? `${this.state.selected || 'robot'}: ${kHints.start}` : kHints[tool]);
+    this.#anchor = null;
     this.view.overlay = null;
+    if (this.view.canvas.matches(':focus-visible')) this.#aim();
     this.actions.changed();
   }
 
@@ -53,111 +69,145 @@ export class Tools {
   }
 
   #at(event) { return [event.offsetX, event.offsetY]; }
+  get #middle() { return [this.view.camera.width / 2, this.view.camera.height / 2]; }
 
   #down(event) {
+    const at = this.#at(event);
     this.view.canvas.setPointerCapture(event.pointerId);
-    this.pointers.set(event.pointerId, this.#at(event));
-    if (this.pointers.size === 1) this.from = this.#at(event);
+    this.#pointers.set(event.pointerId, at);
+    this.#twist = 0;
+    if (this.#pointers.size > 1) return;
+    this.#pressed = at;
+    this.#anchor = this.view.camera.toMap(...at);
+    this.#isTurning = event.button === 2 || event.ctrlKey;
   }
 
   #move(event) {
-    const before = this.pointers.get(event.pointerId);
+    const at = this.#at(event), before = this.#pointers.get(event.pointerId);
+    this.actions.pointed(this.view.camera.isFromAbove ? this.view.camera.toMap(...at) : null);
     if (!before) return;
-    const at = this.#at(event);
-    this.pointers.set(event.pointerId, at);
-    if (this.pointers.size === 2) this.#pinch(event.pointerId, before, at);
-    else if (this.state.tool === 'measure' || this.state.tool === 'start') this.#stretch(at);
-    else {
-      this.view.camera.pan(at[0] - before[0], at[1] - before[1]);
-      if (Math.hypot(at[0] - this.from[0], at[1] - this.from[1]) > kClick_px) this.actions.stopFollowing();
-    }
+    this.#pointers.set(event.pointerId, at);
+    if (this.#pointers.size === 2) this.#pinch(event.pointerId, before, at);
+    else if (this.#isTurning) this.#turn(this.#middle, before, at);
+    else if (isDragged(this.state.tool)) this.#stretch(this.view.camera.toMap(...at));
+    else this.#pan(before, at);
     this.actions.changed();
   }
 
-  #pinch(id, before, at) {
-    const [, other] = [...this.pointers].find(([key]) => key !== id);
-    const length = (p) => Math.hypot(p[0] - other[0], p[1] - other[1]);
-    this.view.camera.zoom(length(at) / Math.max(1, length(before)), other[0], other[1]);
+  #pan(before, at) {
+    this.view.camera.pan(at[0] - before[0], at[1] - before[1]);
+    if (this.#distance(at, this.#pressed) > kClick_px) this.actions.moved();
   }
 
-  // Draws what a drag means so far.
-  #stretch(at) {
-    const from = this.view.camera.toMap(...this.from), to = this.view.camera.toMap(...at);
+  #distance([ax, ay], [bx, by]) { return Math.hypot(ax - bx, ay - by); }
+
+  #turn(around, before, at) {
+    this.view.camera.rotate(angleOf(around, at) - angleOf(around, before), around);
+    this.actions.moved();
+  }
+
+  // One of two fingers moves: the other one stays where it is on the map.
+  #pinch(id, before, at) {
+    const [, other] = [...this.#pointers].find(([key]) => key !== id);
+    this.view.camera.zoom(this.#distance(at, other) / Math.max(1, this.#distance(before, other)), other);
+    this.#twist += Math.sin(angleOf(other, at) - angleOf(other, before));
+    if (Math.abs(this.#twist) > kTwist_rad) this.#turn(other, before, at);
+    this.#pressed = [Infinity, Infinity];  // That is no click.
+    this.actions.zoomed();
+  }
+
+  // Draws what a drag, from where it began to a place on the map, means so far.
+  #stretch(to) {
+    const from = this.#anchor;
     const isMeasure = this.state.tool === 'measure';
-    const length_m = Math.hypot(to[0] - from[0], to[1] - from[1]);
-    const degrees = Math.atan2(to[1] - from[1], to[0] - from[0]) * 180 / Math.PI;
+    const length_m = this.#distance(from, to), degrees = Math.atan2(to[1] - from[1], to[0] - from[0]) * 180 / Math.PI;
     const text = isMeasure ? `${length_m.toFixed(2)} m` : `${degrees.toFixed(0)}°`;
     this.view.overlay = (c, camera, theme) => {
-      const [ax, ay] = camera.planeToScreen(...from), [bx, by] = camera.planeToScreen(...to);
-      c.lineWidth = 6; c.strokeStyle = theme.paper;
-      c.beginPath(); c.moveTo(ax, ay); c.lineTo(bx, by); c.stroke();
-      c.lineWidth = 3; c.strokeStyle = isMeasure ? '#d55e00' : '#ffc800';
-      c.stroke();
-      if (!isMeasure) {
-        c.beginPath(); c.arc(ax, ay, 8, 0, 2 * Math.PI); c.fillStyle = '#ffc800'; c.fill(); c.stroke();
-        const angle = Math.atan2(by - ay, bx - ax);
-        c.beginPath(); c.moveTo(bx, by);
-        c.lineTo(bx - 15 * Math.cos(angle - 0.45), by - 15 * Math.sin(angle - 0.45));
-        c.lineTo(bx - 15 * Math.cos(angle + 0.45), by - 15 * Math.sin(angle + 0.45));
-        c.fill();
-      }
-      c.font = '700 15px system-ui, "DejaVu Sans", sans-serif'; c.textAlign = 'center'; c.textBaseline = 'bottom';
-      c.lineWidth = 4; c.strokeStyle = theme.paper; c.strokeText(text, (ax + bx) / 2, (ay + by) / 2 - 8);
-      c.fillStyle = theme.ink; c.fillText(text, (ax + bx) / 2, (ay + by) / 2 - 8);
+      drawStretch(c, camera.planeToScreen(...from), camera.planeToScreen(...to), {text, isArrow: !isMeasure, theme});
     };
   }
 
   #up(event) {
-    if (!this.pointers.delete(event.pointerId) || this.pointers.size > 0) return;
-    const at = this.#at(event), [x, y] = this.view.camera.toMap(...at);
-    const isClick = Math.hypot(at[0] - this.from[0], at[1] - this.from[1]) < kClick_px;
-    const {tool} = this.state;
-    if (tool === 'start' && !isClick) {
-      const [fx, fy] = this.view.camera.toMap(...this.from);
-      this.actions.place(this.state.selected, {x: fx, y: fy, theta: Math.atan2(y - fy, x - fx)});
-      this.choose('look');
-    } else if (tool in kMarkKinds && isClick) {
-      this.actions.mark(tool, x, y);
-      this.choose('look');
-    } else if (isClick) {
-      this.#pick(...at);
-    }
+    if (!this.#pointers.delete(event.pointerId) || this.#pointers.size > 0) return;
+    const at = this.#at(event);
+    const isClick = this.#distance(at, this.#pressed) < kClick_px;
+    if (this.#isTurning) this.#isTurning = false;
+    else if (isClick && !this.#isMarking) this.#pick(...at);
+    else if (isClick || this.state.tool === 'start') this.#finish(this.view.camera.toMap(...at));
     this.actions.changed();
   }
 
+  get #isMarking() { return this.state.tool in kMarkKinds; }
+
+  // Does what the tool is for.
+  #finish([x, y]) {
+    const {tool, selected} = this.state;
+    const [fromX, fromY] = this.#anchor ?? [x, y];
+    if (this.#isMarking) this.actions.mark(tool, x, y);
+    else if (tool === 'start') this.actions.place(selected, {x: fromX, y: fromY, theta: Math.atan2(y - fromY, x - fromX)});
+    this.choose('look');
+  }
+
   #cancel(event) {
-    this.pointers.delete(event.pointerId);
+    this.#pointers.delete(event.pointerId);
     this.view.overlay = null;
   }
 
   #pick(px, py) {
-    const near = ({x, y, z}) => { const [sx, sy] = this.view.camera.toScreen(x, y, z); return Math.hypot(sx - px, sy - py); };
-    const mark = [...this.model.marks.values()].find((m) => !m.removed && near(m) < kNear_px / 1.5);
+    this.#anchor = null;
+    const off = ({x, y, z}) => this.#distance(this.view.camera.toScreen(x, y, z), [px, py]);
+    const mark = [...this.model.marks.values()].find((m) => !m.removed && off(m) < kNear_px / 1.5);
     if (mark) return this.actions.editMark(mark.id);
-    const robots = this.model.robotsInMap().filter(({last}) => last && near(last) < kNear_px);
-    robots.sort((a, b) => near(a.last) - near(b.last));
+    const robots = this.model.robotsInMap().filter(({last}) => last && off(last) < kNear_px);
+    robots.sort((a, b) => off(a.last) - off(b.last));
     this.actions.select(robots[0]?.name ?? null);
     this.view.overlay = null;
   }
 
   #wheel(event) {
     event.preventDefault();
-    this.view.camera.zoom(Math.exp(-event.deltaY * 0.0015), ...this.#at(event));
-    this.actions.changed();
+    this.view.camera.zoomSmoothly(Math.exp(-event.deltaY * kWheelZoom), this.#at(event));
+    this.actions.zoomed();
+  }
+
+  #doubleClick(event) {
+    if (this.state.tool !== 'look') return;
+    this.view.camera.zoomSmoothly(2, this.#at(event));
+    this.actions.zoomed();
   }
 
   #key(event) {
     const camera = this.view.camera;
     const pans = {ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
-    if (event.key in pans) {
-      const [dx, dy] = pans[event.key];
-      camera.pan(dx * kKeyPan_px, dy * kKeyPan_px);
-      this.actions.stopFollowing();
-    } else if (event.key === '+' || event.key === '=') camera.zoom(1.25);
-    else if (event.key === '-') camera.zoom(0.8);
+    const turns = {ArrowLeft: kKeyTurn_rad, ArrowRight: -kKeyTurn_rad};
+    const zooms = {'+': kKeyZoom, '=': kKeyZoom, '-': 1 / kKeyZoom};
+    if (event.key === 'Enter') return this.#enter(event);
+    if (event.shiftKey && event.key in turns) camera.rotate(turns[event.key]);
+    else if (event.key in pans) camera.pan(...pans[event.key].map((step) => step * kKeyPan_px));
+    else if (event.key in zooms) camera.zoomSmoothly(zooms[event.key]);
     else return;
     event.preventDefault();
+    if (event.key in zooms) this.actions.zoomed(); else this.actions.moved();
+    this.#aim();
+  }
+
+  // Without a pointer, the middle of the map is where things are done.
+  #enter(event) {
+    event.preventDefault();
+    const {tool} = this.state;
+    const middle = this.view.camera.toMap(...this.#middle);
+    if (tool === 'look') this.#pick(...this.#middle);
+    else if (isDragged(tool) && !this.#anchor) this.#anchor = middle;
+    else if (tool === 'measure') this.#anchor = null;  // The length stays to be read.
+    else this.#finish(middle);
     this.actions.changed();
   }
-}
 
+  // Shows where the keyboard would do what the tool is for.
+  #aim() {
+    const {tool} = this.state;
+    if (tool === 'look') return;
+    if (isDragged(tool) && this.#anchor) return this.#stretch(this.view.camera.toMap(...this.#middle));
+    this.view.overlay = (c, camera, theme) => drawAim(c, this.#middle, theme);
+  }
+}
