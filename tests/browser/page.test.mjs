@@ -92,6 +92,53 @@ test('the map is zoomed, turned and shown whole again, and stays as it was left'
   await untilInPage(() => !window.qwsm.view.camera.isGliding, 'the map has come to rest');
 });
 
+test('a map that is pushed goes on, and one that rests under the hand does not', async () => {
+  const drag = (rest_ms) => page.evaluate(async (wait_ms) => {
+    const {view} = window.qwsm;
+    const at = (type, x) => view.canvas.dispatchEvent(new PointerEvent(type, {pointerId: 1, clientX: x, clientY: 420, button: 0}));
+    const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+    view.canvas.setPointerCapture = () => {};  // Of a hand that is not there.
+    at('pointerdown', 400);
+    for (let x = 420; x <= 500; x += 20) {
+      await pause(10);
+      at('pointermove', x);
+    }
+    await pause(wait_ms);
+    at('pointerup', 500);
+    const released = view.camera.x;
+    while (view.camera.isGliding) await pause(20);
+    delete view.canvas.setPointerCapture;
+    return view.camera.scale * (released - view.camera.x);
+  }, rest_ms);
+  const pushed_px = await drag(0);
+  assert.ok(pushed_px > 20, `${pushed_px} px`);
+  assert.equal(await drag(300), 0);
+  await page.locator('#fit').click();
+});
+
+test('two fingers that zoom place no robot', async () => {
+  const context = await browser.newContext({viewport: {width: 820, height: 1180}, hasTouch: true, deviceScaleFactor: 2});
+  const tablet = await context.newPage();
+  await tablet.goto(`http://localhost:${port}/`);
+  await tablet.waitForFunction(() => window.qwsm?.model.robots.size === 4 && window.qwsm.view.bounds());
+  await tablet.evaluate(() => {
+    window.qwsm.actions.place('robot_1', null);
+    window.told = 0;
+    window.qwsm.connection.publish = () => { ++window.told; return true; };
+  });
+  const {scale, tool} = await tablet.evaluate(() => ({scale: window.qwsm.view.camera.scale, tool: window.qwsm.state.tool}));
+  assert.equal(tool, 'start');
+  const session = await context.newCDPSession(tablet);
+  const touch = (type, ...xs) => session.send('Input.dispatchTouchEvent', {type, touchPoints: xs.map((x, id) => ({x, y: 400, id}))});
+  await touch('touchStart', 380);
+  await touch('touchStart', 380, 440);
+  for (const off of [20, 40, 60]) await touch('touchMove', 380 - off, 440 + off);
+  await touch('touchEnd');
+  await tablet.waitForFunction((before) => window.qwsm.view.camera.scale > 1.5 * before, scale);
+  assert.equal(await tablet.evaluate(() => window.told), 0);
+  await context.close();
+});
+
 test('dragging says where a robot is', async () => {
   await inPage(() => { window.qwsm.state.selected = 'robot_1'; });
   await page.locator('[data-tool="start"]').click();

@@ -47,6 +47,12 @@ export class Navigation {
     $('side').hidden = this.model.clouds.size === 0;
   }
 
+  // Shows what is between two points of the screen as large as may be.
+  enlarge(from, to) {
+    this.moved();
+    this.camera.glideTo(this.camera.enlarging(from, to, margins()));
+  }
+
   // The operator zooms; who is followed stays in the middle.
   zoomed() {
     this.#showsAll = false;
