@@ -162,6 +162,7 @@ export class Tools {
   }
 
   #frame(to) {
+    if (this.#distance(to, this.#pressed) > kClick_px) this.actions.moved();  // It must not grow under the hand.
     this.view.overlay = (c, camera, theme) => drawFrame(c, this.#pressed, to, theme);
   }
 
