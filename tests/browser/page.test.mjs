@@ -92,6 +92,102 @@ test('the map is zoomed, turned and shown whole again, and stays as it was left'
   await untilInPage(() => !window.qwsm.view.camera.isGliding, 'the map has come to rest');
 });
 
+test('what a frame encloses is enlarged, buttons zoom, and the address tells what is looked at', async () => {
+  const camera = () => inPage(() => ({...window.qwsm.view.camera}));
+  const untilAtRest = () => untilInPage(() => !window.qwsm.view.camera.isGliding, 'the map has come to rest');
+  const {scale} = await camera();
+  const [enclosedX, enclosedY] = await inPage(() => window.qwsm.view.camera.toMap(550, 420));
+  await page.keyboard.down('Shift');
+  await page.mouse.move(500, 380);
+  await page.mouse.down();
+  await page.mouse.move(600, 460, {steps: 3});
+  await page.mouse.up();
+  await page.keyboard.up('Shift');
+  await untilAtRest();
+  assert.ok((await camera()).scale > 3 * scale);
+  const [nowX, nowY] = await page.evaluate((place) => window.qwsm.view.camera.planeToScreen(...place), [enclosedX, enclosedY]);
+  assert.ok(nowX > 300 && nowX < 800 && nowY > 250 && nowY < 500, `${nowX}, ${nowY} is not where nothing lies over the map`);
+  const enlarged = (await camera()).scale;
+  await page.locator('#zoom-out').click();
+  await untilAtRest();
+  assert.ok(Math.abs((await camera()).scale * 1.5 / enlarged - 1) < 1e-6);
+  const isTold = () => Math.abs(Number(location.hash.split('/')[2]) / window.qwsm.view.camera.scale - 1) < 1e-3;
+  await untilInPage(isTold, 'the address tells what is looked at');
+  const left = await camera();
+  const other = await page.context().newPage();
+  await other.goto(page.url());
+  await other.waitForFunction(() => window.qwsm?.view.frames > 0 && !window.qwsm.view.camera.isGliding);
+  const met = await other.evaluate(() => ({...window.qwsm.view.camera}));
+  await other.close();
+  assert.ok(Math.hypot(met.x - left.x, met.y - left.y) < 0.01 && Math.abs(met.scale / left.scale - 1) < 1e-3);
+  await page.locator('#map').focus();
+  await page.keyboard.press('f');
+  await untilInPage(() => location.hash === '', 'all is shown, and no place is told');
+  await untilAtRest();
+});
+
+test('a map that is pushed goes on, and one that rests under the hand does not', async () => {
+  const drag = (rest_ms) => page.evaluate(async (wait_ms) => {
+    const {view} = window.qwsm;
+    const at = (type, x) => view.canvas.dispatchEvent(new PointerEvent(type, {pointerId: 1, clientX: x, clientY: 420, button: 0}));
+    const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+    view.canvas.setPointerCapture = () => {};  // Of a hand that is not there.
+    at('pointerdown', 400);
+    for (let x = 420; x <= 500; x += 20) {
+      await pause(10);
+      at('pointermove', x);
+    }
+    await pause(wait_ms);
+    at('pointerup', 500);
+    const released = view.camera.x;
+    while (view.camera.isGliding) await pause(20);
+    delete view.canvas.setPointerCapture;
+    return view.camera.scale * (released - view.camera.x);
+  }, rest_ms);
+  const pushed_px = await drag(0);
+  assert.ok(pushed_px > 20, `${pushed_px} px`);
+  assert.equal(await drag(300), 0);
+  await page.locator('#fit').click();
+});
+
+test('on small screens no tool is hidden below something else', async () => {
+  for (const [width, height] of [[1024, 600], [390, 844], [820, 1180]]) {
+    const small = await browser.newPage({viewport: {width, height}});
+    await small.goto(`http://localhost:${port}/`);
+    await small.waitForFunction(() => document.querySelectorAll('.robot').length === 4);
+    const hidden = await small.evaluate(() => [...document.querySelectorAll('#tools button')].filter((button) => {
+      const {left, top, width, height} = button.getBoundingClientRect();
+      return width > 0 && document.elementFromPoint(left + width / 2, top + height / 2)?.closest('button') !== button;
+    }).map(({title}) => title));
+    assert.deepEqual(hidden, [], `${width} x ${height}`);
+    assert.ok(await small.locator('#scale-bar').isVisible());
+    await small.close();
+  }
+});
+
+test('two fingers that zoom place no robot', async () => {
+  const context = await browser.newContext({viewport: {width: 820, height: 1180}, hasTouch: true, deviceScaleFactor: 2});
+  const tablet = await context.newPage();
+  await tablet.goto(`http://localhost:${port}/`);
+  await tablet.waitForFunction(() => window.qwsm?.model.robots.size === 4 && window.qwsm.view.bounds());
+  await tablet.evaluate(() => {
+    window.qwsm.actions.place('robot_1', null);
+    window.told = 0;
+    window.qwsm.connection.publish = () => { ++window.told; return true; };
+  });
+  const {scale, tool} = await tablet.evaluate(() => ({scale: window.qwsm.view.camera.scale, tool: window.qwsm.state.tool}));
+  assert.equal(tool, 'start');
+  const session = await context.newCDPSession(tablet);
+  const touch = (type, ...xs) => session.send('Input.dispatchTouchEvent', {type, touchPoints: xs.map((x, id) => ({x, y: 400, id}))});
+  await touch('touchStart', 380);
+  await touch('touchStart', 380, 440);
+  for (const off of [20, 40, 60]) await touch('touchMove', 380 - off, 440 + off);
+  await touch('touchEnd');
+  await tablet.waitForFunction((before) => window.qwsm.view.camera.scale > 1.5 * before, scale);
+  assert.equal(await tablet.evaluate(() => window.told), 0);
+  await context.close();
+});
+
 test('dragging says where a robot is', async () => {
   await inPage(() => { window.qwsm.state.selected = 'robot_1'; });
   await page.locator('[data-tool="start"]').click();

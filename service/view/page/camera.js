@@ -6,6 +6,7 @@ const kFit_px = 60;
 const kMost_px_per_m = 400;
 const kLeast_px_per_m = 0.2;
 const kGlide_ms = 70;  // After which two thirds of a way are gone.
+const kCoast_ms = 250;  // As long, where the map was pushed.
 const kArrived = 1e-3;  // Of a screen, or of a scale.
 const kRightOf = {above: [1, 0], south: [1, 0], east: [0, 1], north: [-1, 0], west: [0, -1]};
 export const kSides = Object.keys(kRightOf);
@@ -90,7 +91,16 @@ export class Camera {
     this.#goal = {at, scale: within(kLeast_px_per_m, scale, kMost_px_per_m), turn: this.turn};
   }
 
-  glideTo({x = this.x, y = this.y, scale = this.scale, turn = this.turn}) { this.#goal = {x, y, scale, turn}; }
+  glideTo({x = this.x, y = this.y, scale = this.scale, turn = this.turn}) {
+    this.#goal = {x, y, scale: within(kLeast_px_per_m, scale, kMost_px_per_m), turn};
+  }
+
+  // Goes on as fast as it was pushed, in px/ms, and comes to rest.
+  coast([speedX, speedY]) {
+    if (isMotionUnwanted()) return;
+    const [x, y] = this.toMap(this.width / 2 - kCoast_ms * speedX, this.height / 2 - kCoast_ms * speedY);
+    this.#goal = {x, y, scale: this.scale, turn: this.turn, pace_ms: kCoast_ms};
+  }
 
   stop() { this.#goal = null; }
   get isGliding() { return this.#goal !== null; }
@@ -98,8 +108,8 @@ export class Camera {
   // Goes on to where it was sent. @return whether it has moved.
   step(passed_ms) {
     if (!this.#goal) return false;
-    const {x, y, scale, turn, at} = this.#goal;
-    const share = isMotionUnwanted() ? 1 : 1 - Math.exp(-passed_ms / kGlide_ms);
+    const {x, y, scale, turn, at, pace_ms = kGlide_ms} = this.#goal;
+    const share = isMotionUnwanted() ? 1 : 1 - Math.exp(-passed_ms / pace_ms);
     const enlarge = () => { this.scale *= (scale / this.scale) ** share; };
     if (at) {
       this.#keep(at, enlarge);
@@ -130,9 +140,21 @@ export class Camera {
     const width_m = Math.max(right - left, 1), height_m = Math.max(top - bottom, 1);
     const wide_px = this.width - margins.left - margins.right - 2 * kFit_px, high_px = this.height - margins.top - margins.bottom - 2 * kFit_px;
     const scale = Math.min(wide_px / (Math.abs(c) * width_m + Math.abs(s) * height_m), high_px / (Math.abs(s) * width_m + Math.abs(c) * height_m));
-    const fitted = within(kLeast_px_per_m, scale, kMost_px_per_m / 4);
-    // The middle between the margins is off the screen's.
-    const off_right = (margins.right - margins.left) / 2 / fitted, off_up = (margins.top - margins.bottom) / 2 / fitted;
-    return {x: (left + right) / 2 + c * off_right + s * off_up, y: (bottom + top) / 2 - s * off_right + c * off_up, scale: fitted};
+    return this.#between(margins, [(left + right) / 2, (bottom + top) / 2], within(kLeast_px_per_m, scale, kMost_px_per_m / 4));
+  }
+
+  // Where it has to go for what is between two points of the screen to fill it between margins. @return for glideTo().
+  enlarging([ax, ay], [bx, by], margins) {
+    const wide_px = this.width - margins.left - margins.right, high_px = this.height - margins.top - margins.bottom;
+    const factor = Math.min(wide_px / Math.max(1, Math.abs(bx - ax)), high_px / Math.max(1, Math.abs(by - ay)));
+    const scale = within(kLeast_px_per_m, this.scale * factor, kMost_px_per_m);
+    return this.#between(margins, this.toMap((ax + bx) / 2, (ay + by) / 2), scale);
+  }
+
+  // A place in the middle between margins, which is off the screen's.
+  #between({left, right, top, bottom}, [x, y], scale) {
+    const c = Math.cos(this.turn), s = Math.sin(this.turn);
+    const off_right = (right - left) / 2 / scale, off_up = (top - bottom) / 2 / scale;
+    return {x: x + c * off_right + s * off_up, y: y - s * off_right + c * off_up, scale};
   }
 }

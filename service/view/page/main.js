@@ -153,7 +153,7 @@ const editMark = (id) => markDialog.open(model.marks.get(id), {isNew: false});
 const actions = {
   changed, select, place, mark, editMark, showMark, showRobot, showEvent, lookBack,
   follow: (name) => navigation.follow(name), lookFrom: (side) => navigation.lookFrom(side),
-  moved: () => navigation.moved(), zoomed: () => navigation.zoomed(), pointed: (place) => navigation.point(place),
+  enlarge: (from, to) => navigation.enlarge(from, to), moved: () => navigation.moved(), zoomed: () => navigation.zoomed(), pointed: (place) => navigation.point(place),
 };
 const panel = new Panel(model, state, actions);
 const tools = new Tools(view, model, state, actions);

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
 // Where the map is looked at, and what moves that.
+import {addressOf, fromAddress} from './address.js';
 import {kSides} from './camera.js';
 
 const kNear_px_per_m = 50;
+const kZoomStep = 1.5;
 const kScales_m = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500];
 const kLeastScale_px = 60;
 const $ = (id) => document.getElementById(id);
@@ -19,13 +21,18 @@ function margins() {
 export class Navigation {
   #showsAll = true;  // Until the operator moves the map, all of it is shown as it grows.
   #pointed = null;
+  #restsAt = '';  // What of the map was looked at a moment ago.
 
   // `changed()` is called when the map has to be drawn.
   constructor(view, model, state, changed) {
     Object.assign(this, {view, model, state, changed, camera: view.camera});
+    $('zoom-in').onclick = () => this.#zoomBy(kZoomStep);
+    $('zoom-out').onclick = () => this.#zoomBy(1 / kZoomStep);
     $('fit').onclick = () => this.showAll();
     $('side').onclick = () => this.nextSide();
     $('upright').onclick = () => this.turnUpright();
+    addEventListener('hashchange', ({newURL}) => this.#goToAddress(new URL(newURL).hash));
+    this.#goToAddress(location.hash);
   }
 
   showAll() {
@@ -45,6 +52,38 @@ export class Navigation {
   update() {
     if (this.#showsAll && !this.camera.isGliding) Object.assign(this.camera, this.#whole());
     $('side').hidden = this.model.clouds.size === 0;
+    this.#writeAddress();
+  }
+
+  #goToAddress(hash) {
+    const place = fromAddress(hash);
+    if (!place) return;
+    this.moved();
+    this.lookFrom('above');
+    this.#showsAll = false;
+    this.camera.glideTo(place);
+  }
+
+  // Once the map is at rest: browsers let nobody change the address all the time.
+  #writeAddress() {
+    const {key, isFromAbove} = this.camera;
+    const isAtRest = key === this.#restsAt;
+    this.#restsAt = key;
+    const hash = this.#showsAll || !isFromAbove ? '' : addressOf(this.camera);
+    if (isAtRest && hash !== location.hash) history.replaceState(null, '', hash || location.pathname + location.search);
+  }
+
+  // For those without a wheel: in the middle of what nothing lies over.
+  #zoomBy(factor) {
+    const {left, right, top, bottom} = margins();
+    this.camera.zoomSmoothly(factor, [(left + this.camera.width - right) / 2, (top + this.camera.height - bottom) / 2]);
+    this.zoomed();
+  }
+
+  // Shows what is between two points of the screen as large as may be.
+  enlarge(from, to) {
+    this.moved();
+    this.camera.glideTo(this.camera.enlarging(from, to, margins()));
   }
 
   // The operator zooms; who is followed stays in the middle.

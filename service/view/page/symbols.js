@@ -190,3 +190,15 @@ export function drawAim(c, [px, py], theme) {
     c.stroke();
   }
 }
+
+// Around what is going to be enlarged.
+export function drawFrame(c, [ax, ay], [bx, by], theme) {
+  c.strokeStyle = theme.paper;
+  c.lineWidth = 4;
+  c.strokeRect(ax, ay, bx - ax, by - ay);
+  c.strokeStyle = theme.ink;
+  c.lineWidth = 1.5;
+  c.setLineDash([6, 4]);
+  c.strokeRect(ax, ay, bx - ax, by - ay);
+  c.setLineDash([]);
+}

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What pointer and keyboard do on the map.
 import {kMarkKinds} from './colors.js';
-import {drawAim, drawStretch} from './symbols.js';
+import {Swing} from './swing.js';
+import {drawAim, drawFrame, drawStretch} from './symbols.js';
 
 const kClick_px = 6;
 const kNear_px = 26;
@@ -23,11 +24,12 @@ export class Tools {
   #pointers = new Map();  // Where each is, by its id.
   #pressed = null;  // Where the first was pressed.
   #anchor = null;  // What a drag began on, on the map.
-  #isTurning = false;
+  #drag = null;  // What it does: 'turn', 'frame', 'stretch' or 'pan'.
+  #swing = new Swing();
   #twist = 0;
 
   // `actions`: select(name), place(name, pose), mark(kind, x, y), editMark(id), lookFrom(side), changed(),
-  // moved() and zoomed() when the operator has done that with the map, pointed(place) at somewhere on it.
+  // enlarge(from, to) what is between two points of the screen, moved() and zoomed() when the operator has done that with the map, pointed(place) at somewhere on it.
   constructor(view, model, state, actions) {
     Object.assign(this, {view, model, state, actions});
     const {canvas} = view;
@@ -56,8 +58,7 @@ export class Tools {
     for (const button of document.querySelectorAll('[data-tool]')) button.setAttribute('aria-pressed', String(button.dataset.tool === tool));
     this.view.canvas.style.cursor = tool === 'look' ? 'grab' : 'crosshair';
     this.hint(tool === 'start' ? `${this.state.selected || 'robot'}: ${kHints.start}` : kHints[tool]);
-    this.#anchor = null;
-    this.view.overlay = null;
+    this.#giveUp();
     if (this.view.canvas.matches(':focus-visible')) this.#aim();
     this.actions.changed();
   }
@@ -76,10 +77,25 @@ export class Tools {
     this.view.canvas.setPointerCapture(event.pointerId);
     this.#pointers.set(event.pointerId, at);
     this.#twist = 0;
-    if (this.#pointers.size > 1) return;
+    this.#swing.begin();
+    if (this.#pointers.size > 1) return this.#giveUp();
+    this.view.camera.stop();
     this.#pressed = at;
     this.#anchor = this.view.camera.toMap(...at);
-    this.#isTurning = event.button === 2 || event.ctrlKey;
+    this.#drag = this.#meantBy(event);
+  }
+
+  #meantBy({button, ctrlKey, shiftKey}) {
+    if (button === 2 || ctrlKey) return 'turn';
+    if (isDragged(this.state.tool)) return 'stretch';
+    return shiftKey && this.state.tool === 'look' ? 'frame' : 'pan';
+  }
+
+  // Leaves what was begun: the hand may still move the map.
+  #giveUp() {
+    this.#drag = 'pan';
+    this.#anchor = null;
+    this.view.overlay = null;
   }
 
   #move(event) {
@@ -88,13 +104,15 @@ export class Tools {
     if (!before) return;
     this.#pointers.set(event.pointerId, at);
     if (this.#pointers.size === 2) this.#pinch(event.pointerId, before, at);
-    else if (this.#isTurning) this.#turn(this.#middle, before, at);
-    else if (isDragged(this.state.tool)) this.#stretch(this.view.camera.toMap(...at));
-    else this.#pan(before, at);
+    else if (this.#drag === 'turn') this.#turn(this.#middle, before, at);
+    else if (this.#drag === 'frame') this.#frame(at);
+    else if (this.#drag === 'stretch') this.#stretch(this.view.camera.toMap(...at));
+    else this.#pan(before, at, event.timeStamp);
     this.actions.changed();
   }
 
-  #pan(before, at) {
+  #pan(before, at, now_ms) {
+    this.#swing.note(at, now_ms);
     this.view.camera.pan(at[0] - before[0], at[1] - before[1]);
     if (this.#distance(at, this.#pressed) > kClick_px) this.actions.moved();
   }
@@ -131,10 +149,26 @@ export class Tools {
     if (!this.#pointers.delete(event.pointerId) || this.#pointers.size > 0) return;
     const at = this.#at(event);
     const isClick = this.#distance(at, this.#pressed) < kClick_px;
-    if (this.#isTurning) this.#isTurning = false;
-    else if (isClick && !this.#isMarking) this.#pick(...at);
-    else if (isClick || this.state.tool === 'start') this.#finish(this.view.camera.toMap(...at));
+    if (isClick && this.#drag !== 'turn') this.#click(at);
+    else if (this.#drag === 'frame') this.#enlarge(at);
+    else if (this.#drag === 'pan') this.view.camera.coast(this.#swing.speed(event.timeStamp));
+    else if (this.#drag === 'stretch' && this.state.tool === 'start') this.#finish(this.view.camera.toMap(...at));
     this.actions.changed();
+  }
+
+  #click(at) {
+    if (this.#isMarking) this.#finish(this.view.camera.toMap(...at));
+    else this.#pick(...at);
+  }
+
+  #frame(to) {
+    if (this.#distance(to, this.#pressed) > kClick_px) this.actions.moved();  // It must not grow under the hand.
+    this.view.overlay = (c, camera, theme) => drawFrame(c, this.#pressed, to, theme);
+  }
+
+  #enlarge(to) {
+    this.view.overlay = null;
+    this.actions.enlarge(this.#pressed, to);
   }
 
   get #isMarking() { return this.state.tool in kMarkKinds; }
@@ -150,7 +184,8 @@ export class Tools {
 
   #cancel(event) {
     this.#pointers.delete(event.pointerId);
-    this.view.overlay = null;
+    this.#giveUp();
+    this.actions.changed();
   }
 
   #pick(px, py) {
@@ -172,7 +207,7 @@ export class Tools {
 
   #doubleClick(event) {
     if (this.state.tool !== 'look') return;
-    this.view.camera.zoomSmoothly(2, this.#at(event));
+    this.view.camera.zoomSmoothly(event.shiftKey ? 0.5 : 2, this.#at(event));
     this.actions.zoomed();
   }
 
