@@ -12,7 +12,7 @@ namespace {
 
 // A place is the right one if it is not one that only looks alike, wrong once in twenty of these,
 // and if no other one comes near, wrong once in a hundred.
-constexpr double kSureNats = 4.6;
+constexpr double kSureNats = 3.0;
 constexpr double kLeadNats = 4.6;
 // A place is weighed again once the maps have grown by so much, unless it has been refuted.
 constexpr double kGrown = 1.1;

@@ -122,7 +122,7 @@ export function condition(robot, now_ms) {
     const since_s = robot.lastMatch === null ? 0 : last.stamp - robot.lastMatch;
     return is(since_s > kLongDeadReckoning_s ? 2 : 1, `dead reckoning for ${ago(since_s)}`);
   }
-  if (robot.isApart || robot.last.status === Status.lost) return is(2, 'lost: in a map of its own, searching for its place', 'lost, searching');
+  if (robot.isApart || last.status === Status.lost) return is(2, 'lost: in a map of its own, searching for its place', 'lost, searching');
   if (last.status === Status.simulated) return is(0, 'simulated; no service answers it');
   if (health === 'answered by another service') return is(0, 'matched, by another service');
   return is(0, last.status === Status.extended ? 'matched, exploring' : 'matched');

@@ -40,6 +40,10 @@ std::optional<BagMessage> SqliteBag::Next() {
   for (;;) {
     try {
       if (!rows_.Step()) return std::nullopt;
+      if (rows_.Integer(0) <= last_row_) {
+        if (!GoAround("its pages go round in a circle")) return std::nullopt;
+        continue;
+      }
       if (std::optional<BagMessage> message = TakeRow()) return message;
     } catch (const SqliteError& error) {
       if (!GoAround(error.what())) return std::nullopt;

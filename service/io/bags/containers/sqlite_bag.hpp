@@ -39,7 +39,7 @@ class SqliteBag final : public MessageSource {
   std::map<std::int64_t, std::size_t> topic_of_id_;
   SqliteStatement rows_;     // From the row after a number on, in the order of writing.
   SqliteStatement message_;  // One row.
-  std::int64_t last_row_ = 0;
+  std::int64_t last_row_ = -1;
   std::int64_t stride_ = 1;
   std::string bytes_;
 };
