@@ -21,7 +21,7 @@ constexpr double kExplained = 0.7;       // Of a scan that says where the map is
 constexpr double kBent_m = 0.2;
 constexpr double kBent_rad = 0.03;
 // How large a share of the points is seen through, as beta distributions: in places that only look
-// alike 20 % of them (3 % to 40 %), as was measured at 4000 of those that robots thought of in
+// alike 20 % of them (6 % to 40 %), as was measured at 2200 of those that robots thought of in
 // simulated offices and in parts of intel, aces and mit-csail (docs/experiments.md); where two maps
 // go together as in the maps themselves, and one in fifty before anything is known of these.
 struct Share {
