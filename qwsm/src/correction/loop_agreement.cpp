@@ -2,20 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "loop_agreement.hpp"
 
-#include <Eigen/LU>
+#include "qwsm/geometry/frame_covariance.hpp"
 
 namespace qwsm {
 namespace {
 
 constexpr int kMinAgreeing = 2;
 constexpr double kMaxChi2 = 7.815;  // 95 % of right ones are below, for three degrees of freedom.
-
-double SquaredMahalanobisDistance(const UncertainPose2& a, const UncertainPose2& b) {
-  const Eigen::Vector3d apart(a.T_a_b.x_m - b.T_a_b.x_m,
-                              a.T_a_b.y_m - b.T_a_b.y_m,
-                              NormalizeAngle(a.T_a_b.theta_rad - b.T_a_b.theta_rad));
-  return apart.dot((a.covariance + b.covariance).inverse() * apart);
-}
 
 // Both ways around, from the submap that was made first to the scan that was taken last, lead to
 // the same place.

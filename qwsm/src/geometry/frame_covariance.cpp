@@ -3,6 +3,7 @@
 #include "qwsm/geometry/frame_covariance.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
 namespace qwsm {
 namespace {
@@ -42,6 +43,13 @@ UncertainPose2 Since(const UncertainPose2& map_earlier, const UncertainPose2& ma
   UncertainPose2 since = map_robot;
   since.covariance = PositivePart(since.covariance - known.At(since.T_a_b.translation_m()));
   return UncertainPose2{.T_a_b = map_earlier.T_a_b.Inverse()} * since;
+}
+
+double SquaredMahalanobisDistance(const UncertainPose2& a, const UncertainPose2& b) {
+  const Eigen::Vector3d apart(a.T_a_b.x_m - b.T_a_b.x_m,
+                              a.T_a_b.y_m - b.T_a_b.y_m,
+                              NormalizeAngle(a.T_a_b.theta_rad - b.T_a_b.theta_rad));
+  return apart.dot((a.covariance + b.covariance).inverse() * apart);
 }
 
 }  // namespace qwsm

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "qwsm/mapping/dead_reckoning.hpp"
 
-#include <Eigen/Cholesky>
+#include "qwsm/geometry/frame_covariance.hpp"
 
 namespace qwsm {
 namespace {
@@ -43,11 +43,7 @@ void DeadReckoning::Move(const Pose2& T_new_old) {
 }
 
 bool IsFarFrom(const UncertainPose2& expected, const UncertainPose2& found) {
-  const Eigen::Vector3d off(found.T_a_b.x_m - expected.T_a_b.x_m,
-                            found.T_a_b.y_m - expected.T_a_b.y_m,
-                            NormalizeAngle(found.T_a_b.theta_rad - expected.T_a_b.theta_rad));
-  const Eigen::Matrix3d covariance = expected.covariance + found.covariance;
-  return off.dot(covariance.ldlt().solve(off)) > kFarChi2;
+  return SquaredMahalanobisDistance(expected, found) > kFarChi2;
 }
 
 }  // namespace qwsm

@@ -29,4 +29,8 @@ struct FrameCovariance {
 /// A pose of the map as seen from an earlier one, as uncertain as it is more than that one.
 UncertainPose2 Since(const UncertainPose2& map_earlier, const UncertainPose2& map_robot);
 
+/// How far two independent estimates of a pose are apart, squared, in units of what both may be off
+/// by: chi-square of three degrees of freedom if they are of one pose.
+double SquaredMahalanobisDistance(const UncertainPose2& a, const UncertainPose2& b);
+
 }  // namespace qwsm
