@@ -4,7 +4,6 @@
 
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ssl/context.hpp>
-#include <boost/beast/core.hpp>
 
 #include "service/view/http/beast/server.hpp"
 
@@ -18,11 +17,5 @@ void WelcomePlain(boost::asio::ip::tcp::socket socket, Server& server);
 void WelcomeEncrypted(boost::asio::ip::tcp::socket socket,
                       boost::asio::ssl::context& identity,
                       Server& server);
-
-/// Refuses whatever is asked. @param heard the beginning of it, at most a header long.
-void RefusePlain(boost::beast::tcp_stream stream,
-                 const boost::beast::flat_buffer& heard,
-                 const WebAnswer& refusal,
-                 Server& server);
 
 }  // namespace qwsm::view

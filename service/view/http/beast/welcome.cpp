@@ -1,15 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include <boost/beast/ssl.hpp>
-#include <boost/beast/websocket/ssl.hpp>
+#include "service/view/http/beast/welcome.hpp"
 
 #include "service/view/http/beast/connection.hpp"
-#include "service/view/http/beast/welcome.hpp"
 
 namespace qwsm::view {
 namespace {
-
-using EncryptedStream = beast::ssl_stream<beast::tcp_stream>;
 
 constexpr WebAnswer kToldToEncrypt{
     .status = 400, .type = "text/plain", .body = "this port is encrypted: ask for https://...\n"};
@@ -40,18 +36,26 @@ class Greeting : public std::enable_shared_from_this<Greeting> {
   }
   void Count() { ++server_.refused; }
   void Hear() {
-    std::make_shared<Connection<EncryptedStream>>(std::move(stream_), std::move(place_), server_)
-        ->Receive();
+    std::make_shared<Connection>(Wire(std::move(stream_)), std::move(place_), server_)->Receive();
   }
-  void Refuse() { RefusePlain(std::move(stream_.next_layer()), heard_, kToldToEncrypt, server_); }
+  void Refuse() {
+    std::make_shared<Connection>(Wire(std::move(stream_.next_layer())), std::move(place_), server_)
+        ->RefuseAll(heard_, kToldToEncrypt);
+  }
 
   Server& server_;
   Counted place_;
-  EncryptedStream stream_;
+  Wire::Encrypted stream_;
   beast::flat_buffer heard_{kLongestHeader};
 };
 
 }  // namespace
+
+void WelcomePlain(tcp::socket socket, Server& server) {
+  std::make_shared<Connection>(
+      Wire(Wire::Plain(std::move(socket))), Counted(server.connections), server)
+      ->Receive();
+}
 
 void WelcomeEncrypted(tcp::socket socket, asio::ssl::context& identity, Server& server) {
   std::make_shared<Greeting>(std::move(socket), identity, server)->Start();
