@@ -51,6 +51,9 @@ std::optional<CorrectedMap> BackgroundCorrector::LookAgain() {
 
 void BackgroundCorrector::Finish() {
   if (wait_) std::exchange(wait_, nullptr)();
+  if (!std::exchange(is_overtaken_, false)) return;
+  proposal_.reset();
+  corrector_.Adopt(map_node_);
 }
 
 void BackgroundCorrector::Look() {
@@ -84,19 +87,11 @@ std::optional<CorrectedMap> BackgroundCorrector::TakeUp(Proposal proposal) {
   return corrected;
 }
 
-CorrectedMap BackgroundCorrector::Adopt(std::vector<UncertainPose2> map_node) {
-  Finish();
-  proposal_.reset();
-  const std::size_t looked_at = map_node_.size();
-  map_node_.assign(map_node.begin(), map_node.begin() + static_cast<std::ptrdiff_t>(looked_at));
-  corrector_.Adopt(map_node_);
-  ScanMap map = corrector_.MapAt(map_node_);
-  for (std::size_t i = 0; i < news_.size(); ++i) {
-    ScanNode& node = news_[i];
-    node.map_robot = map_node[looked_at + i];
-    map.Insert(node.scan, ToPoints(node.scan), node.map_robot);
-  }
-  return {.map_node = std::move(map_node), .map = std::move(map)};
+void BackgroundCorrector::Adopt(std::span<const UncertainPose2> map_node) {
+  is_overtaken_ = true;
+  const auto news = map_node.subspan(map_node_.size());
+  map_node_.assign(map_node.begin(), map_node.end() - static_cast<std::ptrdiff_t>(news.size()));
+  for (std::size_t i = 0; i < news.size(); ++i) news_[i].map_robot = news[i];
 }
 
 // The last scan of the same robot that was looked at; of a robot that is new, the nearest one.

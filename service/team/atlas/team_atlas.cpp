@@ -15,7 +15,7 @@
 namespace qwsm::team {
 namespace {
 
-std::vector<UncertainPose2> PosesOf(const std::vector<Placement>& places) {
+std::vector<UncertainPose2> PosesOf(std::span<const Placement> places) {
   std::vector<UncertainPose2> poses;
   poses.reserve(places.size());
   for (const Placement& place : places) poses.push_back(place.map_robot);
@@ -43,7 +43,7 @@ void TeamAtlas::Restore(TeamScan scan, const std::string& component) {
   if (!home.map->Insert(scan, ToPoints(scan.scan))) return;
   maps_.Put(scan.key.robot, home.name);
   maps_.Reserve(scan.component);
-  if (options_.corrects) CorrectorOf(home.name).Take(scan);
+  CatchUp(home);
 }
 
 // Nobody hears of a relevant scan before it is safe: who has heard of it may rely on it.
@@ -59,10 +59,8 @@ bool TeamAtlas::Extend(const TeamScan& scan,
     surroundings_.sinks.Tell(&TeamSink::TakeRelevantScan, *shared);
     TellNewPoints(*shared, *insertion->addition);
   });
-  if (options_.corrects) {
-    CorrectorOf(component.name).Take(scan);
-    CorrectIfDue(component);
-  }
+  CatchUp(component);
+  CorrectIfDue(component);
   return true;
 }
 
@@ -74,10 +72,8 @@ bool TeamAtlas::TakeIn(TeamScan scan) {
   if (!component.map->Insert(scan, points)) return false;
   maps_.Put(scan.key.robot, component.name);
   surroundings_.keep(ToJournal(scan), [] {});
-  if (options_.corrects) {
-    CorrectorOf(component.name).Take(scan);
-    CorrectIfDue(component);
-  }
+  CatchUp(component);
+  CorrectIfDue(component);
   of_others_.push_back(std::move(scan));
   return true;
 }
@@ -102,16 +98,18 @@ void TeamAtlas::Settle(TeamScan& scan) const {
 }
 
 void TeamAtlas::TakeIn(const TeamEpoch& epoch) {
-  const std::lock_guard lock(extension_);
-  if (!options_.corrects || !IsTeams() || epoch.rank <= epoch_) return;
-  told_.clear();
+  Placements told;
   for (const MovedScan& scan : epoch.scans) {
-    told_[scan.key] = {.component = scan.component, .map_robot = scan.map_robot};
+    told[scan.key] = {.component = scan.component, .map_robot = scan.map_robot};
   }
-  const Rearrangement wanted = Follow(maps_, told_);
-  // Whoever knows of scans that the other one did not tells where these are now.
-  epoch_ = wanted.moves_others ? Next(epoch.rank) : epoch.rank;
-  TakeEffect(wanted);
+  Rearrange([&]() -> std::optional<Plan> {
+    if (!options_.corrects || !IsTeams() || epoch.rank <= epoch_) return std::nullopt;
+    told_ = told;
+    Rearrangement wanted = Follow(maps_, told_);
+    // Whoever knows of scans that the other one did not tells where these are now.
+    return Plan{.rank = wanted.moves_others ? Next(epoch.rank) : epoch.rank,
+                .rearrangement = std::move(wanted)};
+  });
 }
 
 std::vector<TeamScan> TeamAtlas::TakenIn() {
@@ -120,40 +118,51 @@ std::vector<TeamScan> TeamAtlas::TakenIn() {
 }
 
 bool TeamAtlas::Join(const ComponentPlace& place) {
-  const std::lock_guard lock(extension_);
-  if (!IsStill(place.from_name, place.from) || !IsStill(place.into_name, place.into)) return false;
-  Rearrangement wanted = AsTheyAre(maps_);
-  for (Placement& one : wanted.wanted.at(place.from_name)) {
-    one = {.component = place.into_name, .map_robot = place.into_from * one.map_robot};
-  }
-  epoch_ = Next(epoch_);
-  TakeEffect(wanted);
-  return true;
+  return Rearrange([&]() -> std::optional<Plan> {
+    if (!IsStill(place.from_name, place.from) || !IsStill(place.into_name, place.into)) {
+      return std::nullopt;
+    }
+    Rearrangement wanted = AsTheyAre(maps_);
+    for (Placement& one : wanted.wanted.at(place.from_name)) {
+      one = {.component = place.into_name, .map_robot = place.into_from * one.map_robot};
+    }
+    return Plan{.rank = Next(epoch_), .rearrangement = std::move(wanted)};
+  });
 }
 
 bool TeamAtlas::Part(const std::string& robot,
                      const MapVersion& from,
                      const std::string& from_name) {
-  const std::lock_guard lock(extension_);
-  if (!IsStill(from_name, from)) return false;
-  const MapComponent component = maps_.Named(from_name);
-  Rearrangement wanted = AsTheyAre(maps_);
-  std::optional<Pose2> T_own_map;
   const std::string own = maps_.NewNameFor(robot);
-  std::vector<Placement>& places = wanted.wanted.at(from_name);
-  for (std::size_t id = 0; id < places.size(); ++id) {
-    if (component.map->KeyOf(static_cast<ScanId>(id)).robot != robot) continue;
-    Placement& place = places[id];
-    if (!T_own_map) T_own_map = place.map_robot.T_a_b.Inverse();
-    place = {.component = own, .map_robot = UncertainPose2{.T_a_b = *T_own_map} * place.map_robot};
+  return Rearrange([&]() -> std::optional<Plan> {
+    if (!IsStill(from_name, from)) return std::nullopt;
+    const MapComponent component = maps_.Named(from_name);
+    Rearrangement wanted = AsTheyAre(maps_);
+    std::optional<Pose2> T_own_map;
+    std::vector<Placement>& places = wanted.wanted.at(from_name);
+    for (std::size_t id = 0; id < places.size(); ++id) {
+      if (component.map->KeyOf(static_cast<ScanId>(id)).robot != robot) continue;
+      Placement& place = places[id];
+      if (!T_own_map) T_own_map = place.map_robot.T_a_b.Inverse();
+      place = {.component = own,
+               .map_robot = UncertainPose2{.T_a_b = *T_own_map} * place.map_robot};
+    }
+    if (!T_own_map) return std::nullopt;
+    return Plan{.rank = Next(epoch_), .rearrangement = std::move(wanted)};
+  });
+}
+
+// The correctors know the scans of their maps, in the same order.
+void TeamAtlas::CatchUp(const MapComponent& component) {
+  if (!options_.corrects || is_rearranged_) return;
+  TeamCorrector& corrector = CorrectorOf(component.name);
+  for (const TeamScan& scan : component.map->Scans(static_cast<ScanId>(corrector.size()))) {
+    corrector.Take(scan);
   }
-  if (!T_own_map) return false;
-  epoch_ = Next(epoch_);
-  TakeEffect(wanted);
-  return true;
 }
 
 void TeamAtlas::CorrectIfDue(const MapComponent& component) {
+  if (!options_.corrects || is_rearranged_) return;
   std::optional<CorrectedMap> corrected = CorrectorOf(component.name).LookIfDue();
   if (!corrected) return;
   Rearrangement wanted = AsTheyAre(maps_);
@@ -171,53 +180,56 @@ EpochRank TeamAtlas::Next(const EpochRank& last) const {
   return {.number = last.number + 1, .service = surroundings_.service()};
 }
 
-// A component from which scans go is made anew of those that stay; what comes to one is added to
-// it, as if it had just been seen.
-void TeamAtlas::TakeEffect(const Rearrangement& rearrangement) {
+// The maps are made beside the robots, which are answered in the old ones and extend these. Nobody
+// waits but for the end, when what came meanwhile finds its place.
+bool TeamAtlas::Rearrange(const Planner& plan) {
+  const std::lock_guard one_at_a_time(rearranging_);
+  RearrangedMaps made;
+  std::unique_lock lock(extension_);
+  std::optional<Plan> now = plan();
+  if (!now) return false;
+  is_rearranged_ = true;
+  lock.unlock();
+  made.Follow(maps_, now->rearrangement);
+  lock.lock();
+  is_rearranged_ = false;
+  now = plan();
+  if (now) {
+    made.Follow(maps_, now->rearrangement);
+    epoch_ = now->rank;
+    TakeEffect(now->rearrangement, made);
+  }
+  for (const MapComponent& component : maps_.All()) CatchUp(component);
+  return now.has_value();
+}
+
+void TeamAtlas::TakeEffect(const Rearrangement& rearrangement, const RearrangedMaps& made) {
   TeamEpoch epoch = EpochOf(maps_, rearrangement, epoch_);
-  Moves moves;
+  std::map<std::string, std::string> home_of_robot;
   for (const auto& [name, wanted] : rearrangement.wanted) {
     const bool loses_scans = std::ranges::any_of(
         wanted, [&, &of = name](const Placement& place) { return place.component != of; });
     if (loses_scans) {
-      MoveOut(name, wanted, moves);
-    } else if (const MapComponent component = maps_.Named(name);
-               IsCorrected(*component.map, wanted)) {
-      component.map->Correct(CorrectorOf(name).Adopt(PosesOf(wanted)).map);
+      Leave(name, wanted, home_of_robot);
+    } else if (IsCorrected(*maps_.Named(name).map, wanted)) {
+      CorrectorOf(name).Adopt(PosesOf(std::span(wanted).first(CorrectorOf(name).size())));
     }
   }
-  for (const auto& [name, scans] : moves.arriving) MoveIn(name, scans, moves);
-  maps_.Exchange(moves.made_anew, moves.home_of_robot);
+  maps_.Exchange(made.maps(), home_of_robot);
   Tell(std::move(epoch));
 }
 
-void TeamAtlas::MoveOut(const std::string& component,
-                        const std::vector<Placement>& wanted,
-                        Moves& moves) {
-  std::vector<TeamScan> scans = maps_.Named(component).map->Scans();
+// Its map is another one from now on, if it has one.
+void TeamAtlas::Leave(const std::string& component,
+                      const std::vector<Placement>& wanted,
+                      std::map<std::string, std::string>& home_of_robot) {
+  const std::vector<TeamScan> scans = maps_.Named(component).map->Scans();
   NoteJoined(component, wanted.back(), scans.back().map_robot.T_a_b);
   for (std::size_t id = 0; id < scans.size(); ++id) {
-    TeamScan& scan = scans[id];
-    scan.map_robot = wanted[id].map_robot;
-    if (maps_.Of(scan.key.robot).name == component) {
-      moves.home_of_robot[scan.key.robot] = wanted[id].component;
-    }
-    moves.arriving[wanted[id].component].push_back(std::move(scan));
+    const std::string& robot = scans[id].key.robot;
+    if (maps_.Of(robot).name == component) home_of_robot[robot] = wanted[id].component;
   }
-  moves.made_anew[component] = nullptr;
   if (auto corrector = correctors_.extract(component)) retired_.push_back(std::move(corrector));
-}
-
-void TeamAtlas::MoveIn(const std::string& component,
-                       const std::vector<TeamScan>& scans,
-                       Moves& moves) {
-  const bool is_there = maps_.Has(component) && !moves.made_anew.contains(component);
-  const std::shared_ptr<TeamMap> map = is_there ? maps_.Named(component).map : maps_.Make();
-  if (!is_there) moves.made_anew[component] = map;
-  for (const TeamScan& scan : scans) {
-    map->Insert(scan, ToPoints(scan.scan));
-    if (options_.corrects) CorrectorOf(component).Take(scan);
-  }
 }
 
 void TeamAtlas::NoteJoined(const std::string& component,

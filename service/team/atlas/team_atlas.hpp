@@ -13,6 +13,7 @@
 
 #include "qwsm/mapping/mapper_options.hpp"
 #include "service/io/journal/journal_entry.hpp"
+#include "service/team/atlas/rearranged_maps.hpp"
 #include "service/team/atlas/rearrangement.hpp"
 #include "service/team/map/team_corrector.hpp"
 #include "service/team/map/team_maps.hpp"
@@ -90,22 +91,25 @@ class TeamAtlas {
     std::string component;
     Pose2 T_into_from;
   };
-  // Between components.
-  struct Moves {
-    std::map<std::string, std::vector<TeamScan>> arriving;      // By component.
-    std::map<std::string, std::shared_ptr<TeamMap>> made_anew;  // Likewise.
-    std::map<std::string, std::string> home_of_robot;           // That changes.
+  // Where all scans belong from an epoch on.
+  struct Plan {
+    EpochRank rank;
+    Rearrangement rearrangement;
   };
+  using Planner = std::function<std::optional<Plan>()>;
 
   bool IsTeams() const { return options_.sharing == MapSharing::kTeam; }
   bool IsStill(const std::string& component, const MapVersion& version);
   void Settle(TeamScan& scan) const;
   TeamCorrector& CorrectorOf(const std::string& component);
+  void CatchUp(const MapComponent& component);
   void CorrectIfDue(const MapComponent& component);
+  bool Rearrange(const Planner& plan);
   EpochRank Next(const EpochRank& last) const;
-  void TakeEffect(const Rearrangement& wanted);
-  void MoveOut(const std::string& component, const std::vector<Placement>& wanted, Moves& moves);
-  void MoveIn(const std::string& component, const std::vector<TeamScan>& scans, Moves& moves);
+  void TakeEffect(const Rearrangement& rearrangement, const RearrangedMaps& made);
+  void Leave(const std::string& component,
+             const std::vector<Placement>& wanted,
+             std::map<std::string, std::string>& home_of_robot);
   void NoteJoined(const std::string& component, const Placement& wanted, const Pose2& before);
   void Tell(TeamEpoch epoch);
   void TellNewPoints(const TeamScan& scan, const MapAddition& addition) const;
@@ -114,7 +118,9 @@ class TeamAtlas {
   const TeamAtlasOptions options_;
   const AtlasSurroundings surroundings_;
   TeamMaps maps_;
-  std::mutex extension_;  // Keeps the journal in the order of the maps; guards what follows.
+  std::mutex rearranging_;      // Only one at a time; locked before the other one.
+  std::mutex extension_;        // Keeps the journal in the order of the maps; guards what follows.
+  bool is_rearranged_ = false;  // Meanwhile correctors take in nothing.
   std::map<std::string, TeamCorrector> correctors_;  // By component.
   std::vector<decltype(correctors_)::node_type> retired_;
   EpochRank epoch_;

@@ -64,18 +64,17 @@ ScanMotion TeamCorrector::MotionSince(const Last& last, const TeamScan& scan) co
 std::optional<CorrectedMap> TeamCorrector::LookIfDue() {
   if (!corrector_.IsLookDue()) return std::nullopt;
   std::optional<CorrectedMap> corrected = corrector_.LookAgain();
-  if (corrected) Follow(*corrected);
+  if (corrected) Follow(corrected->map_node);
   return corrected;
 }
 
-CorrectedMap TeamCorrector::Adopt(std::vector<UncertainPose2> map_node) {
-  CorrectedMap corrected = corrector_.Adopt(std::move(map_node));
-  Follow(corrected);
-  return corrected;
+void TeamCorrector::Adopt(std::span<const UncertainPose2> map_node) {
+  corrector_.Adopt(map_node);
+  Follow(map_node);
 }
 
-void TeamCorrector::Follow(const CorrectedMap& corrected) {
-  for (auto& [robot, last] : last_) last.map_robot = corrected.map_node[last.node];
+void TeamCorrector::Follow(std::span<const UncertainPose2> map_node) {
+  for (auto& [robot, last] : last_) last.map_robot = map_node[last.node];
 }
 
 }  // namespace qwsm::team

@@ -26,9 +26,12 @@ class TeamCorrector {
   /// Looks for loops if it is time to. @return the map to go on in, if it was drawn wrong: all
   /// scans that were taken, in their order.
   std::optional<CorrectedMap> LookIfDue();
-  /// Takes over the poses that another service found. @param map_node of all scans that were taken.
-  /// @return the map to go on in.
-  CorrectedMap Adopt(std::vector<UncertainPose2> map_node);
+  /// Takes over the poses that somebody else found, without waiting for a look that is under way.
+  /// @param map_node of all scans that were taken.
+  void Adopt(std::span<const UncertainPose2> map_node);
+
+  /// Number of scans that were taken.
+  std::size_t size() const { return nodes_; }
 
  private:
   // The last scan of a robot.
@@ -39,7 +42,7 @@ class TeamCorrector {
     std::optional<Pose2> T_odom_robot;
   };
 
-  void Follow(const CorrectedMap& corrected);
+  void Follow(std::span<const UncertainPose2> map_node);
   ScanMotion MotionSince(const Last& last, const TeamScan& scan) const;
 
   MotionNoise noise_;

@@ -18,10 +18,26 @@ void Apply(TeamMap::Contents& contents, const TeamMap::Change& change) {
   }
 }
 
+std::uint64_t NextNumber() {
+  static std::atomic<std::uint64_t> last = 0;
+  return ++last;
+}
+
 }  // namespace
 
 TeamMap::TeamMap(const ScanMapOptions& options)
-    : state_({.map = ScanMap(options), .epoch = 0}, &Apply) {}
+    : number_(NextNumber()), state_({.map = ScanMap(options), .epoch = 0}, &Apply) {}
+
+TeamMap::TeamMap(const TeamMap& other) : TeamMap(other, Lock(other.insertion_, other.register_)) {}
+
+TeamMap::TeamMap(const TeamMap& other, const Lock&)
+    : number_(other.number_),
+      state_(*other.Read(), &Apply),
+      has_begun_(other.has_begun_.load()),
+      id_of_(other.id_of_),
+      heads_(other.heads_),
+      last_by_robot_(other.last_by_robot_),
+      last_sequence_(other.last_sequence_) {}
 
 std::optional<TeamMap::Insertion> TeamMap::Insert(const TeamScan& scan,
                                                   std::span<const ScanPoint> points) {
@@ -99,12 +115,11 @@ std::optional<ScanId> TeamMap::Find(const ScanKey& key) const {
   return known == id_of_.end() ? std::nullopt : std::optional(known->second);
 }
 
-std::vector<TeamScan> TeamMap::Scans() const {
+std::vector<TeamScan> TeamMap::Scans(ScanId first) const {
   const State::View contents = Read();
   const std::lock_guard lock(register_);
   std::vector<TeamScan> scans;
-  scans.reserve(contents->map.scans().size());
-  for (const RelevantScan& scan : contents->map.scans()) {
+  for (const RelevantScan& scan : std::span(contents->map.scans()).subspan(first)) {
     TeamScan& one = scans.emplace_back(heads_[scan.id]);
     one.scan = scan.scan;
     one.map_robot = scan.map_robot;

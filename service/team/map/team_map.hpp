@@ -28,7 +28,7 @@ class TeamMap;
 
 /// Which map it was, and how often it was corrected by then.
 struct MapVersion {
-  const TeamMap* map = nullptr;
+  std::uint64_t map = 0;
   std::uint32_t epoch = 0;
 
   friend bool operator==(const MapVersion&, const MapVersion&) = default;
@@ -57,10 +57,13 @@ class TeamMap {
   using State = TwinState<Contents, Change>;
 
   explicit TeamMap(const ScanMapOptions& options = {});
+  /// The same scans in the same places, of the same version: what is added to one of both changes
+  /// neither where anything lies. Nobody is in it.
+  TeamMap(const TeamMap& other);
 
   /// The map as it is now; see TwinState::View.
   State::View Read() const { return state_.Read(); }
-  MapVersion VersionOf(const Contents& contents) const { return {this, contents.epoch}; }
+  MapVersion VersionOf(const Contents& contents) const { return {number_, contents.epoch}; }
   MapVersion version() const { return VersionOf(*Read()); }
 
   /// A scan that was added.
@@ -93,19 +96,24 @@ class TeamMap {
   ScanKey KeyOf(ScanId id) const;
   /// The scan of that key, if it was added.
   std::optional<ScanId> Find(const ScanKey& key) const;
-  /// All scans as they were added, each where it is now.
-  std::vector<TeamScan> Scans() const;
+  /// All scans from that one on as they were added, each where it is now.
+  std::vector<TeamScan> Scans(ScanId first = 0) const;
   /// The largest sequence number that the service gave a scan of the robot; 0 if it gave none.
   std::uint64_t LastSequence(std::string_view service, std::string_view robot) const;
 
  private:
+  using Lock = std::scoped_lock<std::mutex, std::mutex>;
+
+  TeamMap(const TeamMap& other, const Lock& lock);
+
   bool Register(const TeamScan& scan);
 
+  const std::uint64_t number_;
   State state_;
   RobotPositions robots_;
   std::atomic<bool> has_begun_ = false;
-  std::mutex insertion_;         // Gives a scan the same number in the map and in the register.
-  mutable std::mutex register_;  // Guards what follows.
+  mutable std::mutex insertion_;  // Gives a scan the same number in the map and in the register.
+  mutable std::mutex register_;   // Guards what follows.
   std::unordered_map<ScanKey, ScanId, ScanKeyHash> id_of_;
   std::vector<TeamScan> heads_;  // Without their ranges, by ScanId.
   std::map<std::string, ScanId, std::less<>> last_by_robot_;

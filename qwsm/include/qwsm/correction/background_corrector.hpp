@@ -39,6 +39,8 @@ class BackgroundCorrector {
 
   /// Takes the next relevant scan. Its pose is one in the map as it is.
   void Add(ScanNode node);
+  /// Number of scans that were taken.
+  std::size_t size() const { return map_node_.size() + news_.size(); }
 
   /// Whether so many scans are new that it is time to look again.
   bool IsLookDue() const;
@@ -46,9 +48,9 @@ class BackgroundCorrector {
   /// @return the map to go on in, if the last look found that it is drawn wrong.
   std::optional<CorrectedMap> LookAgain();
 
-  /// Takes over the poses that somebody else found. What a look under way finds is given up.
-  /// @param map_node of all nodes so far. @return the map to go on in.
-  CorrectedMap Adopt(std::vector<UncertainPose2> map_node);
+  /// Takes over the poses that somebody else found, without waiting: what a look under way finds is
+  /// given up when it ends. @param map_node of all nodes so far.
+  void Adopt(std::span<const UncertainPose2> map_node);
 
   /// Corrects all that was added once more, in the end: loops are looked for from where others have
   /// moved the scans, too.
@@ -74,6 +76,7 @@ class BackgroundCorrector {
   std::optional<Proposal> proposal_;  // Likewise.
   std::atomic<bool> is_looking_ = false;
   std::function<void()> wait_;            // For the look, where there is one.
+  bool is_overtaken_ = false;             // By poses that somebody else found.
   std::vector<ScanNode> news_;            // Nodes that no look has seen.
   std::vector<UncertainPose2> map_node_;  // In the map as it is, of those looked at.
   std::vector<std::size_t> robot_;        // Likewise: whose they are.
