@@ -15,6 +15,7 @@
 
 #include "service/team/service/team_service.hpp"
 #include "sim/simulation.hpp"
+#include "tests/support/process_state.hpp"
 
 namespace {
 
@@ -119,7 +120,6 @@ int Measure(std::size_t scans, int rounds) {
                      .map_robot = UncertainPose2::WithSigmas(reading.T_world_robot, 0.01, 0.001)}});
   }
   std::vector<Clock::time_point> corrected;
-  std::vector<double> took_ms;
   std::jthread corrector([&] {
     for (int round = 1; round <= rounds; ++round) {
       std::this_thread::sleep_for(std::chrono::seconds(kSecondsBetween));
@@ -127,7 +127,11 @@ int Measure(std::size_t scans, int rounds) {
           Moved(*service.MapOf("robot1"), static_cast<std::uint64_t>(round) * 10);
       corrected.push_back(Clock::now());
       service.TakeIn(epoch);
-      took_ms.push_back(Milliseconds(Clock::now() - corrected.back()).count());
+      const double took_ms = Milliseconds(Clock::now() - corrected.back()).count();
+      std::printf("taking it in took %7.1f ms; %zu scans, %.1f MB in use\n",
+                  took_ms,
+                  epoch.scans.size(),
+                  test::ResidentKilobytes(getpid()) / 1024.0);
     }
   });
   const auto begin = Clock::now();
@@ -148,7 +152,6 @@ int Measure(std::size_t scans, int rounds) {
     });
     (is_during ? during : otherwise).push_back(answer.latency_ms);
   }
-  for (const double ms : took_ms) std::printf("taking it in took %.1f ms\n", ms);
   Print("corrected", std::move(during));
   Print("else", std::move(otherwise));
   return EXIT_SUCCESS;
