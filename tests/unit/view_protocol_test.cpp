@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "service/view/http/access.hpp"
+#include "service/view/http/web_error.hpp"
 #include "service/view/protocol/client_message.hpp"
 #include "service/view/protocol/server_message.hpp"
 

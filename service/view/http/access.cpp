@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 
+#include "service/view/http/web_error.hpp"
+
 namespace qwsm::view {
 namespace {
 

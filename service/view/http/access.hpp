@@ -5,7 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "service/view/http/web_server.hpp"
+#include "service/view/http/tls_identity.hpp"
+#include "service/view/http/web_handler.hpp"
 #include "service/view/view_options.hpp"
 
 namespace qwsm::view {

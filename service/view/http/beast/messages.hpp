@@ -7,7 +7,7 @@
 #include <boost/beast/http.hpp>
 #include <string_view>
 
-#include "service/view/http/web_server.hpp"
+#include "service/view/http/web_handler.hpp"
 
 namespace qwsm::view {
 

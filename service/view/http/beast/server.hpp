@@ -10,7 +10,7 @@
 #include <list>
 #include <utility>
 
-#include "service/view/http/web_server.hpp"
+#include "service/view/http/web_handler.hpp"
 
 namespace qwsm::view {
 
