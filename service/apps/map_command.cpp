@@ -149,6 +149,8 @@ ExitCode MapAll(const MapArguments& arguments,
                 pipeline::ScanSource& source,
                 const RunSession& session) {
   std::optional<SelfCorrectingMapper> correcting;
+  // Corrected maps are made on another thread, and several times larger than all else.
+  pipeline::ShareMemoryAmongThreads();
   if (Corrects(options)) correcting.emplace(options.mapper, pipeline::BeginOnAnotherThread);
   Mapper incremental(options.mapper);
   pipeline::ResultsWriter results(

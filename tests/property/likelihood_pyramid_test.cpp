@@ -96,15 +96,13 @@ TEST(LikelihoodPyramid, DriftCodesAreMonotoneAndNearlyExact) {
   EXPECT_EQ(LikelihoodPyramid::DriftCode(0.0), 0);
 }
 
-TEST(LikelihoodPyramid, IsEmptyWhereNothingWasStoredAndAfterClearing) {
+TEST(LikelihoodPyramid, IsEmptyWhereNothingWasStored) {
   LikelihoodPyramid pyramid;
   EXPECT_EQ(pyramid.LikelihoodAt(0, 0, 0), 0);
   pyramid.Insert({1.0, -2.0}, 1e-4);
   EXPECT_GT(pyramid.LikelihoodAt(0, pyramid.CellIndex(1.0), pyramid.CellIndex(-2.0)), 200);
   EXPECT_EQ(pyramid.LikelihoodAt(0, 2'000'000'000, -2'000'000'000), 0);
   EXPECT_EQ(pyramid.DriftCodeAt(0, 0, 0), LikelihoodPyramid::kUnmapped);
-  pyramid.Clear();
-  EXPECT_EQ(pyramid.LikelihoodAt(0, pyramid.CellIndex(1.0), pyramid.CellIndex(-2.0)), 0);
 }
 
 }  // namespace

@@ -72,6 +72,25 @@ TEST(SurfaceMap, SurfacesAreThoseOfThePointsAround) {
   }
 }
 
+TEST(SurfaceMap, ForMatchingHasTheSameSurfacesAndMakesTheLikelihoodWhenAsked) {
+  Random random(7);
+  SurfaceMap searched;
+  SurfaceMap matched = SurfaceMap::ForMatching({});
+  for (const auto& [point, scan] : AnyPoints(random, 6)) {
+    searched.Insert(point, scan);
+    matched.Insert(point, scan);
+  }
+  EXPECT_LT(matched.bytes(), searched.bytes());
+  ExpectSurfacesOfBruteForce(matched);
+  const LikelihoodPyramid made = matched.MakeLikelihood();
+  for (int x = -20; x < 20; ++x) {
+    for (int y = -20; y < 20; ++y) {
+      EXPECT_NEAR(made.LikelihoodAt(0, x, y), searched.likelihood().LikelihoodAt(0, x, y), 1);
+      EXPECT_EQ(made.DriftCodeAt(0, x, y), searched.likelihood().DriftCodeAt(0, x, y));
+    }
+  }
+}
+
 TEST(SurfaceMap, AfterAScanIsRemovedIsWhatItWouldHaveBeenWithoutIt) {
   for (unsigned seed = 0; seed < 5; ++seed) {
     SCOPED_TRACE(seed);

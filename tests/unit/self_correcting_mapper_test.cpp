@@ -41,6 +41,9 @@ TEST(SelfCorrectingMapper, GivesThePathOfAllScans) {
   for (const Observation& observation : drive) mapper.Process(observation);
   const Correction correction = mapper.Correct();
   EXPECT_EQ(correction.map_robot.size(), drive.size());
+  mapper.ForgetPoints();
+  EXPECT_TRUE(mapper.mapper().map().surfaces().empty());
+  EXPECT_EQ(mapper.mapper().map().scans().size(), correction.map_node.size());
   EXPECT_EQ(mapper.MapAt(correction.map_node).scans().size(), correction.map_node.size());
 }
 

@@ -49,6 +49,7 @@ void Append(const MappingStep& step, MappedLog& mapped) {
 
 void Correct(SelfCorrectingMapper& mapper, MappedLog& mapped) {
   Correction correction = mapper.Correct();
+  mapper.ForgetPoints();
   mapped.map = mapper.MapAt(correction.map_node);
   mapped.map_robot = std::move(correction.map_robot);
   mapped.loops = std::move(correction.loops);

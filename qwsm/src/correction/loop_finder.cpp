@@ -69,24 +69,23 @@ std::vector<FoundLoop> LoopFinder::AddThoseNear(NodeId first,
   return settled;
 }
 
-// Submap by submap, since the surfaces of one are made for it.
+// Submap by submap, since the surfaces of few are kept.
 std::vector<FoundLoop> LoopFinder::RecogniseAll(std::span<Candidate> candidates,
                                                 std::span<const FoundLoop> last) const {
   std::ranges::sort(candidates, {}, [](const Candidate& c) { return std::pair(c.submap, c.node); });
   std::vector<FoundLoop> found;
-  std::optional<SurfaceMap> surfaces;
-  std::size_t of_submap = 0;
   for (const Candidate& candidate : candidates) {
     if (const FoundLoop* known = AcceptedAmong(last, candidate)) {
       found.push_back(*known);
       found.back().loop.verdict = LoopVerdict::kUnconfirmed;
       continue;
     }
-    if (!surfaces || of_submap != candidate.submap) {
-      of_submap = candidate.submap;
-      surfaces = chains_.SurfacesOf(chains_.submaps()[of_submap], nodes_);
+    SubmapSurfaces& surfaces = recent_.Of(candidate.submap, [&] {
+      return chains_.SurfacesOf(chains_.submaps()[candidate.submap], nodes_);
+    });
+    if (const auto loop = Recognise(candidate, surfaces)) {
+      found.push_back({*loop, candidate.submap});
     }
-    if (const auto loop = Recognise(candidate, *surfaces)) found.push_back({*loop, of_submap});
   }
   return found;
 }
@@ -166,7 +165,7 @@ std::vector<LoopFinder::Candidate> LoopFinder::NearestOfEachPass(
 }
 
 std::optional<Loop> LoopFinder::Recognise(const Candidate& candidate,
-                                          const SurfaceMap& surfaces) const {
+                                          SubmapSurfaces& surfaces) const {
   const RigidSubmap& submap = chains_.submaps()[candidate.submap];
   const Pose2& T_chain_reference = chains_.T_chain_node()[submap.reference()];
   UncertainPose2 expected = UncertainPose2{.T_a_b = T_chain_reference} * candidate.reference_node;

@@ -17,14 +17,16 @@ namespace qwsm {
 /// near to.
 class LoopFinder {
  public:
-  /// @param nodes, chains of these nodes: outlive this.
+  /// @param nodes, chains of these nodes: outlive this, as does `recent`.
   LoopFinder(const MapperOptions& options,
              std::span<const ScanNode> nodes,
-             const ScanChains& chains)
+             const ScanChains& chains,
+             RecentSurfaces& recent)
       : locator_(options.locator),
         matcher_(options.locator.matcher),
         nodes_(nodes),
-        chains_(chains) {}
+        chains_(chains),
+        recent_(recent) {}
 
   /// The loops that are found from there, in the order of robots, scans, submaps. Their verdicts
   /// are kAccepted where loops of scans near by agree, else kUnconfirmed.
@@ -57,13 +59,14 @@ class LoopFinder {
                                       std::vector<FoundLoop>& found) const;
   std::vector<FoundLoop> RecogniseAll(std::span<Candidate> candidates,
                                       std::span<const FoundLoop> last) const;
-  std::optional<Loop> Recognise(const Candidate& candidate, const SurfaceMap& surfaces) const;
+  std::optional<Loop> Recognise(const Candidate& candidate, SubmapSurfaces& surfaces) const;
   Eigen::Matrix3d ErrorWithin(const RigidSubmap& submap) const;
 
   ScanLocatorOptions locator_;
   WeightedScanMatcher matcher_;
   std::span<const ScanNode> nodes_;
   const ScanChains& chains_;
+  RecentSurfaces& recent_;
 };
 
 }  // namespace qwsm

@@ -96,6 +96,7 @@ struct MapCorrector::State {
   MapperOptions options;
   ScanChains chains;
   std::vector<ScanNode> nodes;
+  RecentSurfaces recent;
   std::vector<FoundLoop> loops;   // Found while the robots drive.
   NodeId looked_for = 0;          // Nodes before were looked for in submaps.
   std::size_t settled_loops = 0;  // As many as the map has been judged by.
@@ -103,7 +104,7 @@ struct MapCorrector::State {
 
 // Looks for the nodes that are new.
 void MapCorrector::State::Look() {
-  const LoopFinder finder(options, nodes, chains);
+  const LoopFinder finder(options, nodes, chains, recent);
   loops = finder.Find(looked_for, AnsweredPoses(nodes), loops);
   looked_for = static_cast<NodeId>(nodes.size());
 }
@@ -194,7 +195,8 @@ ScanMap MapCorrector::MapAt(std::span<const UncertainPose2> map_node) const {
 
 Correction MapCorrector::Correct() const {
   const State& state = *state_;
-  const LoopFinder finder(state.options, state.nodes, state.chains);
+  RecentSurfaces recent;
+  const LoopFinder finder(state.options, state.nodes, state.chains, recent);
   std::vector<FoundLoop> found = finder.Find(0, AnsweredPoses(state.nodes), state.loops);
   std::optional<SolvedGraph> solved;
   for (int round = 0; round < kRounds; ++round) {

@@ -172,9 +172,9 @@ ScanChains::Attachment ScanChains::Matched(const MatchResult& match,
 // The last submap but one ends with the node before and began at least eight turns ago.
 ScanChains::Attachment ScanChains::Attach(NodeId id,
                                           std::span<const ScanNode> nodes,
-                                          const Chain& chain) const {
+                                          Chain& chain) const {
   const ScanNode& node = nodes[id];
-  const SurfaceMap& reference = chain.last_surfaces.front();
+  SubmapSurfaces& reference = chain.last_surfaces.front();
   const UncertainPose2 chain_last{.T_a_b = T_chain_node_[chain.nodes.back()]};
   UncertainPose2 predicted = AtLeast(chain_last * node.odometry, kLeastSigma_m, kLeastSigma_rad);
   if (node.T_last_node) predicted.T_a_b = chain_last.T_a_b * *node.T_last_node;
@@ -182,10 +182,10 @@ ScanChains::Attachment ScanChains::Attach(NodeId id,
   MatchPrior prior{.predicted = predicted,
                    .start = predicted.T_a_b,
                    .start_error = {.translation_m = locator_.search_error_m}};
-  MatchResult match = matcher_.Match(reference, points, prior);
+  MatchResult match = matcher_.Match(reference.surfaces(), points, prior);
   if (!IsRecognised(match, kMinOverlapWithLast)) {
     prior.start_error = kStartError;
-    match = matcher_.Match(reference, points, prior);
+    match = matcher_.Match(reference.surfaces(), points, prior);
   }
   if (!IsFound(match)) {
     predicted = AtLeast(predicted, kSlipSigma_m, kSlipSigma_rad);
@@ -205,22 +205,24 @@ void ScanChains::InsertIntoSubmaps(NodeId id, std::span<const ScanPoint> points,
     chain.last_surfaces.emplace_back(map_options_.surfaces);
     if (chain.last_surfaces.size() > 2) chain.last_surfaces.pop_front();
   }
-  for (SurfaceMap& surfaces : chain.last_surfaces) Insert(id, points, surfaces);
+  for (SubmapSurfaces& submap : chain.last_surfaces) Insert(id, points, submap);
   for (const std::size_t submap : std::span(chain.submaps).last(chain.last_surfaces.size())) {
     submaps_[submap].nodes.push_back(id);
   }
 }
 
-void ScanChains::Insert(NodeId id, std::span<const ScanPoint> points, SurfaceMap& surfaces) const {
+void ScanChains::Insert(NodeId id,
+                        std::span<const ScanPoint> points,
+                        SubmapSurfaces& submap) const {
   const UncertainPose2 chain_node{.T_a_b = T_chain_node_[id]};
-  for (const MapPoint& point : PointsToStore(surfaces, points, chain_node, map_options_)) {
-    surfaces.Insert(point, id);
+  for (const MapPoint& point : PointsToStore(submap.surfaces(), points, chain_node, map_options_)) {
+    submap.Insert(point, id);
   }
 }
 
-SurfaceMap ScanChains::SurfacesOf(const RigidSubmap& submap,
-                                  std::span<const ScanNode> nodes) const {
-  SurfaceMap surfaces(map_options_.surfaces);
+SubmapSurfaces ScanChains::SurfacesOf(const RigidSubmap& submap,
+                                      std::span<const ScanNode> nodes) const {
+  SubmapSurfaces surfaces(map_options_.surfaces);
   for (const NodeId id : submap.nodes) Insert(id, ToPoints(nodes[id].scan), surfaces);
   return surfaces;
 }

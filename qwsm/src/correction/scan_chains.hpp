@@ -12,9 +12,9 @@
 #include "qwsm/correction/scan_node.hpp"
 #include "qwsm/graph/pose_graph.hpp"
 #include "qwsm/mapping/mapper_options.hpp"
-#include "qwsm/matching/surface_map.hpp"
 #include "qwsm/matching/weighted_scan_matcher.hpp"
 #include "scan_turns.hpp"
+#include "submap_surfaces.hpp"
 
 namespace qwsm {
 
@@ -66,10 +66,9 @@ class ScanChains {
     return PointsAround(node, T_chain_node_[node], nodes);
   }
 
-  /// The surfaces that the scans of a submap show, in the frame of the chain. They are not kept:
-  /// of a long drive they would be several times the map.
+  /// The surfaces that the scans of a submap show, in the frame of the chain.
   /// @param nodes all that were added
-  SurfaceMap SurfacesOf(const RigidSubmap& submap, std::span<const ScanNode> nodes) const;
+  SubmapSurfaces SurfacesOf(const RigidSubmap& submap, std::span<const ScanNode> nodes) const;
 
   /// The pose of a node as seen from an earlier one of the same robot, as uncertain as the edges
   /// between them tell.
@@ -80,9 +79,9 @@ class ScanChains {
   struct Chain {
     std::vector<NodeId> nodes;
     ScanTurns turns;
-    std::vector<PoseEdge> edges;           // To each node from the one before.
-    std::vector<std::size_t> submaps;      // Indices of its own.
-    std::deque<SurfaceMap> last_surfaces;  // Of the last two submaps, which still grow.
+    std::vector<PoseEdge> edges;               // To each node from the one before.
+    std::vector<std::size_t> submaps;          // Indices of its own.
+    std::deque<SubmapSurfaces> last_surfaces;  // Of the last two submaps, which still grow.
   };
 
   // A node in its chain, and where that is known from, along the axes of the chain.
@@ -94,7 +93,7 @@ class ScanChains {
 
   void Begin(const ScanNode& node, Chain& chain);
   Attachment Hang(const ScanNode& node, const Chain& chain) const;
-  Attachment Attach(NodeId id, std::span<const ScanNode> nodes, const Chain& chain) const;
+  Attachment Attach(NodeId id, std::span<const ScanNode> nodes, Chain& chain) const;
   Attachment Matched(const MatchResult& match,
                      const UncertainPose2& predicted,
                      const Eigen::Matrix3d& growth) const;
@@ -103,7 +102,7 @@ class ScanChains {
                                       const Pose2& T_chain_robot,
                                       std::span<const ScanNode> nodes) const;
   void InsertIntoSubmaps(NodeId id, std::span<const ScanPoint> points, Chain& chain);
-  void Insert(NodeId id, std::span<const ScanPoint> points, SurfaceMap& surfaces) const;
+  void Insert(NodeId id, std::span<const ScanPoint> points, SubmapSurfaces& submap) const;
 
   ScanMapOptions map_options_;
   ScanLocatorOptions locator_;

@@ -13,7 +13,7 @@ constexpr double kMatchReach_rad = 0.04;
 constexpr double kMaxSearchWindow_m = 6.0;
 constexpr double kMaxReducedChi2 = 2.5;
 
-std::optional<FoundPose> Search(const SurfaceMap& surfaces,
+std::optional<FoundPose> Search(SubmapSurfaces& submap,
                                 std::span<const ScanPoint> points,
                                 const UncertainPose2& predicted,
                                 const ScanLocatorOptions& options) {
@@ -24,12 +24,12 @@ std::optional<FoundPose> Search(const SurfaceMap& surfaces,
           std::min(options.max_window_rad, options.window_sigmas * predicted.SigmaTheta_rad())};
   const std::vector<Eigen::Vector2d> thinned =
       PositionsOf(ThinOut(points, options.search_spacing_m));
-  return SearchPose(surfaces.likelihood(), thinned, window, options.search);
+  return SearchPose(submap.likelihood(), thinned, window, options.search);
 }
 
 }  // namespace
 
-MatchResult LocateAmong(const SurfaceMap& surfaces,
+MatchResult LocateAmong(SubmapSurfaces& submap,
                         std::span<const ScanPoint> points,
                         const UncertainPose2& predicted,
                         const ScanLocatorOptions& options,
@@ -39,12 +39,12 @@ MatchResult LocateAmong(const SurfaceMap& surfaces,
                    .start_error = {.translation_m = predicted.SigmaXY_m(),
                                    .rotation_rad = predicted.SigmaTheta_rad()}};
   if (predicted.SigmaXY_m() > kMatchReach_m || predicted.SigmaTheta_rad() > kMatchReach_rad) {
-    if (const auto found = Search(surfaces, points, predicted, options)) {
+    if (const auto found = Search(submap, points, predicted, options)) {
       prior.start = found->T_map_robot;
       prior.start_error = {.translation_m = options.search_error_m};
     }
   }
-  return matcher.Match(surfaces, points, prior);
+  return matcher.Match(submap.surfaces(), points, prior);
 }
 
 bool IsRecognised(const MatchResult& match, double min_overlap) {

@@ -5,13 +5,13 @@
 #include <span>
 
 #include "qwsm/mapping/scan_locator.hpp"
-#include "qwsm/matching/surface_map.hpp"
+#include "submap_surfaces.hpp"
 
 namespace qwsm {
 
-/// Finds a scan among surfaces: searches as far as the prediction is uncertain, if it is too
+/// Finds a scan in a submap: searches as far as the prediction is uncertain, if it is too
 /// uncertain for a match to start from it, then matches.
-MatchResult LocateAmong(const SurfaceMap& surfaces,
+MatchResult LocateAmong(SubmapSurfaces& submap,
                         std::span<const ScanPoint> points,
                         const UncertainPose2& predicted,
                         const ScanLocatorOptions& options,

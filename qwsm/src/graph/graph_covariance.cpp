@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <vector>
 
 #include "normal_matrix.hpp"
 
@@ -12,37 +13,46 @@ namespace {
 
 using Sparse = NormalMatrix::Sparse;
 
-// An entry of a symmetric matrix that is kept as a lower triangle. @pre it is in the pattern
-double StoredEntry(const Sparse& lower, Eigen::Index row, Eigen::Index column) {
-  if (row < column) std::swap(row, column);
-  const auto* const begin = lower.innerIndexPtr();
-  const auto* const entry = std::lower_bound(
-      begin + lower.outerIndexPtr()[column], begin + lower.outerIndexPtr()[column + 1], row);
-  return lower.valuePtr()[entry - begin];
-}
-
-// The entries of (L D L^T)^-1 within the pattern of L, with its diagonal: Takahashi, Fagan & Chen
-// (1973), Z = D^-1 L^-1 + (I - L^T) Z, from the last column to the first.
-Sparse InverseOnPattern(const Sparse& L, const Eigen::VectorXd& D) {
-  Sparse identity(L.rows(), L.cols());
-  identity.setIdentity();
-  Sparse Z = L.triangularView<Eigen::StrictlyLower>();
-  Z = Z + identity;
-  Sparse factor = Z;
-  for (Eigen::Index j = L.cols() - 1; j >= 0; --j) {
-    const Eigen::Index first = Z.outerIndexPtr()[j];
-    const Eigen::Index end = Z.outerIndexPtr()[j + 1];
-    for (Eigen::Index entry = end - 1; entry >= first; --entry) {
-      const Eigen::Index i = Z.innerIndexPtr()[entry];
-      double sum = i == j ? 1.0 / D(j) : 0.0;
-      for (Eigen::Index k = first + 1; k < end; ++k) {
-        sum -= factor.valuePtr()[k] * StoredEntry(Z, i, Z.innerIndexPtr()[k]);
-      }
-      Z.valuePtr()[entry] = sum;
-    }
+// The entries of (L D L^T)^-1 on the diagonal and within the pattern of L: Takahashi, Fagan & Chen
+// (1973), Z = D^-1 L^-1 + (I - L^T) Z, from the last column to the first. Each column of Z takes
+// the place of that of L, which no other column needs.
+class InverseOnPattern {
+ public:
+  InverseOnPattern(const Sparse& L, const Eigen::VectorXd& D)
+      : diagonal_(D.cwiseInverse()), below_(L.triangularView<Eigen::StrictlyLower>()) {
+    for (Eigen::Index j = L.cols() - 1; j >= 0; --j) SolveColumn(j);
   }
-  return Z;
-}
+
+  // @pre the entry is in the pattern
+  double At(Eigen::Index row, Eigen::Index column) const {
+    if (row == column) return diagonal_(row);
+    const auto [first, last] = std::minmax(row, column);
+    const auto* const begin = below_.innerIndexPtr();
+    const auto* const entry = std::lower_bound(
+        begin + below_.outerIndexPtr()[first], begin + below_.outerIndexPtr()[first + 1], last);
+    return below_.valuePtr()[entry - begin];
+  }
+
+ private:
+  void SolveColumn(Eigen::Index j) {
+    const Eigen::Index first = below_.outerIndexPtr()[j];
+    const Eigen::Index end = below_.outerIndexPtr()[j + 1];
+    const std::vector<double> of_L(below_.valuePtr() + first, below_.valuePtr() + end);
+    const auto sum_of_row = [&](Eigen::Index i, double sum) {
+      for (Eigen::Index k = first; k < end; ++k) {
+        sum -= of_L[static_cast<std::size_t>(k - first)] * At(i, below_.innerIndexPtr()[k]);
+      }
+      return sum;
+    };
+    for (Eigen::Index entry = end - 1; entry >= first; --entry) {
+      below_.valuePtr()[entry] = sum_of_row(below_.innerIndexPtr()[entry], 0.0);
+    }
+    diagonal_(j) = sum_of_row(j, diagonal_(j));
+  }
+
+  Eigen::VectorXd diagonal_;
+  Sparse below_;
+};
 
 }  // namespace
 
@@ -72,14 +82,14 @@ GraphCovariance& GraphCovariance::operator=(GraphCovariance&&) noexcept = defaul
 
 std::vector<Eigen::Matrix3d> GraphCovariance::Marginals() const {
   const NormalMatrix::Factor& factor = factor_->equations.factor();
-  const Sparse Z = InverseOnPattern(factor.matrixL().nestedExpression(), factor.vectorD());
+  const InverseOnPattern Z(factor.matrixL().nestedExpression(), factor.vectorD());
   const auto& order = factor.permutationP().indices();
   std::vector<Eigen::Matrix3d> marginals(T_map_node_.size(), Eigen::Matrix3d::Zero());
   for (NodeId node = 1; node < T_map_node_.size(); ++node) {
     const Eigen::Index row = NormalMatrix::RowOf(node);
     for (Eigen::Index r = 0; r < 3; ++r) {
       for (Eigen::Index c = 0; c < 3; ++c) {
-        marginals[node](r, c) = StoredEntry(Z, order(row + r), order(row + c));
+        marginals[node](r, c) = Z.At(order(row + r), order(row + c));
       }
     }
   }

@@ -37,6 +37,12 @@ double SamplingOfArea(double minor_m2, double major_m2, double count) {
 SurfaceMap::SurfaceMap(const SurfaceMapOptions& options)
     : options_(options), quadtree_(options.quadtree), likelihood_(options.likelihood) {}
 
+SurfaceMap SurfaceMap::ForMatching(const SurfaceMapOptions& options) {
+  SurfaceMap surfaces(options);
+  surfaces.likelihood_.reset();
+  return surfaces;
+}
+
 void SurfaceMap::Neighborhood::Add(const Eigen::Vector2d& offset_m) {
   const Eigen::Vector2f d = offset_m.cast<float>();
   sum_x += d.x();
@@ -62,7 +68,7 @@ bool SurfaceMap::Insert(const MapPoint& point, ScanId scan) {
     own.Add(offset_m);
     neighborhoods_[other].Add(-offset_m);
   });
-  likelihood_.Insert(point.p_map_m, point.drift_m2);
+  if (likelihood_) likelihood_->Insert(point.p_map_m, point.drift_m2);
   return true;
 }
 
@@ -78,7 +84,6 @@ void SurfaceMap::ForEachNeighbor(PointId id, Visit visit) const {
 
 void SurfaceMap::RemoveScan(ScanId scan) {
   if (quadtree_.RemoveScan(scan) == 0) return;
-  likelihood_.Clear();
   for (PointId id = 0; id < quadtree_.id_end(); ++id) {
     if (!quadtree_.Contains(id)) continue;
     Neighborhood& own = neighborhoods_[id];
@@ -87,12 +92,21 @@ void SurfaceMap::RemoveScan(ScanId scan) {
            .spacing_m = own.spacing_m,
            .drift_m2 = own.drift_m2};
     ForEachNeighbor(id, [&](PointId, const Eigen::Vector2d& offset_m) { own.Add(offset_m); });
-    likelihood_.Insert(quadtree_.Position(id), static_cast<double>(own.drift_m2));
   }
+  if (likelihood_) likelihood_ = MakeLikelihood();
+}
+
+LikelihoodPyramid SurfaceMap::MakeLikelihood() const {
+  LikelihoodPyramid likelihood(options_.likelihood);
+  for (PointId id = 0; id < quadtree_.id_end(); ++id) {
+    if (quadtree_.Contains(id)) likelihood.Insert(quadtree_.Position(id), Drift_m2(id));
+  }
+  return likelihood;
 }
 
 std::size_t SurfaceMap::bytes() const {
-  return quadtree_.Statistics().bytes + likelihood_.bytes() + neighborhoods_.bytes();
+  return quadtree_.Statistics().bytes + (likelihood_ ? likelihood_->bytes() : 0) +
+         neighborhoods_.bytes();
 }
 
 // A scan puts about so many points into a neighbourhood as its beams are spaced.

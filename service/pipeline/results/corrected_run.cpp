@@ -61,6 +61,7 @@ LoopCounts CountLoops(const CorrectedRun& run) {
 
 CorrectedRun CorrectAtTheEnd(SelfCorrectingMapper& mapper) {
   Correction correction = mapper.Correct();
+  mapper.ForgetPoints();
   ScanMap corrected = mapper.MapAt(correction.map_node);
   return {.correction = std::move(correction),
           .map = std::move(corrected),

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/run/parallel.hpp"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
@@ -36,6 +38,8 @@ void RunInParallel(std::span<const std::function<void()>> tasks) {
     if (failure) std::rethrow_exception(failure);
   }
 }
+
+void ShareMemoryAmongThreads() { mallopt(M_ARENA_MAX, 1); }
 
 std::function<void()> BeginOnAnotherThread(std::function<void()> work) {
   auto done = std::make_shared<std::future<void>>(std::async(std::launch::async, std::move(work)));

@@ -11,6 +11,11 @@ namespace qwsm::pipeline {
 /// some fail the others are done all the same, and what the first of them threw is thrown.
 void RunInParallel(std::span<const std::function<void()>> tasks);
 
+/// Lets all threads of the program take memory from one place, to be called before there are any:
+/// what is made on one thread and freed on another can then be used again by both. Costs time where
+/// many threads take memory at once.
+void ShareMemoryAmongThreads();
+
 /// Begins to do some work on a thread of its own. @returns what waits for its end, and throws what
 /// the work threw.
 std::function<void()> BeginOnAnotherThread(std::function<void()> work);

@@ -38,6 +38,9 @@ class SelfCorrectingMapper {
 
   /// Corrects path and map once more, in the end.
   Correction Correct();
+  /// Forgets the points of mapper().map(), when no scan follows: two maps would take twice the
+  /// memory. Its scans stay as they were answered.
+  void ForgetPoints() { mapper_.ForgetPoints(); }
   /// The relevant scans, inserted at these poses. @param map_node as Correct() gives them.
   ScanMap MapAt(std::span<const UncertainPose2> map_node) { return corrector_.MapAt(map_node); }
 

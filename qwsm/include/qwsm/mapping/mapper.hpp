@@ -25,6 +25,10 @@ class Mapper {
   /// @param map_robot pose at the last scan in the corrected map.
   void GoOnIn(ScanMap corrected, const UncertainPose2& map_robot);
 
+  /// Forgets the points of the map, which are most of its memory, but not its scans: for when no
+  /// scan follows.
+  void ForgetPoints() { map_.ForgetPoints(); }
+
   const ScanMap& map() const { return map_; }
   /// The pose at the last scan.
   const UncertainPose2& map_robot() const { return tracker_.map_robot(); }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "qwsm/search/detail/paged_pool.hpp"
 #include "qwsm/search/likelihood_pyramid.hpp"
@@ -84,6 +85,9 @@ inline double UniformVariance(double length_m) { return length_m * length_m / 12
 class SurfaceMap {
  public:
   explicit SurfaceMap(const SurfaceMapOptions& options = {});
+  /// Surfaces that are matched with and hardly ever searched: they keep no likelihood, which takes
+  /// as long to insert into as all the rest.
+  static SurfaceMap ForMatching(const SurfaceMapOptions& options);
 
   /// Stores a point. Complexity: logarithmic, plus linear in the points of the neighbourhood.
   /// @return false if the quadtree refused it, being not finite or too far away.
@@ -93,7 +97,10 @@ class SurfaceMap {
 
   bool empty() const { return quadtree_.empty(); }
   const PointQuadtree& quadtree() const { return quadtree_; }
-  const LikelihoodPyramid& likelihood() const { return likelihood_; }
+  /// @pre it is kept
+  const LikelihoodPyramid& likelihood() const { return *likelihood_; }
+  /// The likelihood of the points as they are. Complexity: linear in the map.
+  LikelihoodPyramid MakeLikelihood() const;
   /// Bytes of all memory held. Complexity: linear in the nodes of the quadtree.
   std::size_t bytes() const;
   /// Returns the surface around a stored point. @pre quadtree().Contains(id), here and below.
@@ -144,7 +151,7 @@ class SurfaceMap {
 
   SurfaceMapOptions options_;
   PointQuadtree quadtree_;
-  LikelihoodPyramid likelihood_;
+  std::optional<LikelihoodPyramid> likelihood_;
   PagedPool<Neighborhood, 10> neighborhoods_;  // By PointId.
 };
 

@@ -65,8 +65,6 @@ class LikelihoodPyramid {
   /// Raises the cells around a point. @pre |coordinate| < 2^30 cells, which is farther than
   /// kFarthestCoordinate_m and whatever is seen from there.
   void Insert(const Eigen::Vector2d& p_m, double drift_m2);
-  /// Forgets everything.
-  void Clear() { *this = LikelihoodPyramid(options_); }
 
   /// Index of the level-0 cell that holds a coordinate.
   int CellIndex(double coordinate_m) const {

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "submap_surfaces.hpp"
+
+#include <algorithm>
+
+namespace qwsm {
+namespace {
+
+constexpr std::size_t kMostKept = 16;
+
+}  // namespace
+
+const LikelihoodPyramid& SubmapSurfaces::likelihood() {
+  if (!likelihood_) likelihood_ = surfaces_.MakeLikelihood();
+  return *likelihood_;
+}
+
+SubmapSurfaces& RecentSurfaces::Of(std::size_t submap,
+                                   const std::function<SubmapSurfaces()>& make) {
+  const auto known =
+      std::ranges::find(kept_, submap, &std::pair<std::size_t, SubmapSurfaces>::first);
+  if (known != kept_.end()) {
+    kept_.splice(kept_.begin(), kept_, known);
+  } else {
+    if (kept_.size() == kMostKept) kept_.pop_back();
+    kept_.emplace_front(submap, make());
+  }
+  return kept_.front().second;
+}
+
+}  // namespace qwsm
