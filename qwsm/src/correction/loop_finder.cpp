@@ -36,11 +36,11 @@ Eigen::Matrix3d InformationWith(const Eigen::Matrix3d& of_match, const Eigen::Ma
 
 std::vector<FoundLoop> LoopFinder::Find(NodeId first,
                                         const PoseEstimate& estimate,
-                                        std::span<const FoundLoop> last) const {
+                                        const LastSearch& last) const {
   ReferencePoses references(estimate, chains_);
   std::vector<Candidate> candidates = NearPasses(first, estimate, references);
   std::vector<FoundLoop> found = RecogniseAll(candidates, last);
-  const std::vector<FoundLoop> settled = AddThoseNear(first, last, found);
+  const std::vector<FoundLoop> settled = AddThoseNear(first, last.found, found);
   const auto order = [this](const FoundLoop& f) {
     return std::tuple(chains_.RobotOf(f.loop.edge.to), f.loop.edge.to, f.submap);
   };
@@ -71,18 +71,22 @@ std::vector<FoundLoop> LoopFinder::AddThoseNear(NodeId first,
 
 // Submap by submap, since the surfaces of few are kept.
 std::vector<FoundLoop> LoopFinder::RecogniseAll(std::span<Candidate> candidates,
-                                                std::span<const FoundLoop> last) const {
+                                                const LastSearch& last) const {
   std::ranges::sort(candidates, {}, [](const Candidate& c) { return std::pair(c.submap, c.node); });
   std::vector<FoundLoop> found;
   for (const Candidate& candidate : candidates) {
-    if (const FoundLoop* known = AcceptedAmong(last, candidate)) {
+    const FoundLoop* known = LoopOf(candidate, last.found);
+    const bool is_settled = candidate.node < last.end;
+    if (known != nullptr && (is_settled || known->loop.verdict == LoopVerdict::kAccepted)) {
       found.push_back(*known);
       found.back().loop.verdict = LoopVerdict::kUnconfirmed;
       continue;
     }
-    SubmapSurfaces& surfaces = recent_.Of(candidate.submap, [&] {
-      return chains_.SurfacesOf(chains_.submaps()[candidate.submap], nodes_);
-    });
+    if (is_settled) continue;
+    const RigidSubmap& submap = chains_.submaps()[candidate.submap];
+    SubmapSurfaces& surfaces =
+        recent_.Of({.submap = candidate.submap, .scans = submap.nodes.size()},
+                   [&] { return chains_.SurfacesOf(submap, nodes_); });
     if (const auto loop = Recognise(candidate, surfaces)) {
       found.push_back({*loop, candidate.submap});
     }
@@ -90,8 +94,8 @@ std::vector<FoundLoop> LoopFinder::RecogniseAll(std::span<Candidate> candidates,
   return found;
 }
 
-const FoundLoop* LoopFinder::AcceptedAmong(std::span<const FoundLoop> loops,
-                                           const Candidate& candidate) const {
+const FoundLoop* LoopFinder::LoopOf(const Candidate& candidate,
+                                    std::span<const FoundLoop> loops) const {
   const auto key = [this](NodeId to, std::size_t submap) {
     return std::tuple(chains_.RobotOf(to), to, submap);
   };
@@ -102,7 +106,7 @@ const FoundLoop* LoopFinder::AcceptedAmong(std::span<const FoundLoop> loops,
   const bool is_known = found != loops.end() && found->submap == candidate.submap &&
                         found->loop.edge.to == candidate.node &&
                         found->loop.edge.from == chains_.submaps()[candidate.submap].reference();
-  return is_known && found->loop.verdict == LoopVerdict::kAccepted ? &*found : nullptr;
+  return is_known ? &*found : nullptr;
 }
 
 // Of each pass, which is a row of submaps that came near, the nearest one.

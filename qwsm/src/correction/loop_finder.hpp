@@ -13,6 +13,13 @@
 
 namespace qwsm {
 
+/// What an earlier search came to.
+struct LastSearch {
+  std::span<const FoundLoop> found;  ///< Those that were accepted are not looked for again.
+  /// Scans before were looked for from the same poses: nothing else will be found.
+  NodeId end = 0;
+};
+
 /// Recognises places: matches each scan with the submaps of earlier passes that it may have come
 /// near to.
 class LoopFinder {
@@ -30,11 +37,10 @@ class LoopFinder {
 
   /// The loops that are found from there, in the order of robots, scans, submaps. Their verdicts
   /// are kAccepted where loops of scans near by agree, else kUnconfirmed.
-  /// @param first scan to look for: loops of those before are taken over from the last time.
-  /// @param last found before; those that were accepted are not looked for again.
+  /// @param first scan to look for: loops of those before are taken over from the last search.
   std::vector<FoundLoop> Find(NodeId first,
                               const PoseEstimate& estimate,
-                              std::span<const FoundLoop> last) const;
+                              const LastSearch& last) const;
 
  private:
   // A scan that may be recognised in a submap.
@@ -52,13 +58,12 @@ class LoopFinder {
                                    const RigidSubmap& submap,
                                    const PoseEstimate& estimate) const;
   std::vector<Candidate> NearestOfEachPass(std::span<const Candidate> near) const;
-  const FoundLoop* AcceptedAmong(std::span<const FoundLoop> loops,
-                                 const Candidate& candidate) const;
+  const FoundLoop* LoopOf(const Candidate& candidate, std::span<const FoundLoop> loops) const;
   std::vector<FoundLoop> AddThoseNear(NodeId first,
                                       std::span<const FoundLoop> last,
                                       std::vector<FoundLoop>& found) const;
   std::vector<FoundLoop> RecogniseAll(std::span<Candidate> candidates,
-                                      std::span<const FoundLoop> last) const;
+                                      const LastSearch& last) const;
   std::optional<Loop> Recognise(const Candidate& candidate, SubmapSurfaces& surfaces) const;
   Eigen::Matrix3d ErrorWithin(const RigidSubmap& submap) const;
 

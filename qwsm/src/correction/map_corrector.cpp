@@ -87,6 +87,7 @@ struct MapCorrector::State {
   std::vector<UncertainPose2> PosesIn(const SolvedGraph& solved,
                                       std::span<const FoundLoop> found) const;
   bool HasManyMoreLoops() const;
+  NodeId EndOfSettled() const;
   Correction Unchanged(std::vector<FoundLoop> found) const;
   Correction Refused(std::vector<FoundLoop> found) const;
   Contradiction ContradictionAt(const std::vector<Pose2>& T_map_node) const {
@@ -99,13 +100,14 @@ struct MapCorrector::State {
   RecentSurfaces recent;
   std::vector<FoundLoop> loops;   // Found while the robots drive.
   NodeId looked_for = 0;          // Nodes before were looked for in submaps.
+  bool has_moved = false;         // Whether nodes are elsewhere than they were looked for.
   std::size_t settled_loops = 0;  // As many as the map has been judged by.
 };
 
 // Looks for the nodes that are new.
 void MapCorrector::State::Look() {
   const LoopFinder finder(options, nodes, chains, recent);
-  loops = finder.Find(looked_for, AnsweredPoses(nodes), loops);
+  loops = finder.Find(looked_for, AnsweredPoses(nodes), {.found = loops});
   looked_for = static_cast<NodeId>(nodes.size());
 }
 
@@ -113,6 +115,12 @@ void MapCorrector::State::Look() {
 bool MapCorrector::State::HasManyMoreLoops() const {
   const auto accepted = static_cast<double>(CountAccepted(loops));
   return accepted >= kMoreLoops * static_cast<double>(settled_loops) + 1.0;
+}
+
+// Nodes before were looked for in the end's submaps, from the same poses. Those of other robots may
+// have grown since.
+NodeId MapCorrector::State::EndOfSettled() const {
+  return has_moved || chains.robots() > 1 ? 0 : looked_for;
 }
 
 std::optional<SolvedGraph> MapCorrector::State::Solve(std::vector<FoundLoop>& found) const {
@@ -182,6 +190,7 @@ void MapCorrector::Adopt(std::span<const UncertainPose2> map_node) {
     state_->nodes[node].map_robot = map_node[node];
   }
   state_->settled_loops = CountAccepted(state_->loops);
+  state_->has_moved = true;
 }
 
 ScanMap MapCorrector::MapAt(std::span<const UncertainPose2> map_node) const {
@@ -197,10 +206,11 @@ Correction MapCorrector::Correct() const {
   const State& state = *state_;
   RecentSurfaces recent;
   const LoopFinder finder(state.options, state.nodes, state.chains, recent);
-  std::vector<FoundLoop> found = finder.Find(0, AnsweredPoses(state.nodes), state.loops);
+  const LastSearch search{.found = state.loops, .end = state.EndOfSettled()};
+  std::vector<FoundLoop> found = finder.Find(0, AnsweredPoses(state.nodes), search);
   std::optional<SolvedGraph> solved;
   for (int round = 0; round < kRounds; ++round) {
-    if (round > 0) found = finder.Find(0, *solved->poses, found);
+    if (round > 0) found = finder.Find(0, *solved->poses, {.found = found});
     if (CountAccepted(found) == 0) return state.Unchanged(std::move(found));
     solved = state.Solve(found);
     if (!solved) return state.Refused(std::move(found));

@@ -50,6 +50,8 @@ class ScanChains {
   std::span<const PoseEdge> ties() const { return ties_; }
   /// Submaps of the chains, which overlap by half.
   std::span<const RigidSubmap> submaps() const { return submaps_; }
+  /// How many robots there are.
+  std::size_t robots() const { return chains_.size(); }
   /// Whose chain a node belongs to.
   std::size_t RobotOf(NodeId node) const { return robot_[node]; }
   /// How many turns of its robot's lasers a node is behind an earlier one; none if they are two

@@ -16,10 +16,8 @@ const LikelihoodPyramid& SubmapSurfaces::likelihood() {
   return *likelihood_;
 }
 
-SubmapSurfaces& RecentSurfaces::Of(std::size_t submap,
-                                   const std::function<SubmapSurfaces()>& make) {
-  const auto known =
-      std::ranges::find(kept_, submap, &std::pair<std::size_t, SubmapSurfaces>::first);
+SubmapSurfaces& RecentSurfaces::Of(const Key& submap, const std::function<SubmapSurfaces()>& make) {
+  const auto known = std::ranges::find(kept_, submap, &std::pair<Key, SubmapSurfaces>::first);
   if (known != kept_.end()) {
     kept_.splice(kept_.begin(), kept_, known);
   } else {

@@ -36,12 +36,20 @@ class SubmapSurfaces {
 /// while. Those of all submaps of a long drive would be several times the map.
 class RecentSurfaces {
  public:
+  /// A submap, which may still grow, as it is.
+  struct Key {
+    std::size_t submap = 0;
+    std::size_t scans = 0;
+
+    friend bool operator==(const Key&, const Key&) = default;
+  };
+
   /// @return the surfaces of a submap, valid until the next call.
   /// @param make makes them, where they are not kept.
-  SubmapSurfaces& Of(std::size_t submap, const std::function<SubmapSurfaces()>& make);
+  SubmapSurfaces& Of(const Key& submap, const std::function<SubmapSurfaces()>& make);
 
  private:
-  std::list<std::pair<std::size_t, SubmapSurfaces>> kept_;  // The last one that was used first.
+  std::list<std::pair<Key, SubmapSurfaces>> kept_;  // The last one that was used first.
 };
 
 }  // namespace qwsm
