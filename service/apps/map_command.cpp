@@ -149,9 +149,11 @@ ExitCode MapAll(const MapArguments& arguments,
                 pipeline::ScanSource& source,
                 const RunSession& session) {
   std::optional<SelfCorrectingMapper> correcting;
-  // Corrected maps are made on another thread, and several times larger than all else.
-  pipeline::ShareMemoryAmongThreads();
-  if (Corrects(options)) correcting.emplace(options.mapper, pipeline::BeginOnAnotherThread);
+  if (Corrects(options)) {
+    // Corrected maps, larger than all else, are made on another thread.
+    pipeline::ShareMemoryAmongThreads();
+    correcting.emplace(options.mapper, pipeline::BeginOnAnotherThread);
+  }
   Mapper incremental(options.mapper);
   pipeline::ResultsWriter results(
       session.folder(),
