@@ -22,6 +22,8 @@ namespace {
 constexpr double kTurn_rad_s = 2.0;
 constexpr double kSweep_s = 0.1;
 constexpr double kMost = 1.2;  // Times the error of scans that are taken at once.
+// It begins to slip, from one scan to the next, as it sets off.
+constexpr double kMostSlipping = 1.3;
 constexpr int kDrives = 5;
 
 using Tell = std::function<Observation(const sim::Reading&)>;
@@ -91,17 +93,17 @@ TEST(Deskew, OnTheSpotScansAreAsGoodAsThoseTakenAtOnce) {
   const double at_once_m = MeanErrorOf_m(kAtOnce, 0.0);
   const double skewed_m = MeanErrorOf_m(kSkewed, 0.0);
   EXPECT_GT(skewed_m, 2.0 * at_once_m) << "there is nothing to mend";
-  EXPECT_LT(MeanErrorOf_m(kByWheels, 0.0), 0.8 * skewed_m);
+  EXPECT_LT(MeanErrorOf_m(kByWheels, 0.0), 1.3 * at_once_m);
   EXPECT_LT(MeanErrorOf_m(kByGyro, 0.0), kMost * at_once_m);
 }
 
-// The wheels slip aside by 0.07 m in each second, which neither they nor a gyro feel.
-TEST(Deskew, InTightCirclesTheSlipOfTheWheelsIsLeft) {
+// The wheels slip aside by 0.12 m in each second, which neither they nor a gyro feel.
+TEST(Deskew, InTightCirclesTheSlipOfTheWheelsIsTakenOut) {
   std::printf("circles of 0.2 m at 0.4 m/s\n");
-  MeanErrorOf_m(kAtOnce, 0.4);
+  const double at_once_m = MeanErrorOf_m(kAtOnce, 0.4);
   const double skewed_m = MeanErrorOf_m(kSkewed, 0.4);
-  EXPECT_LT(MeanErrorOf_m(kByWheels, 0.4), 0.5 * skewed_m);
-  EXPECT_LT(MeanErrorOf_m(kByGyro, 0.4), 0.5 * skewed_m);
+  EXPECT_LT(MeanErrorOf_m(kByWheels, 0.4), 0.2 * skewed_m);
+  EXPECT_LT(MeanErrorOf_m(kByGyro, 0.4), kMostSlipping * at_once_m);
 }
 
 }  // namespace

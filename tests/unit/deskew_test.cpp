@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <random>
@@ -27,8 +28,22 @@ test::World Room() {
           .columns = {}};
 }
 
+/// Along a circle, at an even speed.
 Pose2 Part(const Pose2& motion, double share) {
-  return {share * motion.x_m, share * motion.y_m, share * motion.theta_rad};
+  constexpr int kPieces = 64;
+  const double turn_rad = motion.theta_rad / kPieces;
+  const Pose2 turned{.theta_rad = 0.5 * (kPieces - 1) * turn_rad};
+  // The pieces lie on a chord: as long as that is, they go.
+  double chord = 0.0;
+  for (int i = 0; i < kPieces; ++i) chord += std::cos((i - 0.5 * (kPieces - 1)) * turn_rad);
+  const Eigen::Vector2d piece_m = turned.Inverse() * motion.translation_m() / chord;
+  Pose2 part;
+  const double pieces = share * kPieces;
+  for (int i = 0; i < pieces; ++i) {
+    const double rest = std::min(1.0, pieces - i);
+    part = part * Pose2{rest * piece_m.x(), rest * piece_m.y(), rest * turn_rad};
+  }
+  return part;
 }
 
 /// What a laser reads that moves while its beams go round.
@@ -85,6 +100,29 @@ TEST(Deskewed, WidensTheAngleBetweenBeamsByTheTurn) {
   const LaserScan still = Deskewed(scan, {0.0, 0.0, 0.2});
   EXPECT_NEAR(still.geometry.bearing_step_rad, 0.12F, 1e-6F);
   for (const float range_m : still.ranges_m) EXPECT_NEAR(range_m, 2.0F, 1e-5F);
+}
+
+// Of a wall along the way every reading is far from the next one.
+TEST(Deskewed, KeepsAWallStraightThatIsSeenAtAGrazingAngle) {
+  LaserScan scan{.stamp = {}, .geometry = {}, .ranges_m = std::vector<float>(21)};
+  scan.geometry.first_bearing_rad = 0.1F;
+  scan.geometry.bearing_step_rad = 0.0087F;
+  scan.geometry.range_max_m = 30.0F;
+  const double aside_m = 1.0;
+  const Pose2 T_first_last{0.05, 0.02, 0.0};
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const double y_m = Part(T_first_last, static_cast<double>(i) / 20.0).y_m;
+    scan.ranges_m[i] = static_cast<float>((aside_m - y_m) / std::sin(scan.geometry.Bearing(i)));
+  }
+  const LaserScan still = Deskewed(scan, T_first_last);
+  int hits = 0;
+  for (std::size_t i = 1; i + 1 < still.size(); ++i) {
+    if (StateOf(still.ranges_m[i], still.geometry) != BeamState::kHit) continue;
+    const double range_m = static_cast<double>(still.ranges_m[i]);
+    EXPECT_NEAR(range_m * std::sin(still.geometry.Bearing(i)), aside_m, 0.002) << i;
+    ++hits;
+  }
+  EXPECT_GE(hits, 17);
 }
 
 TEST(Deskewed, KeepsMissesWithTheirBeams) {

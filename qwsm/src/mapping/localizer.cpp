@@ -26,9 +26,13 @@ Localizer::Localizer(const MapperOptions& options,
 }
 
 MappingStep Localizer::Process(const Observation& observation) {
-  const std::vector<ScanPoint> points = ToPoints(observation.scan);
-  if (local_) return Search(observation, points);
-  const MappingStep step = tracker_.Track(map_, observation, points);
+  if (local_) return Search(observation, ToPoints(observation.scan));
+  const Observation still{.scan = slip_.Mended(observation.scan),
+                          .T_odom_robot = observation.T_odom_robot,
+                          .gyro_rad = observation.gyro_rad};
+  const std::vector<ScanPoint> points = ToPoints(still.scan);
+  const MappingStep step = tracker_.Track(map_, still, points);
+  slip_.Learn(still, step);
   Extend(step);
   if (watch_.Look(map_, points, step) == PlaceDoubt::kLost) Lose();
   return step;
@@ -70,6 +74,7 @@ void Localizer::Join(const ScanMap& local) {
 
 void Localizer::Lose() {
   local_.emplace(Extending(options_));
+  slip_.Interrupt();
   finder_ = PlaceFinder(options_);
 }
 

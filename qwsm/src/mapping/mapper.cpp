@@ -32,16 +32,21 @@ Mapper::Mapper(const MapperOptions& options, ScanMap map, const UncertainPose2& 
 void Mapper::GoOnIn(ScanMap corrected, const UncertainPose2& map_robot) {
   map_ = std::move(corrected);
   tracker_.FollowCorrection(map_robot);
+  slip_.Interrupt();
 }
 
 MappingStep Mapper::Process(const Observation& observation) {
-  const std::vector<ScanPoint> points = ToPoints(observation.scan);
-  const MappingStep step = tracker_.Track(map_, observation, points);
+  const Observation still{.scan = slip_.Mended(observation.scan),
+                          .T_odom_robot = observation.T_odom_robot,
+                          .gyro_rad = observation.gyro_rad};
+  const std::vector<ScanPoint> points = ToPoints(still.scan);
+  const MappingStep step = tracker_.Track(map_, still, points);
+  slip_.Learn(still, step);
   if (step.relevant) {
     // The baselines match with the last relevant scan only.
     if (options().matcher != MatcherKind::kQWsm) map_.ForgetPoints();
     // Mostly nothing moved, and the scan that extends the map is the one just taken.
-    const bool is_this = HaveSamePoints(step.relevant_scan, observation.scan);
+    const bool is_this = HaveSamePoints(step.relevant_scan, still.scan);
     map_.Insert(
         step.relevant_scan, is_this ? points : ToPoints(step.relevant_scan), step.map_relevant);
   }

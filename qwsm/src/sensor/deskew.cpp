@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 namespace qwsm {
@@ -12,6 +13,8 @@ namespace {
 
 // Neighbouring hits farther apart than this, in range, lie on two surfaces.
 constexpr double kGapBetweenSurfaces_m = 0.15;
+// Unless they go straight on: tangent of pi/8, by which a sparsely sampled wall may seem to turn.
+constexpr double kTanOfStraight = std::numbers::sqrt2 - 1.0;
 
 /// Where a reading lies, as seen from where the laser was at the first beam.
 struct MovedHit {
@@ -38,6 +41,15 @@ MovedHit MovedHitOf(const LaserScan& scan,
       .beam = static_cast<double>(beam) + off_rad / static_cast<double>(still.bearing_step_rad)};
 }
 
+// Part of a motion whose speed and turn rate stay the same: the robot goes along a circle.
+Pose2 PartOf(const Pose2& motion, double share) {
+  const double half_rad = 0.5 * motion.theta_rad;
+  const double shorter = half_rad == 0.0 ? share : std::sin(share * half_rad) / std::sin(half_rad);
+  const Pose2 turned{.theta_rad = (share - 1.0) * half_rad};
+  const Eigen::Vector2d way_m = shorter * (turned * motion.translation_m());
+  return {way_m.x(), way_m.y(), share * motion.theta_rad};
+}
+
 MovedHits MovedHitsOf(const LaserScan& scan,
                       const Pose2& T_first_last,
                       const LaserGeometry& still) {
@@ -45,10 +57,7 @@ MovedHits MovedHitsOf(const LaserScan& scan,
   for (std::size_t i = 0; i < scan.size(); ++i) {
     if (StateOf(scan.ranges_m[i], scan.geometry) != BeamState::kHit) continue;
     const double share = static_cast<double>(i) / static_cast<double>(scan.size() - 1);
-    const Pose2 T_first_now{share * T_first_last.x_m,
-                            share * T_first_last.y_m,
-                            NormalizeAngle(share * T_first_last.theta_rad)};
-    hits[i] = MovedHitOf(scan, i, T_first_now, still);
+    hits[i] = MovedHitOf(scan, i, PartOf(T_first_last, share), still);
   }
   return hits;
 }
@@ -66,18 +75,42 @@ void Keep(double beam, double range_m, LaserScan& still) {
   }
 }
 
+/// Range of the line through two hits along a beam; nothing where it does not meet the line.
+std::optional<double> RangeOfLine(const MovedHit& a,
+                                  const MovedHit& b,
+                                  const LaserScan& still,
+                                  std::size_t beam) {
+  const double bearing_rad = still.geometry.Bearing(beam);
+  const Eigen::Vector2d ray(std::cos(bearing_rad), std::sin(bearing_rad));
+  const Eigen::Vector2d line_m = b.p_m - a.p_m;
+  const double across = Cross(ray, line_m);
+  if (across == 0.0) return std::nullopt;
+  return Cross(a.p_m, line_m) / across;
+}
+
 /// Reads the surface between two neighbouring hits along the beams between them.
 void KeepBetween(const MovedHit& a, const MovedHit& b, LaserScan& still) {
   const auto [low, high] = std::minmax(a.beam, b.beam);
-  for (double beam = std::ceil(low); beam <= high; beam += 1.0) {
-    if (beam < 0.0) continue;
-    const double bearing_rad = still.geometry.Bearing(static_cast<std::size_t>(beam));
-    const Eigen::Vector2d ray(std::cos(bearing_rad), std::sin(bearing_rad));
-    const double to_a = Cross(ray, a.p_m);
-    const double to_b = Cross(ray, b.p_m);
-    const double share = to_a == to_b ? 0.0 : to_a / (to_a - to_b);
-    Keep(beam, (a.p_m + share * (b.p_m - a.p_m)).norm(), still);
+  for (double beam = std::max(0.0, std::ceil(low)); beam <= high; beam += 1.0) {
+    const auto range_m = RangeOfLine(a, b, still, static_cast<std::size_t>(beam));
+    Keep(beam, range_m.value_or(a.range_m), still);
   }
+}
+
+/// Whether three neighbouring hits lie on a line, as on a wall that is seen at a grazing angle.
+bool IsStraight(const MovedHits& hits, std::size_t middle) {
+  if (middle == 0 || middle + 1 >= hits.size()) return false;
+  if (!hits[middle - 1] || !hits[middle] || !hits[middle + 1]) return false;
+  const Eigen::Vector2d before_m = hits[middle]->p_m - hits[middle - 1]->p_m;
+  const Eigen::Vector2d after_m = hits[middle + 1]->p_m - hits[middle]->p_m;
+  return std::abs(Cross(before_m, after_m)) <= kTanOfStraight * before_m.dot(after_m);
+}
+
+/// Whether a hit and the next one lie on one surface.
+bool IsSurfaceBetween(const MovedHits& hits, std::size_t i) {
+  if (i + 1 >= hits.size() || !hits[i] || !hits[i + 1]) return false;
+  return std::abs(hits[i]->range_m - hits[i + 1]->range_m) < kGapBetweenSurfaces_m ||
+         IsStraight(hits, i) || IsStraight(hits, i + 1);
 }
 
 /// Readings that are no hits have no place: they stay with their beams where no hit came to lie.
@@ -94,20 +127,21 @@ void KeepWhatCannotMove(const LaserScan& scan, LaserScan& still) {
 
 LaserScan Deskewed(const LaserScan& scan, const Pose2& T_first_last) {
   if (scan.size() < 2 || T_first_last == Pose2{}) {
-    return {.stamp = scan.stamp, .geometry = scan.geometry, .ranges_m = scan.ranges_m};
+    return {.stamp = scan.stamp,
+            .geometry = scan.geometry,
+            .ranges_m = scan.ranges_m,
+            .deskewed_sweep = std::max(scan.sweep, scan.deskewed_sweep)};
   }
   constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
   LaserScan still{.stamp = scan.stamp,
                   .geometry = scan.geometry,
-                  .ranges_m = std::vector<float>(scan.size(), kNothing)};
+                  .ranges_m = std::vector<float>(scan.size(), kNothing),
+                  .deskewed_sweep = std::max(scan.sweep, scan.deskewed_sweep)};
   still.geometry.bearing_step_rad +=
       static_cast<float>(T_first_last.theta_rad / static_cast<double>(scan.size() - 1));
   const MovedHits hits = MovedHitsOf(scan, T_first_last, still.geometry);
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    if (!hits[i]) continue;
-    const bool goes_on = i + 1 < hits.size() && hits[i + 1] &&
-                         std::abs(hits[i]->range_m - hits[i + 1]->range_m) < kGapBetweenSurfaces_m;
-    if (goes_on) KeepBetween(*hits[i], *hits[i + 1], still);
+    if (IsSurfaceBetween(hits, i)) KeepBetween(*hits[i], *hits[i + 1], still);
   }
   for (const std::optional<MovedHit>& hit : hits) {  // Ends of surfaces: the beam next to them.
     if (!hit) continue;

@@ -57,6 +57,7 @@ void RobotSession::RunOne() {
   const std::optional<Pose2> claimed =
       tracker_.Mount(work->scan, work->T_robot_sensor_claimed, is_placed_);
   HideTeammates(*work);
+  work->scan = slip_.Mended(std::move(work->scan));
   const std::vector<ScanPoint> points = ToPoints(work->scan);
   Answer(*work, points, claimed);
 }
@@ -72,6 +73,7 @@ void RobotSession::Answer(Work& work,
   ContestedTracker::Tracked tracked = Track(work, observation, points, claimed_mounting);
   const auto answered = steady_clock::now();
   const MappingStep& step = tracked.step;
+  slip_.Learn(observation, step);
   TellNews(tracked.news);
   const SessionCounts counts = Note(work, tracked, answered - begun);
   component_.map->robots().Report(name(), step.map_robot.T_a_b.translation_m(), answered);
@@ -160,6 +162,7 @@ TeamMap::State::View RobotSession::FollowCorrections() {
   const MapVersion now = component_.map->VersionOf(*contents);
   if (std::exchange(version_, now) == now) return contents;
   watch_.BeginInAnotherMap();
+  slip_.Interrupt();
   if (!last_relevant_) return contents;
   const std::optional<ScanId> last = component_.map->Find(*last_relevant_);
   if (!last) {  // Another service has answered the robot since, elsewhere.
@@ -247,6 +250,7 @@ void RobotSession::Place() {
   if (initial_pose || !is_placed_) {
     easing_.Forget();
     watch_.BeginAnew();
+    slip_.Interrupt();
   }
   if (initial_pose) {
     TakeUp(*initial_pose);
@@ -300,6 +304,7 @@ void RobotSession::LoseIt() {
 
 void RobotSession::BeginAnewAt(const UncertainPose2& map_robot) {
   watch_.BeginInAnotherMap();
+  slip_.Interrupt();
   version_ = component_.map->version();
   last_relevant_.reset();
   nodes_ = {};

@@ -11,6 +11,7 @@
 
 #include "qwsm/correction/node_maker.hpp"
 #include "qwsm/mapping/place_watch.hpp"
+#include "qwsm/mapping/slip_estimator.hpp"
 #include "service/team/atlas/map_merger.hpp"
 #include "service/team/atlas/team_atlas.hpp"
 #include "service/team/service/contested_tracker.hpp"
@@ -106,6 +107,7 @@ class RobotSession final : public Lane {
   // The worker alone uses these.
   ContestedTracker tracker_;
   PlaceWatch watch_;
+  SlipEstimator slip_;
   NodeMaker nodes_;
   CorrectionEasing easing_;
   MapComponent component_;  // That the tracker's poses are in.

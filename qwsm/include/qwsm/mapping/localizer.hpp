@@ -7,6 +7,7 @@
 #include "qwsm/mapping/mapper.hpp"
 #include "qwsm/mapping/place_finder.hpp"
 #include "qwsm/mapping/place_watch.hpp"
+#include "qwsm/mapping/slip_estimator.hpp"
 
 namespace qwsm {
 
@@ -43,6 +44,7 @@ class Localizer {
   MapperOptions options_;
   ScanMap map_;
   RobotTracker tracker_;
+  SlipEstimator slip_;
   std::optional<Mapper> local_;  // Maps where the robot is lost.
   PlaceFinder finder_;
   PlaceWatch watch_;

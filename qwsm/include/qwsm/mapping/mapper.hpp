@@ -7,6 +7,7 @@
 #include "qwsm/mapping/observation.hpp"
 #include "qwsm/mapping/robot_tracker.hpp"
 #include "qwsm/mapping/scan_map.hpp"
+#include "qwsm/mapping/slip_estimator.hpp"
 
 namespace qwsm {
 
@@ -37,6 +38,7 @@ class Mapper {
  private:
   RobotTracker tracker_;
   ScanMap map_;
+  SlipEstimator slip_;
 };
 
 }  // namespace qwsm

@@ -9,11 +9,12 @@ namespace qwsm {
 
 /// The scan as it would be, had the robot stood still where it was at the first beam.
 ///
-/// Beams are measured one after the other while the robot moves evenly. Its turn changes the angle
-/// between beams and nothing else; by how far it went, readings change and move to other beams.
-/// Beams that nothing moves to become kInvalid. A robot that stood gives the scan itself.
+/// Beams are measured one after the other while the robot moves evenly, along a circle. Its turn
+/// changes the angle between beams and nothing else; by how far it went, readings change and move
+/// to other beams. Beams that nothing moves to become kInvalid. A robot that stood gives the scan
+/// itself.
 /// @param T_first_last pose of the robot at the last beam, as seen from that at the first
-/// @return the scan, whose sweep counts no more
+/// @return the scan, whose sweep is now its `deskewed_sweep`
 LaserScan Deskewed(const LaserScan& scan, const Pose2& T_first_last);
 
 }  // namespace qwsm

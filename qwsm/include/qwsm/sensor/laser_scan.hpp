@@ -46,6 +46,9 @@ struct LaserScan {
   std::vector<float> ranges_m;  ///< One reading per beam, in the order of the bearings.
   /// Time from the first beam to the last; 0 where that is not known, or does not count any more.
   std::chrono::nanoseconds sweep{};
+  /// The same of a scan that odometry has brought to one place (Deskewed()): what it did not feel
+  /// of the motion is left.
+  std::chrono::nanoseconds deskewed_sweep{};
 
   std::size_t size() const { return ranges_m.size(); }
 };

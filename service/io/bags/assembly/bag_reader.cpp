@@ -170,6 +170,7 @@ LaserScan BagReader::Deskew(LaserScan scan,
   if (gyro_first_rad && gyro_last_rad) {
     T_first_last.theta_rad = NormalizeAngle(*gyro_last_rad - *gyro_first_rad);
   }
+  scan.sweep = sweep;
   return Deskewed(scan, T_first_last);
 }
 
