@@ -11,9 +11,10 @@
 // it. A scenario or a recorded log with `@3` behind it is one drive in three parts, each driven by
 // another robot at the same time, of which only the first one is told where it starts. Prints a
 // line for each robot that was apart for a while, or is astray in the end: how far it had driven,
-// until it was found, where the robots that it was found with had been; how far off it was then;
-// how many of its answers in the team's map were farther off than half a metre; and its error in
-// that map, beside that of a run in which all were told rightly.
+// until it was found, where the robots that it was found with had been; how far off it was then,
+// and how far it had drifted in its own component, which no place of that can mend; how many of its
+// answers in the team's map were farther off than half a metre; and its error in that map, beside
+// that of a run in which all were told rightly.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -37,7 +38,7 @@ namespace {
 
 // So near to where another robot has been a robot sees what that one saw.
 constexpr double kInCommon_m = 1.5;
-// The place where a robot is found is wrong if it is farther off.
+// The place where a robot is found is wrong if it is farther off than it drifted, and so much.
 constexpr double kWrong_m = 0.5;
 
 std::string NameOf(std::size_t robot) { return "robot" + std::to_string(robot + 1); }
@@ -63,7 +64,11 @@ struct Fate {
   bool was_apart = false;
   bool is_apart = false;
   int times_lost = 0;
-  double found_off_m = 0.0;               // The worst time.
+  double found_off_m = 0.0;     // The worst time.
+  double beyond_drift_m = 0.0;  // Likewise.
+  double drifted_m = 0.0;       // While it is apart, in the component that it is in.
+  std::string apart_in;
+  Pose2 T_apart_world;                    // When that began.
   bool is_beside_others_wrongly = false;  // In a component that is not the team's map.
   std::vector<std::size_t> steps;         // When it was in the team's map.
   std::vector<double> errors_m;
@@ -187,6 +192,7 @@ class Trial {
     const double error_m = error.translation_m().norm();
     if (was_apart) {
       fate.found_off_m = std::max(fate.found_off_m, error_m);
+      fate.beyond_drift_m = std::max(fate.beyond_drift_m, error_m - fate.drifted_m);
       fate.found_in_common_m = MostInCommon(fate);
     }
     fate.steps.push_back(step);
@@ -195,6 +201,7 @@ class Trial {
 
   void JudgeApart(const sim::Reading& reading, Fate& fate, bool is_lost) {
     fate.was_apart = true;
+    FollowDrift(reading, fate);
     if (is_lost) {
       ++fate.times_lost;
       fate.in_common_m.clear();
@@ -212,6 +219,15 @@ class Trial {
           answers_.Of(NameOf(reading.robot)).step.map_robot.T_a_b.translation_m();
       if (off_m.norm() > kWrong_m) fate.is_beside_others_wrongly = true;
     }
+  }
+
+  void FollowDrift(const sim::Reading& reading, Fate& fate) const {
+    const Pose2& T_component_world = T_component_world_.at(reading.robot);
+    if (std::exchange(fate.apart_in, component_.at(reading.robot)) != fate.apart_in) {
+      fate.T_apart_world = T_component_world;
+    }
+    const Eigen::Vector2d p_m = reading.T_world_robot.translation_m();
+    fate.drifted_m = (T_component_world * p_m - fate.T_apart_world * p_m).norm();
   }
 
   double MostInCommon(const Fate& fate) const {
@@ -257,7 +273,7 @@ struct Sum {
 void Print(int seed, std::size_t robot, const Fate& fate, const Fate& told, Sum& sum) {
   constexpr double kInTime_m = 10.0;
   const bool is_found = fate.was_apart && !fate.is_apart;
-  const bool is_wrong = fate.found_off_m > kWrong_m || fate.is_beside_others_wrongly;
+  const bool is_wrong = fate.beyond_drift_m > kWrong_m || fate.is_beside_others_wrongly;
   const bool had_time = is_found || fate.found_in_common_m > kInTime_m;
   const auto astray =
       std::ranges::count_if(fate.errors_m, [](double error_m) { return error_m > kWrong_m; });
@@ -267,7 +283,8 @@ void Print(int seed, std::size_t robot, const Fate& fate, const Fate& told, Sum&
   sum.in_time += is_found && fate.found_in_common_m <= kInTime_m ? 1 : 0;
   sum.wrong += is_wrong ? 1 : 0;
   std::printf(
-      "%d %s: drove %.1f m, lost %d times, %.1f m in common, %s, %.3f m off; %d answers "
+      "%d %s: drove %.1f m, lost %d times, %.1f m in common, %s, %.3f m off, "
+      "%.3f m beyond its drift; %d answers "
       "astray; rms %.4f m, told %.4f m%s\n",
       seed,
       NameOf(robot).c_str(),
@@ -278,6 +295,7 @@ void Print(int seed, std::size_t robot, const Fate& fate, const Fate& told, Sum&
       : fate.is_apart ? "apart"
                       : "not noticed",
       fate.found_off_m,
+      fate.beyond_drift_m,
       static_cast<int>(astray),
       Rms(fate.errors_m),
       RmsAt(told, fate.steps),

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <limits>
 
 namespace qwsm::team {
 namespace {
@@ -25,6 +26,8 @@ constexpr double kMostUnseenNats = 9.2;
 constexpr double kOnePlace_m = 1.0;
 constexpr double kOnePlace_rad = 0.2;
 constexpr std::size_t kMostCandidates = 20;
+// So far off along walls that lead on and on is another place.
+constexpr double kSlid_m = 1.5 * kOnePlace_m;
 
 }  // namespace
 
@@ -55,23 +58,56 @@ std::optional<UncertainPose2> JointCandidates::Decide(const MapAgreement& agreem
                                                       const ScanMap& a,
                                                       const ScanMap& b,
                                                       const std::stop_token& stop) {
+  if (!Weigh(agreement, a, b, stop)) return std::nullopt;
+  KeepBest();
+  if (!HasLeader()) return std::nullopt;
+  Candidate& best = candidates_.front();
+  if (best.scans_among_echoes != best.scans) Contest(agreement, a, b, best);
+  if (best.nats_among_echoes - best.unseen_nats < kSureNats) return std::nullopt;
+  return agreement.Judge(a, b, best.a_b).a_b;  // Pairs are better ones where it has been fitted.
+}
+
+// @return false if it was stopped.
+bool JointCandidates::Weigh(const MapAgreement& agreement,
+                            const ScanMap& a,
+                            const ScanMap& b,
+                            const std::stop_token& stop) {
   const std::size_t scans = a.scans().size() + b.scans().size();
   for (Candidate& candidate : candidates_) {
     const bool has_grown =
         static_cast<double>(scans) > kGrown * static_cast<double>(candidate.scans);
     if (!has_grown || candidate.nats < kRefutedNats) continue;
-    if (stop.stop_requested()) return std::nullopt;
+    if (stop.stop_requested()) return false;
     const MapAgreement::Judgement judged = agreement.Judge(a, b, candidate.a_b);
     candidate.a_b = judged.a_b;
     candidate.nats = judged.nats;
+    candidate.least_known = judged.least_known;
     candidate.scans = scans;
   }
-  KeepBest();
-  if (candidates_.empty() || candidates_.front().Total() < kSureNats) return std::nullopt;
-  const Candidate& best = candidates_.front();
-  const bool leads = candidates_.size() == 1 || best.Total() - candidates_[1].Total() >= kLeadNats;
-  if (!leads) return std::nullopt;
-  return agreement.Judge(a, b, best.a_b).a_b;  // Pairs are better ones where it has been fitted.
+  return true;
+}
+
+bool JointCandidates::HasLeader() const {
+  if (candidates_.empty() || candidates_.front().Total() < kSureNats) return false;
+  return candidates_.size() == 1 ||
+         candidates_.front().Total() - candidates_[1].Total() >= kLeadNats;
+}
+
+// Along a wall one place is as right as the next one, and robots think of one of them only. What
+// repeats itself in a map may do so once more where nobody has been.
+void JointCandidates::Contest(const MapAgreement& agreement,
+                              const ScanMap& a,
+                              const ScanMap& b,
+                              Candidate& candidate) {
+  candidate.scans_among_echoes = candidate.scans;
+  candidate.nats_among_echoes = -std::numeric_limits<double>::infinity();
+  for (const double slid_m : {-kSlid_m, kSlid_m}) {
+    UncertainPose2 slid = candidate.a_b;
+    slid.T_a_b.x_m += slid_m * candidate.least_known.x();
+    slid.T_a_b.y_m += slid_m * candidate.least_known.y();
+    if (candidate.nats - agreement.Judge(a, b, slid).nats < kLeadNats) return;
+  }
+  candidate.nats_among_echoes = agreement.NatsAmongEchoes(a, b, candidate.a_b);
 }
 
 // Places that have come together are one.

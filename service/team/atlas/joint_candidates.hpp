@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <stop_token>
@@ -40,11 +41,25 @@ class JointCandidates {
     std::size_t scans = 0;  // Of both maps, when it was weighed.
     // Evidence against it: robots that would be in view of each other do not see each other.
     double unseen_nats = 0.0;
+    Eigen::Vector2d least_known = Eigen::Vector2d::UnitX();
+    // What is left of the evidence in a building that is as alike as the maps show it, by so many
+    // scans of both.
+    double nats_among_echoes = 0.0;
+    std::size_t scans_among_echoes = 0;
 
     double Total() const { return nats - unseen_nats; }
   };
 
   static bool IsSamePlace(const Candidate& one, const Candidate& other);
+  bool Weigh(const MapAgreement& agreement,
+             const ScanMap& a,
+             const ScanMap& b,
+             const std::stop_token& stop);
+  bool HasLeader() const;
+  static void Contest(const MapAgreement& agreement,
+                      const ScanMap& a,
+                      const ScanMap& b,
+                      Candidate& candidate);
   void KeepBest();
 
   std::vector<Candidate> candidates_;  // The best one first.

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/team/atlas/map_agreement.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "qwsm/mapping/place_evidence.hpp"
+#include "service/team/atlas/map_echoes.hpp"
 
 namespace qwsm::team {
 namespace {
@@ -20,26 +23,6 @@ constexpr double kExplained = 0.7;       // Of a scan that says where the map is
 // By how much two maps may be bent against each other, beside what is known of that.
 constexpr double kBent_m = 0.2;
 constexpr double kBent_rad = 0.03;
-// How large a share of the points is seen through, as beta distributions: in places that only look
-// alike 20 % of them (6 % to 40 %), as was measured at 2200 of those that robots thought of in
-// simulated offices and in parts of intel, aces and mit-csail (docs/experiments.md); where two maps
-// go together as in the maps themselves, and one in fifty before anything is known of these.
-struct Share {
-  double seen_through;
-  double explained;
-
-  /// Logarithm of the probability that so many are.
-  double LogLikelihood(const Share& of_points) const {
-    return LogBeta(seen_through + of_points.seen_through, explained + of_points.explained) -
-           LogBeta(seen_through, explained);
-  }
-  static double LogBeta(double a, double b) {
-    return std::lgamma(a) + std::lgamma(b) - std::lgamma(a + b);
-  }
-};
-constexpr Share kIfAlike{.seen_through = 3.75, .explained = 15.0};
-constexpr Share kInOneMap{.seen_through = 1.0, .explained = 50.0};
-
 bool IsBeside(const Eigen::Vector2d& p_m, const std::vector<Eigen::Vector2d>& path_m) {
   return std::ranges::any_of(
       path_m, [&](const Eigen::Vector2d& there_m) { return (there_m - p_m).norm() < kBeside_m; });
@@ -69,6 +52,44 @@ double OnceTold(std::size_t scans, std::size_t scans_of_other) {
 
 }  // namespace
 
+// How large a share of the points is seen through, as beta distributions: in places that only look
+// alike 20 % of them (6 % to 40 %), as was measured at 2200 of those that robots thought of in
+// simulated offices and in parts of intel, aces and mit-csail (docs/experiments.md); where two maps
+// go together as in the maps themselves, and one in fifty before anything is known of these.
+struct MapAgreement::Share {
+  double seen_through;
+  double explained;
+
+  static Share IfAlike() { return {.seen_through = 3.75, .explained = 15.0}; }
+  static Share InOneMap() { return {.seen_through = 1.0, .explained = 50.0}; }
+
+  /// As it is known once these were seen, too.
+  Share Having(const Fates& seen) const {
+    return {.seen_through = seen_through + seen.seen_through,
+            .explained = explained + seen.explained};
+  }
+  /// Logarithm of the probability that so many are.
+  double LogLikelihood(const Fates& of_points) const {
+    const Share after = Having(of_points);
+    return LogBeta(after.seen_through, after.explained) - LogBeta(seen_through, explained);
+  }
+  static double LogBeta(double a, double b) {
+    return std::lgamma(a) + std::lgamma(b) - std::lgamma(a + b);
+  }
+};
+
+struct MapAgreement::Evidence {
+  Overlap overlap;
+  Fates b_in_a;
+  Fates a_in_b;
+  Fates found;  // All of these, each told once.
+  Share if_right;
+
+  double NatsAgainst(const Share& other) const {
+    return if_right.LogLikelihood(found) - other.LogLikelihood(found);
+  }
+};
+
 UncertainPose2 Inverse(const UncertainPose2& a_b) {
   const Pose2 T_b_a = a_b.T_a_b.Inverse();
   Eigen::Matrix3d d_b_a = -Eigen::Matrix3d::Identity();
@@ -86,29 +107,71 @@ void MapAgreement::Fates::Add(const Fates& other, double share) {
 MapAgreement::Judgement MapAgreement::Judge(const ScanMap& a,
                                             const ScanMap& b,
                                             const UncertainPose2& a_b) const {
+  const Evidence evidence = EvidenceOf(a, b, a_b);
+  const Fitted fitted = Fit(a_b, evidence.b_in_a.pairs, evidence.a_in_b.pairs);
+  return {.nats = evidence.NatsAgainst(Share::IfAlike()),
+          .a_b = fitted.a_b,
+          .least_known = fitted.least_known};
+}
+
+double MapAgreement::NatsAmongEchoes(const ScanMap& a,
+                                     const ScanMap& b,
+                                     const UncertainPose2& a_b) const {
+  const Evidence evidence = EvidenceOf(a, b, a_b);
   const UncertainPose2 b_a = Inverse(a_b);
-  const std::vector<const RelevantScan*> of_a = ScansBeside(a, b, b_a.T_a_b);
-  const std::vector<const RelevantScan*> of_b = ScansBeside(b, a, a_b.T_a_b);
-  const Fates of_b_in_a = FatesOf(of_b, a, a_b);
-  const Fates of_a_in_b = FatesOf(of_a, b, b_a);
-  Fates in_other;
-  in_other.Add(of_b_in_a, OnceTold(of_b.size(), of_a.size()));
-  in_other.Add(of_a_in_b, OnceTold(of_a.size(), of_b.size()));
+  double nats = evidence.NatsAgainst(Share::IfAlike());
+  const auto consider = [&](const Fates& echo) {
+    nats = std::min(nats, evidence.NatsAgainst(Share::IfAlike().Having(echo)));
+  };
+  for (const Pose2& T_a_a : FindEchoes(evidence.overlap.of_a, a)) {
+    const UncertainPose2 echo{.T_a_b = T_a_a};
+    consider(FatesOfBoth(evidence.overlap, a, echo, echo * a_b));
+  }
+  for (const Pose2& T_b_b : FindEchoes(evidence.overlap.of_b, b)) {
+    const UncertainPose2 echo{.T_a_b = T_b_b};
+    consider(FatesOfBoth(evidence.overlap, b, echo * b_a, echo));
+  }
+  return nats;
+}
+
+MapAgreement::Evidence MapAgreement::EvidenceOf(const ScanMap& a,
+                                                const ScanMap& b,
+                                                const UncertainPose2& a_b) const {
+  const UncertainPose2 b_a = Inverse(a_b);
+  Overlap overlap{.of_a = ScansBeside(a, b, b_a.T_a_b), .of_b = ScansBeside(b, a, a_b.T_a_b)};
+  Fates b_in_a = FatesOf(overlap.of_b, a, a_b);
+  Fates a_in_b = FatesOf(overlap.of_a, b, b_a);
+  Fates found;
+  found.Add(b_in_a, OnceTold(overlap.of_b.size(), overlap.of_a.size()));
+  found.Add(a_in_b, OnceTold(overlap.of_a.size(), overlap.of_b.size()));
   Fates in_own;
-  in_own.Add(FatesOf(of_a, a, {}), 1.0);
-  in_own.Add(FatesOf(of_b, b, {}), 1.0);
-  const Share if_right{.seen_through = kInOneMap.seen_through + in_own.seen_through,
-                       .explained = kInOneMap.explained + in_own.explained};
-  const Share found{.seen_through = in_other.seen_through, .explained = in_other.explained};
-  return {.nats = if_right.LogLikelihood(found) - kIfAlike.LogLikelihood(found),
-          .a_b = Fit(a_b, of_b_in_a.pairs, of_a_in_b.pairs)};
+  in_own.Add(FatesOf(overlap.of_a, a, {}), 1.0);
+  in_own.Add(FatesOf(overlap.of_b, b, {}), 1.0);
+  return {.overlap = std::move(overlap),
+          .b_in_a = std::move(b_in_a),
+          .a_in_b = std::move(a_in_b),
+          .found = std::move(found),
+          .if_right = Share::InOneMap().Having(in_own)};
+}
+
+// Where the scans of an overlap were taken in one map, as if both maps lay there.
+MapAgreement::Fates MapAgreement::FatesOfBoth(const Overlap& overlap,
+                                              const ScanMap& map,
+                                              const UncertainPose2& map_a,
+                                              const UncertainPose2& map_b) const {
+  const std::size_t of_a = overlap.of_a.size();
+  const std::size_t of_b = overlap.of_b.size();
+  Fates both;
+  both.Add(FatesOf(overlap.of_a, map, map_a), OnceTold(of_a, of_b));
+  both.Add(FatesOf(overlap.of_b, map, map_b), OnceTold(of_b, of_a));
+  return both;
 }
 
 // Weighted least squares of where the scans are found against where they are in their own map. That
 // those of a are off in b means that b is off the other way.
-UncertainPose2 MapAgreement::Fit(const UncertainPose2& a_b,
-                                 std::span<const Pair> b_in_a,
-                                 std::span<const Pair> a_in_b) {
+MapAgreement::Fitted MapAgreement::Fit(const UncertainPose2& a_b,
+                                       std::span<const Pair> b_in_a,
+                                       std::span<const Pair> a_in_b) {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d pull = Eigen::Vector3d::Zero();
   const auto add =
@@ -126,10 +189,12 @@ UncertainPose2 MapAgreement::Fit(const UncertainPose2& a_b,
         -R_a_b * pair.off,
         R_a_b * pair.information * R_a_b.transpose());
   }
-  if (b_in_a.empty() && a_in_b.empty()) return a_b;
+  if (b_in_a.empty() && a_in_b.empty()) return {a_b, Eigen::Vector2d::UnitX()};
   const Eigen::Vector3d motion = information.ldlt().solve(pull);
   const Pose2 T_a_moved{.x_m = motion.x(), .y_m = motion.y(), .theta_rad = motion.z()};
-  return {.T_a_b = T_a_moved * a_b.T_a_b, .covariance = a_b.covariance};
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> along(information.topLeftCorner<2, 2>());
+  return {.a_b = {.T_a_b = T_a_moved * a_b.T_a_b, .covariance = a_b.covariance},
+          .least_known = along.eigenvectors().col(0)};  // Eigenvalues ascend.
 }
 
 MapAgreement::Pair MapAgreement::PairOf(const Pose2& T_map_scan, const MatchResult& match) {

@@ -28,11 +28,23 @@ class MapAgreement {
     /// alternative being a place that looks alike. Grows with what both have mapped.
     double nats = 0.0;
     UncertainPose2 a_b;  ///< As all that both have mapped fits best.
+    /// The direction in `a` in which that is known least: along walls that lead on and on.
+    Eigen::Vector2d least_known = Eigen::Vector2d::UnitX();
   };
 
   Judgement Judge(const ScanMap& a, const ScanMap& b, const UncertainPose2& a_b) const;
 
+  /// The same evidence in a building of which the maps show how much alike its places are: the
+  /// alternative is one more place like that one in `a` or `b` which is most like what both show
+  /// there. Where a map repeats itself, no more of it than it repeats speaks for a place.
+  double NatsAmongEchoes(const ScanMap& a, const ScanMap& b, const UncertainPose2& a_b) const;
+
  private:
+  // The scans of two maps near each other's.
+  struct Overlap {
+    std::vector<const RelevantScan*> of_a;
+    std::vector<const RelevantScan*> of_b;
+  };
   // By how much a scan of one map is found off in the other, in axes of the other.
   struct Pair {
     Pose2 T_map_scan;  // As predicted.
@@ -47,14 +59,27 @@ class MapAgreement {
     std::vector<Pair> pairs;
     void Add(const Fates& other, double share);
   };
+  // A place that fits best.
+  struct Fitted {
+    UncertainPose2 a_b;
+    Eigen::Vector2d least_known;
+  };
+  struct Share;
+  // What is to be explained, and how it would be if the maps went together.
+  struct Evidence;
 
+  Evidence EvidenceOf(const ScanMap& a, const ScanMap& b, const UncertainPose2& a_b) const;
+  Fates FatesOfBoth(const Overlap& overlap,
+                    const ScanMap& map,
+                    const UncertainPose2& map_a,
+                    const UncertainPose2& map_b) const;
   Fates FatesOf(std::span<const RelevantScan* const> scans,
                 const ScanMap& map,
                 const UncertainPose2& map_scans) const;
   static Pair PairOf(const Pose2& T_map_scan, const MatchResult& match);
-  static UncertainPose2 Fit(const UncertainPose2& a_b,
-                            std::span<const Pair> b_in_a,
-                            std::span<const Pair> a_in_b);
+  static Fitted Fit(const UncertainPose2& a_b,
+                    std::span<const Pair> b_in_a,
+                    std::span<const Pair> a_in_b);
 
   ScanLocator locator_;
   FreeSpaceOptions free_space_;
