@@ -32,6 +32,25 @@ TEST(PointQuadtree, SearchesEqualBruteForce) {
   }
 }
 
+// All in one leaf, on a circle about the query, but for some micrometres that floats do not show.
+TEST(PointQuadtree, TellsApartWhatIsAlmostEquallyFar) {
+  for (const double radius_m : {0.1, 1.0, 10.0, 400.0}) {
+    SCOPED_TRACE(radius_m);
+    Random random(1);
+    for (int i = 0; i < 200; ++i) {
+      PointQuadtree tree;
+      const Eigen::Vector2d query_m = PointInSquare(random, {3.0, -5.0}, radius_m);
+      for (int point = 0; point < 15; ++point) {
+        const double angle_rad = Uniform(random, -3.14, 3.14);
+        const double distance_m = radius_m + 2e-6 * Uniform(random, 0.0, 10.0);
+        tree.Insert(
+            query_m + distance_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad)), 0);
+      }
+      ExpectAllSearchesExact(tree, query_m, kInfinity);
+    }
+  }
+}
+
 TEST(PointQuadtree, SearchAtStoredPointsFindsThem) {
   for (int seed = 0; seed < 50; ++seed) {
     SCOPED_TRACE(seed);

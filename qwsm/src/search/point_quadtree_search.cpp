@@ -5,6 +5,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "qwsm/search/point_quadtree.hpp"
@@ -14,6 +15,7 @@ namespace qwsm {
 using quadtree::Cell;
 using quadtree::CellAt;
 using quadtree::CellQuadtree;
+using quadtree::kBucketSize;
 using quadtree::kNoIndex;
 using quadtree::kUnitsPerCell;
 using quadtree::Leaf;
@@ -37,78 +39,128 @@ double Distance2(const UnitPoint& a, const UnitPoint& b) {
   return dx * dx + dy * dy;
 }
 
-// Two doubles side by side; every processor of the last twenty years computes with such pairs.
-using Two = double __attribute__((vector_size(16)));
-using TwoIndices = std::int64_t __attribute__((vector_size(16)));
+// Four floats side by side; every processor of the last twenty years computes with such groups.
+using Four = float __attribute__((vector_size(16)));
+using FourInts = std::int32_t __attribute__((vector_size(16)));
 
-/// The nearest and the second nearest of the points in every other slot, and of those between.
-struct NearestOfSlots {
-  Two nearest2{kInfinity, kInfinity};
-  Two second2{kInfinity, kInfinity};
-  TwoIndices slot{};
+Four Least(const Four& a, const Four& b) { return a < b ? a : b; }
+Four Greatest(const Four& a, const Four& b) { return a > b ? a : b; }
 
-  /// Of two slots, the first one has an even number.
-  void Take(const Two& distance2, const TwoIndices& at) {
-    const Two farther = nearest2 < distance2 ? distance2 : nearest2;
-    second2 = farther < second2 ? farther : second2;
-    slot = distance2 < nearest2 ? at : slot;
-    nearest2 = distance2 < nearest2 ? distance2 : nearest2;
+/// The two least of numbers that are taken four at a time, first of every fourth one.
+class TwoLeast {
+ public:
+  void Take(const Four& numbers) {
+    second_ = Least(second_, Greatest(least_, numbers));
+    least_ = Least(least_, numbers);
   }
-  void Take(const NearestOfSlots& other) {
-    Take(other.nearest2, other.slot);
-    second2 = other.second2 < second2 ? other.second2 : second2;
+
+  /// What all lanes know, brought together into the first one.
+  void Gather() {
+    Join(FourInts{2, 3, 0, 1});
+    Join(FourInts{1, 0, 3, 2});
   }
+  float least() const { return least_[0]; }
+  float second() const { return second_[0]; }
+
+ private:
+  static constexpr float kFar = std::numeric_limits<float>::max();
+
+  void Join(const FourInts& order) {
+    const Four other_least = __builtin_shuffle(least_, order);
+    second_ =
+        Least(Least(second_, __builtin_shuffle(second_, order)), Greatest(least_, other_least));
+    least_ = Least(least_, other_least);
+  }
+
+  Four least_{kFar, kFar, kFar, kFar};
+  Four second_{kFar, kFar, kFar, kFar};
 };
 
-/// The nearest and the second nearest point of a leaf, without a branch that depends on where they
-/// are: there is nothing to predict. Four points at a time, in two chains that do not wait for each
-/// other.
+/// The nearest point of a leaf, and what no other point of it is nearer than.
+///
+/// Floats tell which one it is, four points at a time and without a branch that depends on where
+/// they are; how far it is, and which of points that floats cannot tell apart, doubles do.
 class NearestInLeaf {
  public:
   NearestInLeaf(const Leaf& leaf, const UnitPoint& center)
       : leaf_(leaf),
         x_(center.x - leaf.corner.x * kUnitsPerCell),
         y_(center.y - leaf.corner.y * kUnitsPerCell) {
-    NearestOfSlots others;
-    std::size_t i = 0;
-    for (; i + 4 <= leaf.count; i += 4) {
-      slots_.Take(Distance2(i, i + 1), Slots(i));
-      others.Take(Distance2(i + 2, i + 3), Slots(i + 2));
+    const TwoLeast coded = CodedDistances();
+    const double least2 = static_cast<double>(coded.least());
+    const double second2 = static_cast<double>(coded.second());
+    const double error2 = ErrorOfFloats(second2);
+    if (second2 - least2 > 2.0 * error2) {
+      slot_ = std::bit_cast<std::int32_t>(coded.least()) & kSlotBits;
+      nearest2_ = Distance2(static_cast<std::size_t>(slot_));
+      second2_ = second2 - error2;
+    } else {
+      CompareInDoubles();
     }
-    if (i + 2 <= leaf.count) {
-      slots_.Take(Distance2(i, i + 1), Slots(i));
-      i += 2;
-    }
-    if (i < leaf.count) others.Take(Two{Distance2(i, i)[0], kInfinity}, Slots(i));
-    slots_.Take(others);
   }
 
-  double nearest2() const { return std::min(slots_.nearest2[0], slots_.nearest2[1]); }
-  double second2() const {
-    return std::min({std::max(slots_.nearest2[0], slots_.nearest2[1]),  //
-                     slots_.second2[0],
-                     slots_.second2[1]});
-  }
-  int slot() const {
-    return static_cast<int>(slots_.slot[slots_.nearest2[1] < slots_.nearest2[0] ? 1 : 0]);
-  }
+  double nearest2() const { return nearest2_; }
+  double second2() const { return second2_; }
+  int slot() const { return slot_; }
 
  private:
-  static TwoIndices Slots(std::size_t first) {
-    const auto slot = static_cast<std::int64_t>(first);
-    return TwoIndices{slot, slot + 1};
+  static constexpr std::int32_t kSlotBits = 31;
+  static_assert(kBucketSize <= kSlotBits && kBucketSize % 4 == 0);
+
+  /// Squared distances of all points, each with its slot in the lowest bits.
+  TwoLeast CodedDistances() const {
+    const auto x = static_cast<float>(x_);
+    const auto y = static_cast<float>(y_);
+    const std::int32_t count = leaf_.count;
+    const FourInts no_point = std::bit_cast<FourInts>(Four{} + std::numeric_limits<float>::max());
+    TwoLeast coded;
+    FourInts slots{0, 1, 2, 3};
+    for (std::size_t first = 0; first < leaf_.count; first += 4, slots += 4) {
+      const Four dx = FourOf(leaf_.x, first) - x;
+      const Four dy = FourOf(leaf_.y, first) - y;
+      const auto with_slot = (std::bit_cast<FourInts>(dx * dx + dy * dy) & ~kSlotBits) | slots;
+      coded.Take(std::bit_cast<Four>(slots < count ? with_slot : no_point));
+    }
+    coded.Gather();
+    return coded;
   }
+
+  static Four FourOf(const std::array<std::int32_t, kBucketSize>& offsets, std::size_t first) {
+    FourInts four;
+    std::memcpy(&four, &offsets[first], sizeof four);
+    return __builtin_convertvector(four, Four);
+  }
+
+  /// No coded distance is further off than this. Coordinates are off by 2^-24 of themselves, which
+  /// the largest differences multiply, and the bits of the slot are 2^-18 of the distance.
+  double ErrorOfFloats(double distance2) const {
+    const double largest = static_cast<double>(leaf_.square().side()) * kUnitsPerCell +
+                           std::max(std::abs(x_), std::abs(y_));
+    return 0x1p-20 * largest * largest + 0x1p-18 * distance2;
+  }
+
   // By offsets from the leaf's corner: differences of such numbers are exact.
-  Two Distance2(std::size_t i, std::size_t j) const {
-    const Two dx = Two{static_cast<double>(leaf_.x[i]), static_cast<double>(leaf_.x[j])} - x_;
-    const Two dy = Two{static_cast<double>(leaf_.y[i]), static_cast<double>(leaf_.y[j])} - y_;
+  double Distance2(std::size_t slot) const {
+    const double dx = static_cast<double>(leaf_.x[slot]) - x_;
+    const double dy = static_cast<double>(leaf_.y[slot]) - y_;
     return dx * dx + dy * dy;
+  }
+
+  void CompareInDoubles() {
+    for (std::size_t i = 0; i < leaf_.count; ++i) {
+      const double distance2 = Distance2(i);
+      second2_ = std::min(second2_, std::max(nearest2_, distance2));
+      if (distance2 < nearest2_) slot_ = static_cast<int>(i);
+      nearest2_ = std::min(nearest2_, distance2);
+    }
   }
 
   const Leaf& leaf_;
   const double x_;
   const double y_;
-  NearestOfSlots slots_;
+  double nearest2_ = kInfinity;
+  double second2_ = kInfinity;
+  int slot_ = 0;
 };
 
 /// The ball about the query that shrinks to the nearest point, and what is known about all others.
