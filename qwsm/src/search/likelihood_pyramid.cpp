@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace qwsm {
 namespace {
@@ -20,6 +21,32 @@ int OffsetInTile(int shift, int x, int y) {
   const int column = (x & (Tile::kSide - 1)) >> shift;
   const int row = (y & (Tile::kSide - 1)) >> shift;
   return row * (Tile::kSide >> shift) + column;
+}
+
+// Smallest drifts along a row of a tile, of cells 2^shift times as wide, and what they are lowered
+// to.
+struct DriftRow {
+  std::uint8_t* codes;
+  int shift;
+  std::uint8_t code;
+};
+
+// Raises the likelihoods of a tile's row, from one of its columns on, to those of a point.
+// @param of_columns the point's profile from that column on.
+void RaiseRow(std::span<const double> of_columns,
+              double of_row,
+              int column,
+              std::uint8_t* likelihoods,
+              const DriftRow& drift) {
+  for (const double of_column : of_columns) {
+    const auto likelihood = static_cast<std::uint8_t>(of_row * of_column);
+    likelihoods[column] = std::max(likelihoods[column], likelihood);
+    if (likelihood >= kOnPoint) {
+      std::uint8_t& smallest = drift.codes[column >> drift.shift];
+      smallest = std::min(smallest, drift.code);
+    }
+    ++column;
+  }
 }
 
 }  // namespace
@@ -85,19 +112,20 @@ void LikelihoodPyramid::Raise(Tile& tile,
   const int drift_shift = Tile::DriftShiftOf(level) - Tile::ShiftOf(level);
   const Profile& columns = columns_[static_cast<std::size_t>(level)];
   const Profile& rows = rows_[static_cast<std::size_t>(level)];
+  const int first_x = std::max(first.x, columns.first);
   const int last_x = std::min(first.x + side - 1, columns.last());
+  if (last_x < first_x) return;
+  const std::span<const double> of_columns(columns.At(first_x), columns.At(last_x) + 1);
   const int last_y = std::min(first.y + side - 1, rows.last());
   for (int y = std::max(first.y, rows.first); y <= last_y; ++y) {
-    const double of_row = 255.0 * *rows.At(y);
-    for (int x = std::max(first.x, columns.first); x <= last_x; ++x) {
-      const auto likelihood = static_cast<std::uint8_t>(of_row * *columns.At(x));
-      std::uint8_t& stored = tile.likelihoods(level)[(y - first.y) * side + (x - first.x)];
-      stored = std::max(stored, likelihood);
-      if (likelihood < kOnPoint) continue;
-      const int drift_row = ((y - first.y) >> drift_shift) * (side >> drift_shift);
-      std::uint8_t& smallest = tile.drift_codes(level)[drift_row + ((x - first.x) >> drift_shift)];
-      smallest = std::min(smallest, drift_code);
-    }
+    const int row = y - first.y;
+    RaiseRow(of_columns,
+             255.0 * *rows.At(y),
+             first_x - first.x,
+             tile.likelihoods(level) + row * side,
+             {.codes = tile.drift_codes(level) + (row >> drift_shift) * (side >> drift_shift),
+              .shift = drift_shift,
+              .code = drift_code});
   }
 }
 
