@@ -98,6 +98,30 @@ TEST(StaticTransforms, FollowFramesAskWhoKnowsThemAndRefuseCircles) {
   EXPECT_FALSE(transforms.Find("base_link", "a"));
 }
 
+// A laser that hangs from a mast, which stands on a robot above the floor.
+TEST(StaticTransforms, TellHowHighAFrameIs) {
+  StaticTransforms transforms;
+  const auto add = [&](std::string parent,
+                       std::string child,
+                       const wire::Vector3& origin,
+                       const wire::Quaternion& turn) {
+    wire::TransformStamped transform{};
+    transform.header = HeaderOf({}, parent);
+    transform.child_frame_id = Borrow(child);
+    transform.transform.translation = origin;
+    transform.transform.rotation = turn;
+    wire::TFMessage message{};
+    message.transforms = {._maximum = 1, ._length = 1, ._buffer = &transform, ._release = false};
+    transforms.Take(message, Guid{});
+  };
+  add("base_footprint", "base_link", {0.0, 0.0, 0.125}, {0.0, 0.0, 0.0, 1.0});
+  add("base_link", "mast", {0.0, 0.0, 0.5}, {1.0, 0.0, 0.0, 0.0});
+  add("mast", "laser", {0.1, 0.0, 0.25}, {0.0, 0.0, 0.0, 1.0});
+  EXPECT_NEAR(transforms.FindHeight_m("base_footprint", "laser").value(), 0.375, 1e-12);
+  EXPECT_NEAR(transforms.FindHeight_m("base_link", "laser").value(), 0.25, 1e-12);
+  EXPECT_FALSE(transforms.FindHeight_m("base_footprint", "camera"));
+}
+
 class WireScan : public ::testing::Test {
  protected:
   static LaserScan Scan() {

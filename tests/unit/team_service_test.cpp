@@ -111,6 +111,38 @@ TEST(TeamService, PutsBeamsWhereTheyWereMeasured) {
   EXPECT_EQ(ScanInMap(scan, T_first_last, false).geometry, scan.geometry);
 }
 
+// Level for twenty seconds, then the nose sinks to 0.1 rad.
+void Sink(RobotListener<Planar>& robots, Timestamp until) {
+  for (Timestamp stamp = until - 30s; stamp < until + 50ms; stamp += 10ms) {
+    const std::chrono::duration<double> sinking = stamp - (until - 10s);
+    const double pitch_rad = std::clamp(0.01 * sinking.count(), 0.0, 0.1);
+    robots.TakeImu("robot1",
+                   {.stamp = stamp,
+                    .acceleration_mps2 = Eigen::Vector3d(
+                        -9.81 * std::sin(pitch_rad), 0.0, 9.81 * std::cos(pitch_rad))});
+  }
+}
+
+TEST(TeamService, LeavesOutBeamsThatHitTheFloorWhereAScanTellsHowHighItWasTaken) {
+  for (const double height_m : {0.0, 0.2}) {
+    test::RecordingSink sink;
+    TeamService service(LosslessOptions(), sink);
+    service.Start();
+    LaserScan scan = test::ObservationInRoom(0).scan;
+    scan.stamp += 100s;
+    scan.height_m = height_m;
+    Sink(service.robots(), scan.stamp);
+    EXPECT_TRUE(service.robots().TakeScan("robot1", scan));
+    service.WaitUntilIdle();
+    service.Stop();
+    ASSERT_EQ(sink.relevant().size(), 1U);
+    const std::vector<float>& ranges_m = sink.relevant().front().scan.ranges_m;
+    const auto left_out =
+        std::ranges::count_if(ranges_m, [](float range_m) { return std::isnan(range_m); });
+    EXPECT_EQ(left_out > 0, height_m > 0.0) << left_out;
+  }
+}
+
 TEST(TeamService, CountsEveryScanThatIsDroppedForNewerOnes) {
   test::RecordingSink sink;
   TeamServiceOptions options = LosslessOptions();

@@ -130,13 +130,15 @@ LaserScan Deskewed(const LaserScan& scan, const Pose2& T_first_last) {
     return {.stamp = scan.stamp,
             .geometry = scan.geometry,
             .ranges_m = scan.ranges_m,
-            .deskewed_sweep = std::max(scan.sweep, scan.deskewed_sweep)};
+            .deskewed_sweep = std::max(scan.sweep, scan.deskewed_sweep),
+            .height_m = scan.height_m};
   }
   constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
   LaserScan still{.stamp = scan.stamp,
                   .geometry = scan.geometry,
                   .ranges_m = std::vector<float>(scan.size(), kNothing),
-                  .deskewed_sweep = std::max(scan.sweep, scan.deskewed_sweep)};
+                  .deskewed_sweep = std::max(scan.sweep, scan.deskewed_sweep),
+                  .height_m = scan.height_m};
   still.geometry.bearing_step_rad +=
       static_cast<float>(T_first_last.theta_rad / static_cast<double>(scan.size() - 1));
   const MovedHits hits = MovedHitsOf(scan, T_first_last, still.geometry);

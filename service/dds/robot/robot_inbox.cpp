@@ -123,6 +123,9 @@ void BasicRobotInbox<Kind>::DeliverPlacedScans(const BasicStaticTransforms<Kind>
   std::deque<UnplacedScan> waiting;
   for (UnplacedScan& next : unplaced_) {
     if (const auto placement = SensorOnRobot(next.sensor_frame, transforms)) {
+      if constexpr (OnWire<Kind>::kUsesImu) {
+        next.scan.height_m = HeightOf_m(next.sensor_frame, transforms);
+      }
       DeliverScan(std::move(next.scan), next.sensor_frame, *placement, listener);
     } else {
       waiting.push_back(std::move(next));
@@ -198,6 +201,16 @@ std::optional<typename Kind::Pose> BasicRobotInbox<Kind>::FindSensor(
     refusals_.Add(kStaticTransformsTopic, "the robot itself says otherwise where its sensor sits");
   }
   return known;
+}
+
+/// Above the floor, where a frame lies on it, or else above the robot's; 0 where nobody tells.
+template <class Kind>
+double BasicRobotInbox<Kind>::HeightOf_m(const std::string& sensor_frame,
+                                         const BasicStaticTransforms<Kind>& transforms) const {
+  const std::set<Guid> own = transforms.has_rivals() ? Own() : std::set<Guid>{};
+  auto height_m = transforms.FindHeight_m(names_.Frame(kFloorFrame), sensor_frame, own);
+  if (!height_m) height_m = transforms.FindHeight_m(robot_frame_, sensor_frame, own);
+  return std::max(0.0, height_m.value_or(0.0));
 }
 
 template class BasicRobotInbox<team::Planar>;

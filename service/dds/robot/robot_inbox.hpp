@@ -66,6 +66,9 @@ class BasicRobotInbox {
   std::optional<typename Kind::Pose> FindSensor(const std::string& sensor_frame,
                                                 const BasicStaticTransforms<Kind>& transforms);
 
+  double HeightOf_m(const std::string& sensor_frame,
+                    const BasicStaticTransforms<Kind>& transforms) const;
+
   /// A scan that waits until it is known where its sensor sits.
   struct UnplacedScan {
     typename Kind::Scan scan;

@@ -73,6 +73,8 @@ inline constexpr const char* kMapFrame = "map";
 inline constexpr const char* kWorldFrame = "world";  ///< The simulator's frame.
 inline constexpr std::string_view kOdometryFrame = "odom";
 inline constexpr std::string_view kRobotFrame = "base_link";
+/// Below it, on the floor, where a robot has one.
+inline constexpr std::string_view kFloorFrame = "base_footprint";
 inline constexpr std::string_view kLaserFrame = "laser";
 
 }  // namespace qwsm::dds

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/dds/wire/static_transforms.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstring>
 #include <utility>
@@ -33,6 +34,7 @@ void BasicStaticTransforms<Kind>::Take(const wire::TFMessage& message, const Gui
           .parent = transform.header.frame_id,
           .T_parent_child = T_parent_child,
           .rotation = {rotation.x, rotation.y, rotation.z, rotation.w},
+          .translation_m = {p.x, p.y, p.z},
           .is_usable = OnWire<Kind>::IsUsable(rotation)});
   }
 }
@@ -108,6 +110,21 @@ std::optional<Quaternion> BasicStaticTransforms<Kind>::FindRotation(
   Quaternion rotation;
   for (const Link* link : *way) rotation = link->rotation * rotation;
   return rotation;
+}
+
+template <class Kind>
+std::optional<double> BasicStaticTransforms<Kind>::FindHeight_m(const std::string& ancestor,
+                                                                const std::string& frame,
+                                                                const std::set<Guid>& own) const {
+  const auto way = WayTo(ancestor, frame, own);
+  if (!way) return std::nullopt;
+  Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();
+  for (const Link* link : *way) {
+    const Quaternion& q = link->rotation;
+    const Eigen::Quaterniond turn = Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
+    origin_m = turn * origin_m + link->translation_m;
+  }
+  return origin_m.z();
 }
 
 template class BasicStaticTransforms<team::Planar>;

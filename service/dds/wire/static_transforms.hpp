@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <functional>
 #include <map>
 #include <optional>
@@ -52,6 +53,11 @@ class BasicStaticTransforms {
                                          const std::string& frame,
                                          const std::set<Guid>& own = {}) const;
 
+  /// How high the origin of a frame is above another's, tilted ones as well; see Find().
+  std::optional<double> FindHeight_m(const std::string& ancestor,
+                                     const std::string& frame,
+                                     const std::set<Guid>& own = {}) const;
+
  private:
   /// What one participant says of a frame.
   struct Link {
@@ -59,6 +65,7 @@ class BasicStaticTransforms {
     std::string parent;
     Pose T_parent_child;
     Quaternion rotation;
+    Eigen::Vector3d translation_m;
     bool is_usable = true;
   };
 

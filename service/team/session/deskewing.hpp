@@ -38,9 +38,10 @@ inline LaserScan AsFromOnePlace(LaserScan scan,
   return Deskewed(scan, T_first_last);
 }
 /// Leaves out the beams that may have hit the floor; see LeaveOutFloor().
-/// @param height_m of the laser; 0 where it is not known.
-inline void LeaveOutFloorOf(const TiltTrack& tilt, double height_m, LaserScan& scan) {
+/// @param set_height_m of the laser, where that is set; 0: the scan tells it.
+inline void LeaveOutFloorOf(const TiltTrack& tilt, double set_height_m, LaserScan& scan) {
   const std::optional<Tilt> at_scan = tilt.At(scan.stamp);
+  const double height_m = set_height_m > 0.0 ? set_height_m : scan.height_m;
   if (at_scan && height_m > 0.0) LeaveOutFloor(*at_scan, height_m, scan);
 }
 /// The floor is part of a cloud.

@@ -60,7 +60,7 @@ void Describe(Visitor& visit, SessionOptions& o) {
   visit("laser_height_m",
         o.laser_height_m,
         {.help = "above the floor: beams of a robot that leans, by its imu, and sees the floor are "
-                 "left out; 0: none",
+                 "left out; 0: as /tf_static tells",
          .min = 0,
          .max = 10});
   visit("max_speed_mps",

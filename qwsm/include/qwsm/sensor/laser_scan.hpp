@@ -49,6 +49,7 @@ struct LaserScan {
   /// The same of a scan that odometry has brought to one place (Deskewed()): what it did not feel
   /// of the motion is left.
   std::chrono::nanoseconds deskewed_sweep{};
+  double height_m = 0.0;  ///< Of the laser above the floor; 0 where it is not known.
 
   std::size_t size() const { return ranges_m.size(); }
 };
