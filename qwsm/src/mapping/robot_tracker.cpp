@@ -242,8 +242,7 @@ bool RobotTracker::CatchUpWithOdometry(const ScanMap& map,
                                        MappingStep& step) const {
   const std::optional<UncertainPose2> reckoned = dead_reckoning_.Predict(last_robot);
   const UncertainPose2 found = PoseOf(step.match);
-  const bool may_agree_better = step.match.overlap < 1.0;
-  if (!reckoned || !may_agree_better || !IsFarFrom(*reckoned, found)) return false;
+  if (!reckoned || !MayBeBeaten(points, step.match) || !IsFarFrom(*reckoned, found)) return false;
   const MatchResult there = locator_.Locate(map, points, *reckoned, seen_free_);
   const bool agrees_better = there.overlap > step.match.overlap;
   if (!agrees_better || IsFarFrom(*reckoned, PoseOf(there)) || !IsFarFrom(found, PoseOf(there))) {

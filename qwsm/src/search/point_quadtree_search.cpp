@@ -56,8 +56,10 @@ class TwoLeast {
 
   /// What all lanes know, brought together into the first one.
   void Gather() {
-    Join(FourInts{2, 3, 0, 1});
-    Join(FourInts{1, 0, 3, 2});
+    Join(__builtin_shufflevector(least_, least_, 2, 3, 0, 1),
+         __builtin_shufflevector(second_, second_, 2, 3, 0, 1));
+    Join(__builtin_shufflevector(least_, least_, 1, 0, 3, 2),
+         __builtin_shufflevector(second_, second_, 1, 0, 3, 2));
   }
   float least() const { return least_[0]; }
   float second() const { return second_[0]; }
@@ -65,10 +67,8 @@ class TwoLeast {
  private:
   static constexpr float kFar = std::numeric_limits<float>::max();
 
-  void Join(const FourInts& order) {
-    const Four other_least = __builtin_shuffle(least_, order);
-    second_ =
-        Least(Least(second_, __builtin_shuffle(second_, order)), Greatest(least_, other_least));
+  void Join(const Four& other_least, const Four& other_second) {
+    second_ = Least(Least(second_, other_second), Greatest(least_, other_least));
     least_ = Least(least_, other_least);
   }
 
