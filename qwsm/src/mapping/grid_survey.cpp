@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "qwsm/mapping/grid_survey.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <numbers>
 #include <vector>
 
+#include "qwsm/geometry/moments.hpp"
 #include "qwsm/matching/surface_map.hpp"
 
 namespace qwsm {
@@ -136,10 +136,9 @@ class Surveyor {
       scatter +=
           (p - surface.mean) * (p - surface.mean).transpose() / static_cast<double>(around.size());
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(scatter);
-    const Eigen::Vector2d variances = axes.eigenvalues();
-    if (variances.y() >= kMinAlong_cells && variances.x() <= kMaxLineAspect * variances.y()) {
-      surface.normal = axes.eigenvectors().col(0);
+    const PrincipalAxes axes = PrincipalAxesOf(scatter(0, 0), scatter(0, 1), scatter(1, 1));
+    if (axes.major_m2 >= kMinAlong_cells && axes.minor_m2 <= kMaxLineAspect * axes.major_m2) {
+      surface.normal = axes.minor_axis;
     } else {
       surface.mean = cell.cast<double>().array() + 0.5;
     }

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/team/atlas/map_agreement.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
+#include "qwsm/geometry/moments.hpp"
 #include "qwsm/mapping/place_evidence.hpp"
 #include "service/team/atlas/map_echoes.hpp"
 
@@ -192,9 +192,10 @@ MapAgreement::Fitted MapAgreement::Fit(const UncertainPose2& a_b,
   if (b_in_a.empty() && a_in_b.empty()) return {a_b, Eigen::Vector2d::UnitX()};
   const Eigen::Vector3d motion = information.ldlt().solve(pull);
   const Pose2 T_a_moved{.x_m = motion.x(), .y_m = motion.y(), .theta_rad = motion.z()};
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> along(information.topLeftCorner<2, 2>());
+  const PrincipalAxes known =
+      PrincipalAxesOf(information(0, 0), information(0, 1), information(1, 1));
   return {.a_b = {.T_a_b = T_a_moved * a_b.T_a_b, .covariance = a_b.covariance},
-          .least_known = along.eigenvectors().col(0)};  // Eigenvalues ascend.
+          .least_known = known.minor_axis};
 }
 
 MapAgreement::Pair MapAgreement::PairOf(const Pose2& T_map_scan, const MatchResult& match) {
