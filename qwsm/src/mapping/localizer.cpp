@@ -27,9 +27,7 @@ Localizer::Localizer(const MapperOptions& options,
 
 MappingStep Localizer::Process(const Observation& observation) {
   if (local_) return Search(observation, ToPoints(observation.scan));
-  const Observation still{.scan = slip_.Mended(observation.scan),
-                          .T_odom_robot = observation.T_odom_robot,
-                          .gyro_rad = observation.gyro_rad};
+  const Observation still = slip_.Mended(observation);
   const std::vector<ScanPoint> points = ToPoints(still.scan);
   const MappingStep step = tracker_.Track(map_, still, points);
   slip_.Learn(still, step);

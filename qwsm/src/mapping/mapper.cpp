@@ -36,9 +36,7 @@ void Mapper::GoOnIn(ScanMap corrected, const UncertainPose2& map_robot) {
 }
 
 MappingStep Mapper::Process(const Observation& observation) {
-  const Observation still{.scan = slip_.Mended(observation.scan),
-                          .T_odom_robot = observation.T_odom_robot,
-                          .gyro_rad = observation.gyro_rad};
+  const Observation still = slip_.Mended(observation);
   const std::vector<ScanPoint> points = ToPoints(still.scan);
   const MappingStep step = tracker_.Track(map_, still, points);
   slip_.Learn(still, step);

@@ -44,14 +44,6 @@ constexpr double kHeldPoints = 16.0;   // A fifth of all, those of any one surfa
 constexpr double kKnownNats = 4.6;     // Elsewhere once in a hundred.
 constexpr double kForgetNats = 15.0;   // Behind the best place, or behind being elsewhere.
 
-std::vector<ScanPoint> SpreadOut(std::span<const ScanPoint> points) {
-  constexpr double kSparser = 1.3;
-  double spacing_m = kLookSpacing_m;
-  std::vector<ScanPoint> spread = ThinOut(points, spacing_m);
-  while (spread.size() > kLookedAtPoints) spread = ThinOut(points, spacing_m *= kSparser);
-  return spread;
-}
-
 bool IsSamePlace(const Pose2& a, const Pose2& b) {
   return (a.translation_m() - b.translation_m()).norm() < kOnePlace_m &&
          std::abs(NormalizeAngle(a.theta_rad - b.theta_rad)) < kOnePlace_rad;
@@ -90,7 +82,7 @@ struct PlaceFinder::Sight {
   Sight(const ScanMap& in, std::span<const ScanPoint> all)
       : map(in),
         path_m(PathOf(in)),
-        points(SpreadOut(all)),
+        points(ThinOut(all, kLookSpacing_m, kLookedAtPoints)),
         positions_m(PositionsOf(points)),
         modes(SearchModes(map.surfaces().likelihood(),
                           positions_m,

@@ -35,6 +35,11 @@ LaserScan SlipEstimator::Mended(LaserScan scan) const {
   return Deskewed(scan, {slipped.x(), slipped.y(), slipped.z()});
 }
 
+Observation SlipEstimator::Mended(Observation observation) const {
+  observation.scan = Mended(std::move(observation.scan));
+  return observation;
+}
+
 std::optional<SlipEstimator::Look> SlipEstimator::LookOf(const Observation& observation,
                                                          const MappingStep& step) {
   const bool is_matched =

@@ -236,6 +236,15 @@ std::vector<ScanPoint> ThinOut(std::span<const ScanPoint> points, double spacing
   return thinned;
 }
 
+std::vector<ScanPoint> ThinOut(std::span<const ScanPoint> points,
+                               double spacing_m,
+                               std::size_t most) {
+  constexpr double kSparser = 1.3;
+  std::vector<ScanPoint> thinned = ThinOut(points, spacing_m);
+  while (thinned.size() > most) thinned = ThinOut(points, spacing_m *= kSparser);
+  return thinned;
+}
+
 std::vector<Eigen::Vector2d> PositionsOf(std::span<const ScanPoint> points) {
   std::vector<Eigen::Vector2d> positions_robot_m;
   positions_robot_m.reserve(points.size());

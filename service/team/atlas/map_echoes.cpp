@@ -39,23 +39,15 @@ std::vector<const RelevantScan*> Some(std::span<const RelevantScan* const> scans
   return some;
 }
 
-std::vector<Eigen::Vector2d> PositionsSpread(const LaserScan& scan) {
-  constexpr double kSparser = 1.3;
-  const std::vector<ScanPoint> points = ToPoints(scan);
-  double spacing_m = kPointSpacing_m;
-  std::vector<ScanPoint> spread = ThinOut(points, spacing_m);
-  while (spread.size() > kMostPoints) spread = ThinOut(points, spacing_m *= kSparser);
-  return PositionsOf(spread);
-}
-
 std::vector<FoundPose> PlacesElsewhere(const RelevantScan& scan, const ScanMap& map) {
   const Eigen::Vector2d here_m = scan.map_robot.T_a_b.translation_m();
   std::vector<Eigen::Vector2d> path_m = PathOf(map);
   std::erase_if(path_m, [&](const Eigen::Vector2d& p_m) {
     return (p_m - here_m).norm() < kElsewhere_m + kAroundPath_m;
   });
+  const std::vector<ScanPoint> points = ThinOut(ToPoints(scan.scan), kPointSpacing_m, kMostPoints);
   std::vector<FoundPose> places = SearchModes(map.surfaces().likelihood(),
-                                              PositionsSpread(scan.scan),
+                                              PositionsOf(points),
                                               {.places_m = path_m,
                                                .reach_m = kAroundPath_m,
                                                .min_score = kMinScore,

@@ -20,6 +20,8 @@ class SlipEstimator {
   /// The scan as if the robot had stood where it was at the first beam: odometry has put its beams
   /// there (Deskewed()), but for the slip. Other scans are left as they are.
   LaserScan Mended(LaserScan scan) const;
+  /// The observation with its scan mended.
+  Observation Mended(Observation observation) const;
 
   /// Takes where an observation was found to be taken, the next one after the last.
   void Learn(const Observation& observation, const MappingStep& step);

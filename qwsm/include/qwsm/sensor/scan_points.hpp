@@ -39,6 +39,10 @@ ScanPoint operator*(const RigidTransform2& T_other_robot, const ScanPoint& point
 /// Returns points at least `spacing_m` apart, walking along the scan: near surfaces, on which beams
 /// are dense, count no more than far ones.
 std::vector<ScanPoint> ThinOut(std::span<const ScanPoint> points, double spacing_m);
+/// Thins out at wider and wider spacing until no more than so many points are left. @pre most > 0
+std::vector<ScanPoint> ThinOut(std::span<const ScanPoint> points,
+                               double spacing_m,
+                               std::size_t most);
 
 /// Returns the positions of points in the robot's frame.
 std::vector<Eigen::Vector2d> PositionsOf(std::span<const ScanPoint> points);
