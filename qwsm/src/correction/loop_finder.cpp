@@ -14,7 +14,7 @@ namespace {
 // Scans so near to a submap see the same surfaces.
 constexpr double kReach_m = 4.0;
 constexpr double kWindowSigmas = 3.0;
-constexpr double kMaxWindow_m = 5.0;
+constexpr double kMaxWindow_m = 15.0;
 constexpr double kMinOverlap = 0.65;
 // Fewer turns of its lasers after a submap the robot is still on the same pass.
 constexpr std::size_t kTurnsBetweenPasses = 8;
@@ -22,8 +22,9 @@ constexpr std::size_t kTurnsBetweenPasses = 8;
 constexpr double kModelSigma_m = 0.1;
 constexpr double kModelSigma_rad = 0.02;
 
-double ReachOf(const UncertainPose2& expected) {
-  return kReach_m + std::min(kMaxWindow_m, kWindowSigmas * expected.SigmaXY_m());
+// How far off a scan may be expected that is in reach.
+double ReachOf(double sigma_m) {
+  return kReach_m + std::min(kMaxWindow_m, kWindowSigmas * sigma_m);
 }
 
 // What a match tells of the pose in a frame that is itself uncertain.
@@ -125,7 +126,7 @@ std::vector<LoopFinder::Candidate> LoopFinder::NearPasses(NodeId first,
     references.Keep(i, {seen.begin(), seen.begin() + later_submaps});
     for (auto k = static_cast<std::size_t>(later_submaps); k < seen.size(); ++k) {
       const double distance_m = seen[k].T_a_b.translation_m().norm();
-      if (distance_m <= ReachOf(seen[k])) near.push_back({nodes[k], i, seen[k], distance_m});
+      if (distance_m <= ReachOf(seen[k].SigmaXY_m())) near.push_back({nodes[k], i, seen[k], distance_m});
     }
   }
   std::ranges::sort(near, {}, [&](const Candidate& c) {
@@ -134,17 +135,18 @@ std::vector<LoopFinder::Candidate> LoopFinder::NearPasses(NodeId first,
   return NearestOfEachPass(near);
 }
 
-// Later nodes that may be in reach, however uncertain they are.
+// Later nodes that may be in reach, whatever their errors and the submap's have in common.
 std::vector<NodeId> LoopFinder::NodesInReach(NodeId first,
                                              const RigidSubmap& submap,
                                              const PoseEstimate& estimate) const {
   std::vector<NodeId> nodes;
-  const Eigen::Vector2d reference_m = estimate.T_map_node(submap.reference()).translation_m();
+  const NodeId reference = submap.reference();
+  const Eigen::Vector2d reference_m = estimate.T_map_node(reference).translation_m();
   for (NodeId node = std::max(first, submap.nodes.back()); node < nodes_.size(); ++node) {
     const std::optional<std::size_t> behind = chains_.TurnsBetween(submap.nodes.back(), node);
     if (!chains_.CompletesTurn(node) || (behind && *behind <= kTurnsBetweenPasses)) continue;
-    const Eigen::Vector2d apart_m = estimate.T_map_node(node).translation_m() - reference_m;
-    if (apart_m.norm() <= kReach_m + kMaxWindow_m) nodes.push_back(node);
+    const double apart_m = (estimate.T_map_node(node).translation_m() - reference_m).norm();
+    if (apart_m <= ReachOf(estimate.SigmaXYAtMost_m(reference, node))) nodes.push_back(node);
   }
   return nodes;
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose_estimate.hpp"
 
+#include <cmath>
+
 #include "qwsm/geometry/frame_covariance.hpp"
 
 namespace qwsm {
@@ -15,7 +17,21 @@ UncertainPose2 Beside(const UncertainPose2& map_other, const UncertainPose2& map
   return UncertainPose2{.T_a_b = map_other.T_a_b.Inverse()} * apart;
 }
 
+double SigmaXY_m(const Eigen::Matrix3d& covariance) {
+  return UncertainPose2{.T_a_b = {}, .covariance = covariance}.SigmaXY_m();
+}
+
 }  // namespace
+
+// The heading it is seen with turns it about that pose; by Minkowski, sigmas of what is added up
+// are never more than their sum.
+double PoseEstimate::SigmaXYAtMost_m(NodeId from, NodeId node) const {
+  const Eigen::Vector2d apart_m =
+      T_map_node(node).translation_m() - T_map_node(from).translation_m();
+  const Eigen::Matrix3d& of_from = Covariance(from);
+  const double of_heading_m = apart_m.norm() * std::sqrt(0.5 * of_from(2, 2));
+  return SigmaXY_m(Covariance(node)) + SigmaXY_m(of_from) + of_heading_m;
+}
 
 std::vector<UncertainPose2> AnsweredPoses::SeenFrom(NodeId from,
                                                     std::span<const NodeId> nodes) const {

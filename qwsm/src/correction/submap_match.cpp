@@ -10,7 +10,7 @@ namespace {
 // A match finds its way from so far.
 constexpr double kMatchReach_m = 0.15;
 constexpr double kMatchReach_rad = 0.04;
-constexpr double kMaxSearchWindow_m = 6.0;
+constexpr double kMaxSearchWindow_m = 15.0;
 constexpr double kMaxReducedChi2 = 2.5;
 
 std::optional<FoundPose> Search(SubmapSurfaces& submap,
