@@ -324,6 +324,20 @@ void RobotSession::HideTeammates(Work& work) {
              context_.teammate_radius_m,
              tracker_.map_robot().T_a_b * T_last_robot,
              work.scan);
+  HideUnplacedRobots(work);
+}
+
+// Robots in other components may be anywhere.
+void RobotSession::HideUnplacedRobots(Work& work) {
+  const TeamMaps& maps = context_.atlas.maps();
+  const bool are_all_placed = maps.sharing() != MapSharing::kTeam || maps.size() < 2;
+  if (are_all_placed || !work.T_odom_robot || !work.odometry_goes_on || work.odometry_jumped) {
+    return bodies_.Forget();
+  }
+  HideRobots(bodies_.Follow(work.scan, *work.T_odom_robot),
+             context_.teammate_radius_m,
+             Pose2{},
+             work.scan);
 }
 
 SessionCounts RobotSession::Note(const Work& work,

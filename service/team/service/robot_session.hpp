@@ -14,6 +14,7 @@
 #include "qwsm/mapping/slip_estimator.hpp"
 #include "service/team/atlas/map_merger.hpp"
 #include "service/team/atlas/team_atlas.hpp"
+#include "service/team/map/moving_bodies.hpp"
 #include "service/team/service/contested_tracker.hpp"
 #include "service/team/session/correction_easing.hpp"
 #include "service/team/session/session_intake.hpp"
@@ -92,6 +93,7 @@ class RobotSession final : public Lane {
   void BeginAnewAt(const UncertainPose2& map_robot);
   void TellWhatIsSeen(const MappingStep& step, std::span<const ScanPoint> points);
   void HideTeammates(Work& work);
+  void HideUnplacedRobots(Work& work);
   void TellNews(ContestedTracker::News news);
   SessionCounts Note(const Work& work,
                      const ContestedTracker::Tracked& tracked,
@@ -107,6 +109,7 @@ class RobotSession final : public Lane {
   // The worker alone uses these.
   ContestedTracker tracker_;
   PlaceWatch watch_;
+  MovingBodies bodies_;
   SlipEstimator slip_;
   NodeMaker nodes_;
   CorrectionEasing easing_;

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/team/map/moving_bodies.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+
+namespace qwsm::team {
+namespace {
+
+using namespace std::chrono_literals;
+
+// Robots are no larger, and what is seen beside one is so much farther off.
+constexpr double kMostAcross_m = 1.0;
+constexpr double kFree_m = 0.3;
+constexpr std::size_t kMinBeams = 2;
+// The same body is seen so near to where it was, and after no longer.
+constexpr double kSameBody_m = 0.3;
+constexpr Timestamp kOutOfSight = 500ms;
+// It moves if it is so far from where it was a moment ago, and was half way there in between.
+constexpr Timestamp kMoment = 1s;
+constexpr double kMoved_m = 0.2;
+constexpr double kBesideHalfWay = 0.3;
+
+// Successive beams that end on one surface.
+struct Row {
+  std::size_t first = 0;
+  std::size_t last = 0;
+};
+
+bool IsHit(const LaserScan& scan, std::size_t beam) {
+  return StateOf(scan.ranges_m[beam], scan.geometry) == BeamState::kHit;
+}
+
+Eigen::Vector2d EndOf(const LaserScan& scan, std::size_t beam) {
+  const double bearing_rad = scan.geometry.Bearing(beam);
+  return static_cast<double>(scan.ranges_m[beam]) *
+         Eigen::Vector2d(std::cos(bearing_rad), std::sin(bearing_rad));
+}
+
+std::vector<Row> RowsOf(const LaserScan& scan) {
+  std::vector<Row> rows;
+  for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+    if (!IsHit(scan, beam)) continue;
+    const bool goes_on = !rows.empty() && rows.back().last + 1 == beam &&
+                         (EndOf(scan, beam) - EndOf(scan, beam - 1)).norm() < kFree_m;
+    if (!goes_on) rows.push_back({.first = beam});
+    rows.back().last = beam;
+  }
+  return rows;
+}
+
+// Whether a beam passes by what the one beside it hits.
+bool PassesBy(const LaserScan& scan, std::size_t beam, std::size_t beside) {
+  const float farther_m = scan.ranges_m[beam] - scan.ranges_m[beside];
+  return !IsHit(scan, beam) || static_cast<double>(farther_m) > kFree_m;
+}
+
+bool IsFreeStanding(const LaserScan& scan, const Row& row) {
+  if (row.first == 0 || row.last + 1 == scan.size() || row.last + 1 - row.first < kMinBeams) {
+    return false;
+  }
+  return PassesBy(scan, row.first - 1, row.first) && PassesBy(scan, row.last + 1, row.last) &&
+         (EndOf(scan, row.last) - EndOf(scan, row.first)).norm() < kMostAcross_m;
+}
+
+Eigen::Vector2d MiddleOf(const LaserScan& scan, const Row& row) {
+  return 0.5 * (EndOf(scan, row.first) + EndOf(scan, row.last));
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector2d> MovingBodies::Follow(const LaserScan& scan,
+                                                  const Pose2& T_odom_robot) {
+  std::erase_if(bodies_, [&](const Body& body) {
+    return scan.stamp - body.sightings.back().stamp > kOutOfSight;
+  });
+  std::vector<Eigen::Vector2d> moving_m;
+  for (const Row& row : RowsOf(scan)) {
+    if (!IsFreeStanding(scan, row)) continue;
+    const Eigen::Vector2d p_robot_m = scan.geometry.T_robot_laser * MiddleOf(scan, row);
+    Body& body = BodyAt({.stamp = scan.stamp, .p_odom_m = T_odom_robot * p_robot_m});
+    body.has_moved = body.has_moved || Moves(body);
+    const bool is_known = scan.stamp - body.first_seen >= kMoment;
+    if (body.has_moved || !is_known) moving_m.push_back(p_robot_m);
+  }
+  return moving_m;
+}
+
+MovingBodies::Body& MovingBodies::BodyAt(const Sighting& seen) {
+  const auto off_m = [&](const Body& body) {
+    return (body.sightings.back().p_odom_m - seen.p_odom_m).norm();
+  };
+  auto body = std::ranges::min_element(bodies_, {}, off_m);
+  if (body == bodies_.end() || off_m(*body) > kSameBody_m) {
+    body = bodies_.insert(bodies_.end(), {.sightings = {}, .first_seen = seen.stamp});
+  }
+  std::erase_if(body->sightings,
+                [&](const Sighting& old) { return seen.stamp - old.stamp > kMoment; });
+  body->sightings.push_back(seen);
+  return *body;
+}
+
+bool MovingBodies::Moves(const Body& body) {
+  const Sighting& first = body.sightings.front();
+  const Sighting& middle = body.sightings[body.sightings.size() / 2];
+  const Eigen::Vector2d way_m = body.sightings.back().p_odom_m - first.p_odom_m;
+  const Eigen::Vector2d half_way_m = first.p_odom_m + 0.5 * way_m;
+  return way_m.norm() > kMoved_m &&
+         (middle.p_odom_m - half_way_m).norm() < kBesideHalfWay * way_m.norm();
+}
+
+}  // namespace qwsm::team
