@@ -14,7 +14,9 @@
 // until it was found, where the robots that it was found with had been; how far off it was then,
 // and how far it had drifted in its own component, which no place of that can mend; how many of its
 // answers in the team's map were farther off than half a metre; and its error in that map, beside
-// that of a run in which all were told rightly.
+// that of a run in which all were told rightly. And one for the team: how wrong its map and all
+// answers in it are, wherever the map lies in the world (ATE, Sturm et al. 2012), beside that of
+// that run.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -27,6 +29,7 @@
 #include <utility>
 #include <vector>
 
+#include "qwsm/metrics/trajectory_error.hpp"
 #include "service/config/options_io.hpp"
 #include "service/config/scenario_file.hpp"
 #include "service/team/service/team_service.hpp"
@@ -72,6 +75,7 @@ struct Fate {
   bool is_beside_others_wrongly = false;  // In a component that is not the team's map.
   std::vector<std::size_t> steps;         // When it was in the team's map.
   std::vector<double> errors_m;
+  std::vector<PosePair> answers;  // Likewise.
 };
 
 /// What robots measure, and what they say of where they start.
@@ -187,8 +191,8 @@ class Trial {
     const bool is_apart = !component_[reading.robot].empty();
     const bool was_apart = std::exchange(fate.is_apart, is_apart);
     if (is_apart) return JudgeApart(reading, fate, !was_apart && !fate.steps.empty());
-    const Pose2 error =
-        reading.T_world_robot.Inverse() * answers_.Of(NameOf(reading.robot)).step.map_robot.T_a_b;
+    const RobotAnswer& answer = answers_.Of(NameOf(reading.robot));
+    const Pose2 error = reading.T_world_robot.Inverse() * answer.step.map_robot.T_a_b;
     const double error_m = error.translation_m().norm();
     if (was_apart) {
       fate.found_off_m = std::max(fate.found_off_m, error_m);
@@ -197,6 +201,9 @@ class Trial {
     }
     fate.steps.push_back(step);
     fate.errors_m.push_back(error_m);
+    fate.answers.push_back({.stamp = reading.scan.stamp,
+                            .T_ref_robot = reading.T_world_robot,
+                            .T_map_robot = answer.step.map_robot.T_a_b});
   }
 
   void JudgeApart(const sim::Reading& reading, Fate& fate, bool is_lost) {
@@ -262,12 +269,28 @@ double RmsAt(const Fate& fate, const std::vector<std::size_t>& steps) {
   return Rms(errors_m);
 }
 
+using Fates = std::map<std::size_t, Fate>;
+
+/// Absolute trajectory error of a team in its map, wherever that lies in the world, of what both
+/// trials have answered in it.
+double TeamError(const Fates& fates, const Fates& others) {
+  std::vector<PosePair> pairs;
+  for (const auto& [robot, fate] : fates) {
+    const std::vector<std::size_t>& steps = others.at(robot).steps;
+    for (std::size_t i = 0; i < fate.steps.size(); ++i) {
+      if (std::ranges::binary_search(steps, fate.steps[i])) pairs.push_back(fate.answers[i]);
+    }
+  }
+  return AbsoluteTrajectoryError(pairs, AlignUmeyama(pairs)).rmse;
+}
+
 struct Sum {
   int robots = 0;
   int found = 0;
   int in_time = 0;
   int with_enough_in_common = 0;
   int wrong = 0;
+  std::vector<double> times_told;  // ATE of the team over that of one that was told.
 };
 
 void Print(int seed, std::size_t robot, const Fate& fate, const Fate& told, Sum& sum) {
@@ -315,6 +338,14 @@ void Evaluate(const std::string& name, int seed, const std::string& duration, Su
     const bool is_astray = !fate.errors_m.empty() && fate.errors_m.back() > kWrong_m;
     if (fate.was_apart || is_astray) Print(seed, robot, fate, told.fates().at(robot), sum);
   }
+  const double error_m = TeamError(trial.fates(), told.fates());
+  const double told_m = TeamError(told.fates(), trial.fates());
+  sum.times_told.push_back(error_m / told_m);
+  std::printf("%d team: ATE %.4f m, told %.4f m, %.2f times\n",
+              seed,
+              error_m,
+              told_m,
+              sum.times_told.back());
   for (const auto& [robot, fate] : told.fates()) {
     if (!fate.was_apart) continue;
     std::printf(
@@ -341,5 +372,11 @@ int main(int argc, char** argv) {
               sum.wrong,
               sum.in_time,
               sum.with_enough_in_common);
+  std::ranges::sort(sum.times_told);
+  const auto as_told = std::ranges::upper_bound(sum.times_told, 1.2) - sum.times_told.begin();
+  std::printf("ATE over that of teams that were told: %.2f in the median, within 1.2 in %d of %d\n",
+              sum.times_told.empty() ? 0.0 : sum.times_told[sum.times_told.size() / 2],
+              static_cast<int>(as_told),
+              static_cast<int>(sum.times_told.size()));
   return sum.wrong == 0 ? 0 : 1;
 }
