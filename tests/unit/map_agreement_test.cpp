@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "service/team/atlas/joint_candidates.hpp"
@@ -80,10 +81,11 @@ MapAgreement Agreement() { return {ScanLocatorOptions{}, FreeSpaceOptions{}}; }
 
 std::optional<UncertainPose2> DecideOn(const UncertainPose2& a_b,
                                        const ScanMap& a,
-                                       const ScanMap& b) {
+                                       const ScanMap& b,
+                                       const std::stop_token& stop = {}) {
   JointCandidates candidates;
   candidates.Propose(a_b, b.scans().front().map_robot.T_a_b);
-  return candidates.Decide(Agreement(), a, b, {});
+  return candidates.Decide(Agreement(), a, b, stop);
 }
 
 std::vector<const RelevantScan*> AllOf(const ScanMap& map) {
@@ -127,6 +129,18 @@ TEST(MapAgreement, BelievesAPlaceThatIsThereOnce) {
   const std::optional<UncertainPose2> found = DecideOn(At(0.1, -0.1), a, b);
   ASSERT_TRUE(found);
   EXPECT_LT(found->T_a_b.translation_m().norm(), 0.02);
+}
+
+TEST(MapAgreement, TellsNothingOnceItIsStopped) {
+  const ScanMap a = MapOf(test::FurnishedRoom());
+  const ScanMap b = AgainMapOf(test::FurnishedRoom());
+  std::stop_source stopped;
+  stopped.request_stop();
+  // Where no scan is looked at, nothing speaks for a place.
+  EXPECT_LT(Agreement().Judge(a, b, At(0.0, 0.0), stopped.get_token()).nats, 1e-9);
+  EXPECT_LT(Agreement().NatsAmongEchoes(a, b, At(0.0, 0.0), stopped.get_token()), 1e-9);
+  EXPECT_TRUE(FindEchoes(AllOf(a), a, stopped.get_token()).empty());
+  EXPECT_FALSE(DecideOn(At(0.0, 0.0), a, b, stopped.get_token()));
 }
 
 TEST(MapAgreement, KnowsThatItDoesNotKnowWhereAlongAWall) {

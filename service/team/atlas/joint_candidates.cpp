@@ -62,9 +62,11 @@ std::optional<UncertainPose2> JointCandidates::Decide(const MapAgreement& agreem
   KeepBest();
   if (!HasLeader()) return std::nullopt;
   Candidate& best = candidates_.front();
-  if (best.scans_among_echoes != best.scans) Contest(agreement, a, b, best);
+  if (best.scans_among_echoes != best.scans) Contest(agreement, a, b, best, stop);
   if (best.nats_among_echoes - best.unseen_nats < kSureNats) return std::nullopt;
-  return agreement.Judge(a, b, best.a_b).a_b;  // Pairs are better ones where it has been fitted.
+  // Pairs are better ones where it has been fitted.
+  const UncertainPose2 fitted = agreement.Judge(a, b, best.a_b, stop).a_b;
+  return stop.stop_requested() ? std::nullopt : std::optional(fitted);
 }
 
 // @return false if it was stopped.
@@ -77,8 +79,8 @@ bool JointCandidates::Weigh(const MapAgreement& agreement,
     const bool has_grown =
         static_cast<double>(scans) > kGrown * static_cast<double>(candidate.scans);
     if (!has_grown || candidate.nats < kRefutedNats) continue;
+    const MapAgreement::Judgement judged = agreement.Judge(a, b, candidate.a_b, stop);
     if (stop.stop_requested()) return false;
-    const MapAgreement::Judgement judged = agreement.Judge(a, b, candidate.a_b);
     candidate.a_b = judged.a_b;
     candidate.nats = judged.nats;
     candidate.least_known = judged.least_known;
@@ -98,16 +100,17 @@ bool JointCandidates::HasLeader() const {
 void JointCandidates::Contest(const MapAgreement& agreement,
                               const ScanMap& a,
                               const ScanMap& b,
-                              Candidate& candidate) {
+                              Candidate& candidate,
+                              const std::stop_token& stop) {
   candidate.scans_among_echoes = candidate.scans;
   candidate.nats_among_echoes = -std::numeric_limits<double>::infinity();
   for (const double slid_m : {-kSlid_m, kSlid_m}) {
     UncertainPose2 slid = candidate.a_b;
     slid.T_a_b.x_m += slid_m * candidate.least_known.x();
     slid.T_a_b.y_m += slid_m * candidate.least_known.y();
-    if (candidate.nats - agreement.Judge(a, b, slid).nats < kLeadNats) return;
+    if (candidate.nats - agreement.Judge(a, b, slid, stop).nats < kLeadNats) return;
   }
-  candidate.nats_among_echoes = agreement.NatsAmongEchoes(a, b, candidate.a_b);
+  candidate.nats_among_echoes = agreement.NatsAmongEchoes(a, b, candidate.a_b, stop);
 }
 
 // Places that have come together are one.

@@ -27,7 +27,7 @@ class JointCandidates {
   void Confront(const RobotSight& in_a, const RobotSight& in_b);
 
   /// Weighs all places anew of which the maps may show more than they did.
-  /// @return the place where the two lie beyond doubt, leading all others.
+  /// @return the place where the two lie beyond doubt, leading all others; none once it is stopped.
   std::optional<UncertainPose2> Decide(const MapAgreement& agreement,
                                        const ScanMap& a,
                                        const ScanMap& b,
@@ -59,7 +59,8 @@ class JointCandidates {
   static void Contest(const MapAgreement& agreement,
                       const ScanMap& a,
                       const ScanMap& b,
-                      Candidate& candidate);
+                      Candidate& candidate,
+                      const std::stop_token& stop);
   void KeepBest();
 
   std::vector<Candidate> candidates_;  // The best one first.

@@ -106,8 +106,9 @@ void MapAgreement::Fates::Add(const Fates& other, double share) {
 
 MapAgreement::Judgement MapAgreement::Judge(const ScanMap& a,
                                             const ScanMap& b,
-                                            const UncertainPose2& a_b) const {
-  const Evidence evidence = EvidenceOf(a, b, a_b);
+                                            const UncertainPose2& a_b,
+                                            const std::stop_token& stop) const {
+  const Evidence evidence = EvidenceOf(a, b, a_b, stop);
   const Fitted fitted = Fit(a_b, evidence.b_in_a.pairs, evidence.a_in_b.pairs);
   return {.nats = evidence.NatsAgainst(Share::IfAlike()),
           .a_b = fitted.a_b,
@@ -116,37 +117,39 @@ MapAgreement::Judgement MapAgreement::Judge(const ScanMap& a,
 
 double MapAgreement::NatsAmongEchoes(const ScanMap& a,
                                      const ScanMap& b,
-                                     const UncertainPose2& a_b) const {
-  const Evidence evidence = EvidenceOf(a, b, a_b);
+                                     const UncertainPose2& a_b,
+                                     const std::stop_token& stop) const {
+  const Evidence evidence = EvidenceOf(a, b, a_b, stop);
   const UncertainPose2 b_a = Inverse(a_b);
   double nats = evidence.NatsAgainst(Share::IfAlike());
   const auto consider = [&](const Fates& echo) {
     nats = std::min(nats, evidence.NatsAgainst(Share::IfAlike().Having(echo)));
   };
-  for (const Pose2& T_a_a : FindEchoes(evidence.overlap.of_a, a)) {
+  for (const Pose2& T_a_a : FindEchoes(evidence.overlap.of_a, a, stop)) {
     const UncertainPose2 echo{.T_a_b = T_a_a};
-    consider(FatesOfBoth(evidence.overlap, a, echo, echo * a_b));
+    consider(FatesOfBoth(evidence.overlap, a, echo, echo * a_b, stop));
   }
-  for (const Pose2& T_b_b : FindEchoes(evidence.overlap.of_b, b)) {
+  for (const Pose2& T_b_b : FindEchoes(evidence.overlap.of_b, b, stop)) {
     const UncertainPose2 echo{.T_a_b = T_b_b};
-    consider(FatesOfBoth(evidence.overlap, b, echo * b_a, echo));
+    consider(FatesOfBoth(evidence.overlap, b, echo * b_a, echo, stop));
   }
   return nats;
 }
 
 MapAgreement::Evidence MapAgreement::EvidenceOf(const ScanMap& a,
                                                 const ScanMap& b,
-                                                const UncertainPose2& a_b) const {
+                                                const UncertainPose2& a_b,
+                                                const std::stop_token& stop) const {
   const UncertainPose2 b_a = Inverse(a_b);
   Overlap overlap{.of_a = ScansBeside(a, b, b_a.T_a_b), .of_b = ScansBeside(b, a, a_b.T_a_b)};
-  Fates b_in_a = FatesOf(overlap.of_b, a, a_b);
-  Fates a_in_b = FatesOf(overlap.of_a, b, b_a);
+  Fates b_in_a = FatesOf(overlap.of_b, a, a_b, stop);
+  Fates a_in_b = FatesOf(overlap.of_a, b, b_a, stop);
   Fates found;
   found.Add(b_in_a, OnceTold(overlap.of_b.size(), overlap.of_a.size()));
   found.Add(a_in_b, OnceTold(overlap.of_a.size(), overlap.of_b.size()));
   Fates in_own;
-  in_own.Add(FatesOf(overlap.of_a, a, {}), 1.0);
-  in_own.Add(FatesOf(overlap.of_b, b, {}), 1.0);
+  in_own.Add(FatesOf(overlap.of_a, a, {}, stop), 1.0);
+  in_own.Add(FatesOf(overlap.of_b, b, {}, stop), 1.0);
   return {.overlap = std::move(overlap),
           .b_in_a = std::move(b_in_a),
           .a_in_b = std::move(a_in_b),
@@ -158,12 +161,13 @@ MapAgreement::Evidence MapAgreement::EvidenceOf(const ScanMap& a,
 MapAgreement::Fates MapAgreement::FatesOfBoth(const Overlap& overlap,
                                               const ScanMap& map,
                                               const UncertainPose2& map_a,
-                                              const UncertainPose2& map_b) const {
+                                              const UncertainPose2& map_b,
+                                              const std::stop_token& stop) const {
   const std::size_t of_a = overlap.of_a.size();
   const std::size_t of_b = overlap.of_b.size();
   Fates both;
-  both.Add(FatesOf(overlap.of_a, map, map_a), OnceTold(of_a, of_b));
-  both.Add(FatesOf(overlap.of_b, map, map_b), OnceTold(of_b, of_a));
+  both.Add(FatesOf(overlap.of_a, map, map_a, stop), OnceTold(of_a, of_b));
+  both.Add(FatesOf(overlap.of_b, map, map_b, stop), OnceTold(of_b, of_a));
   return both;
 }
 
@@ -209,11 +213,13 @@ MapAgreement::Pair MapAgreement::PairOf(const Pose2& T_map_scan, const MatchResu
 
 MapAgreement::Fates MapAgreement::FatesOf(std::span<const RelevantScan* const> scans,
                                           const ScanMap& map,
-                                          const UncertainPose2& map_scans) const {
+                                          const UncertainPose2& map_scans,
+                                          const std::stop_token& stop) const {
   PlaceEvidence evidence(free_space_);
   const UncertainPose2 bent = UncertainPose2::WithSigmas({}, kBent_m, kBent_rad);
   Fates fates;
   for (const RelevantScan* scan : scans) {
+    if (stop.stop_requested()) break;
     const std::vector<ScanPoint> points = ThinOut(ToPoints(scan->scan), kSpacing_m);
     const UncertainPose2 predicted = map_scans * UncertainPose2{.T_a_b = scan->map_robot.T_a_b};
     const MatchResult match = locator_.Locate(map, points, predicted * bent);

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "qwsm/mapping/free_space.hpp"
@@ -32,12 +33,21 @@ class MapAgreement {
     Eigen::Vector2d least_known = Eigen::Vector2d::UnitX();
   };
 
-  Judgement Judge(const ScanMap& a, const ScanMap& b, const UncertainPose2& a_b) const;
+  /// Takes as long as it takes to locate the scans of both that are near the other's. Once it is
+  /// stopped what it returns tells nothing.
+  Judgement Judge(const ScanMap& a,
+                  const ScanMap& b,
+                  const UncertainPose2& a_b,
+                  const std::stop_token& stop = {}) const;
 
   /// The same evidence in a building of which the maps show how much alike its places are: the
   /// alternative is one more place like that one in `a` or `b` which is most like what both show
   /// there. Where a map repeats itself, no more of it than it repeats speaks for a place.
-  double NatsAmongEchoes(const ScanMap& a, const ScanMap& b, const UncertainPose2& a_b) const;
+  /// To be stopped likewise.
+  double NatsAmongEchoes(const ScanMap& a,
+                         const ScanMap& b,
+                         const UncertainPose2& a_b,
+                         const std::stop_token& stop = {}) const;
 
  private:
   // The scans of two maps near each other's.
@@ -68,14 +78,19 @@ class MapAgreement {
   // What is to be explained, and how it would be if the maps went together.
   struct Evidence;
 
-  Evidence EvidenceOf(const ScanMap& a, const ScanMap& b, const UncertainPose2& a_b) const;
+  Evidence EvidenceOf(const ScanMap& a,
+                      const ScanMap& b,
+                      const UncertainPose2& a_b,
+                      const std::stop_token& stop) const;
   Fates FatesOfBoth(const Overlap& overlap,
                     const ScanMap& map,
                     const UncertainPose2& map_a,
-                    const UncertainPose2& map_b) const;
+                    const UncertainPose2& map_b,
+                    const std::stop_token& stop) const;
   Fates FatesOf(std::span<const RelevantScan* const> scans,
                 const ScanMap& map,
-                const UncertainPose2& map_scans) const;
+                const UncertainPose2& map_scans,
+                const std::stop_token& stop) const;
   static Pair PairOf(const Pose2& T_map_scan, const MatchResult& match);
   static Fitted Fit(const UncertainPose2& a_b,
                     std::span<const Pair> b_in_a,

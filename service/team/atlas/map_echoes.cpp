@@ -83,10 +83,15 @@ void Vote(const RelevantScan& scan, const ScanMap& map, std::vector<Echo>& echoe
 
 }  // namespace
 
-std::vector<Pose2> FindEchoes(std::span<const RelevantScan* const> scans, const ScanMap& map) {
+std::vector<Pose2> FindEchoes(std::span<const RelevantScan* const> scans,
+                              const ScanMap& map,
+                              const std::stop_token& stop) {
   if (scans.empty()) return {};
   std::vector<Echo> echoes;
-  for (const RelevantScan* scan : Some(scans)) Vote(*scan, map, echoes);
+  for (const RelevantScan* scan : Some(scans)) {
+    if (stop.stop_requested()) break;
+    Vote(*scan, map, echoes);
+  }
   std::ranges::stable_sort(echoes, std::ranges::greater{}, &Echo::votes);
   if (echoes.size() > kMostEchoes) echoes.resize(kMostEchoes);
   std::vector<Pose2> T_map_map;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "qwsm/geometry/pose2.hpp"
@@ -13,7 +14,9 @@ namespace qwsm::team {
 /// Finds where a map looks as it does around some of its scans, elsewhere: the next leg of a
 /// zigzag, the next room of many. That is what tells how much alike places of a building are.
 /// @return where the frame of the scans lies in the map there, as motions of the map onto itself;
-/// those that most scans agree on, the first one first.
-std::vector<Pose2> FindEchoes(std::span<const RelevantScan* const> scans, const ScanMap& map);
+/// those that most scans agree on, the first one first. Once it is stopped, those found so far.
+std::vector<Pose2> FindEchoes(std::span<const RelevantScan* const> scans,
+                              const ScanMap& map,
+                              const std::stop_token& stop = {});
 
 }  // namespace qwsm::team

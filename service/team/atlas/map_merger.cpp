@@ -28,6 +28,16 @@ constexpr double kConfirmedNats = 4.6;
 // thousand millions. Maps of robots that drift contradict each other a little, too.
 constexpr double kMisplacedNats = -23.0;
 
+// What belongs to two components, in the order in which they become one: of the other one in that
+// of the lesser name.
+template <class Value>
+std::pair<Value, Value> IntoAndFrom(const MapComponent& one,
+                                    const Value& of_one,
+                                    const MapComponent& other,
+                                    const Value& of_other) {
+  return one.name < other.name ? std::pair(of_one, of_other) : std::pair(of_other, of_one);
+}
+
 }  // namespace
 
 MapMerger::MapMerger(const MapperOptions& options)
@@ -67,27 +77,22 @@ std::optional<ComponentPlace> MapMerger::LookFor(const std::string& robot,
       search.finder.Look(there.map, sighting.points, sighting.map_robot.T_a_b);
   if (search.finder.T_local_looked() == T_own_looked) return std::nullopt;
 
-  const bool is_into_own = sighting.component.name < other.name;
   JointCandidates& candidates = candidates_[std::minmax(sighting.component.name, other.name)];
+  const UncertainPose2 own_robot{.T_a_b = sighting.map_robot.T_a_b};
   for (const Place& place : belief.places) {
     if (place.probability < kWorthALook) break;
-    const UncertainPose2 robot_own{.T_a_b = sighting.map_robot.T_a_b.Inverse()};
-    const UncertainPose2 other_own = place.map_robot * robot_own;
-    if (is_into_own) {
-      candidates.Propose(Inverse(other_own), place.map_robot.T_a_b);
-    } else {
-      candidates.Propose(other_own, sighting.map_robot.T_a_b);
-    }
+    const auto [into_robot, from_robot] =
+        IntoAndFrom(sighting.component, own_robot, other, place.map_robot);
+    candidates.Propose(into_robot * Inverse(from_robot), from_robot.T_a_b);
   }
   Confront(sighting, other, all, candidates);
-  const Chart& into = is_into_own ? own : there;
-  const Chart& from = is_into_own ? there : own;
-  const auto into_from = candidates.Decide(agreement_, into.map, from.map, stop);
+  const auto [into, from] = IntoAndFrom(sighting.component, &own, other, &there);
+  const auto into_from = candidates.Decide(agreement_, into->map, from->map, stop);
   if (!into_from) return std::nullopt;
-  return ComponentPlace{.from = from.version,
-                        .from_name = is_into_own ? other.name : sighting.component.name,
-                        .into = into.version,
-                        .into_name = is_into_own ? sighting.component.name : other.name,
+  return ComponentPlace{.from = from->version,
+                        .from_name = from->component,
+                        .into = into->version,
+                        .into_name = into->component,
                         .into_from = *into_from};
 }
 
@@ -101,8 +106,8 @@ void MapMerger::Confront(const Sighting& sighting,
     if (there.component.map != other.map) continue;
     if (std::chrono::abs(there.stamp - sighting.stamp) > kSameTime) continue;
     const RobotSight its{there.points, there.map_robot.T_a_b};
-    sighting.component.name < other.name ? candidates.Confront(own, its)
-                                         : candidates.Confront(its, own);
+    const auto [in_into, in_from] = IntoAndFrom(sighting.component, own, other, its);
+    candidates.Confront(in_into, in_from);
   }
 }
 
@@ -129,14 +134,15 @@ bool MapMerger::IsPlaceOpen(std::string_view robot) const {
   return told_.contains(robot);
 }
 
-std::optional<MisplacedRobot> MapMerger::FindMisplaced(
-    const std::vector<MapComponent>& components) {
+std::optional<MisplacedRobot> MapMerger::FindMisplaced(const std::vector<MapComponent>& components,
+                                                       const std::stop_token& stop) {
   for (const auto& [robot, scans_to_judge] : Told()) {
     for (const MapComponent& component : components) {
       const std::size_t scans_of_robot = component.map->CountOf(robot);
       if (scans_of_robot < scans_to_judge) continue;
       const MapVersion version = component.map->version();
-      const double nats = NatsOfPlace(component.map->Scans(), robot);
+      const double nats = NatsOfPlace(component.map->Scans(), robot, stop);
+      if (stop.stop_requested()) return std::nullopt;
       const std::lock_guard lock(mutex_);
       const bool is_refuted = nats < kMisplacedNats;
       if (is_refuted || nats > kConfirmedNats) {
@@ -152,7 +158,9 @@ std::optional<MisplacedRobot> MapMerger::FindMisplaced(
 
 // Of the place that a robot was told: whether its scans go together with those of the robots that
 // were in the map before it.
-double MapMerger::NatsOfPlace(const std::vector<TeamScan>& scans, const std::string& robot) const {
+double MapMerger::NatsOfPlace(const std::vector<TeamScan>& scans,
+                              const std::string& robot,
+                              const std::stop_token& stop) const {
   std::set<std::string> elders;
   for (const TeamScan& scan : scans) {
     if (scan.key.robot == robot) break;
@@ -161,11 +169,12 @@ double MapMerger::NatsOfPlace(const std::vector<TeamScan>& scans, const std::str
   ScanMap of_robot(options_.map);
   ScanMap of_elders(options_.map);
   for (const TeamScan& scan : scans) {
+    if (stop.stop_requested()) break;
     const bool is_of_robot = scan.key.robot == robot;
     if (!is_of_robot && !elders.contains(scan.key.robot)) continue;
     (is_of_robot ? of_robot : of_elders).Insert(scan.scan, ToPoints(scan.scan), scan.map_robot);
   }
-  return agreement_.Judge(of_elders, of_robot, {}).nats;
+  return agreement_.Judge(of_elders, of_robot, {}, stop).nats;
 }
 
 std::map<std::string, std::size_t> MapMerger::Told() const {
@@ -185,6 +194,7 @@ const MapMerger::Chart& MapMerger::ChartOf(const MapComponent& component) {
   const auto size = static_cast<double>(contents->map.scans().size());
   const bool has_grown = size > kOutgrown * static_cast<double>(chart.map.scans().size());
   if (has_grown || chart.version != version) {
+    chart.component = component.name;
     chart.version = version;
     chart.map = contents->map;
   }

@@ -54,17 +54,19 @@ class MapMerger {
 
   /// Looks whether robots that were told where they are have mapped there what those have that were
   /// in the map before.
-  /// @return the first one that has not: that is somewhere else.
-  std::optional<MisplacedRobot> FindMisplaced(const std::vector<MapComponent>& components);
+  /// @return the first one that has not: that is somewhere else; none once it is stopped.
+  std::optional<MisplacedRobot> FindMisplaced(const std::vector<MapComponent>& components,
+                                              const std::stop_token& stop);
 
   /// Looks around with what was seen last by each robot, in all components but its own.
-  /// @return the first place found where one component lies in another.
+  /// @return the first place found where one component lies in another; none once it is stopped.
   std::optional<ComponentPlace> LookAround(const std::vector<MapComponent>& components,
                                            const std::stop_token& stop);
 
  private:
-  // A copy of a map as it was.
+  // A copy of a component's map as it was.
   struct Chart {
+    std::string component;
     MapVersion version;
     ScanMap map;
   };
@@ -83,7 +85,9 @@ class MapMerger {
                        const Sightings& all,
                        JointCandidates& candidates);
   std::map<std::string, std::size_t> Told() const;
-  double NatsOfPlace(const std::vector<TeamScan>& scans, const std::string& robot) const;
+  double NatsOfPlace(const std::vector<TeamScan>& scans,
+                     const std::string& robot,
+                     const std::stop_token& stop) const;
   const Chart& ChartOf(const MapComponent& component);
   std::optional<ComponentPlace> LookFor(const std::string& robot,
                                         const Sighting& sighting,

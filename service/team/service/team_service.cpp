@@ -90,7 +90,7 @@ void TeamService::WaitUntilIdle() {
 void TeamService::MergeMaps(const std::stop_token& stop) {
   atlas_.Tidy();
   if (const auto place = merger_.LookAround(atlas_.maps().All(), stop)) Join(*place);
-  if (const auto misplaced = merger_.FindMisplaced(atlas_.maps().All())) {
+  if (const auto misplaced = merger_.FindMisplaced(atlas_.maps().All(), stop)) {
     const auto& [robot, component, version] = *misplaced;
     if (!atlas_.Part(robot, version, component)) return merger_.HearPlaceOf(robot);
     sinks_.Tell(&TeamSink::TakeEvent,
