@@ -4,7 +4,8 @@
 // epoch_latency [SCANS [ROUNDS]]: what robots wait for while the whole map is put elsewhere.
 // A map of SCANS relevant scans (2000) of another service; four robots are answered in it ten times
 // a second, in real time, and ROUNDS times (5) that other service corrects all of the map. Prints
-// the time from a scan to its pose, in the second after each correction and else.
+// the time from a scan to its pose, from each correction until a second after it has taken effect,
+// and else.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -119,15 +120,21 @@ int Measure(std::size_t scans, int rounds) {
                      .scan = reading.scan,
                      .map_robot = UncertainPose2::WithSigmas(reading.T_world_robot, 0.01, 0.001)}});
   }
-  std::vector<Clock::time_point> corrected;
+  struct Correction {
+    Clock::time_point begun;
+    Clock::time_point ended;
+  };
+  std::vector<Correction> corrections;
   std::jthread corrector([&] {
     for (int round = 1; round <= rounds; ++round) {
       std::this_thread::sleep_for(std::chrono::seconds(kSecondsBetween));
       const team::TeamEpoch epoch =
           Moved(*service.MapOf("robot1"), static_cast<std::uint64_t>(round) * 10);
-      corrected.push_back(Clock::now());
+      Correction& correction = corrections.emplace_back();
+      correction.begun = Clock::now();
       service.TakeIn(epoch);
-      const double took_ms = Milliseconds(Clock::now() - corrected.back()).count();
+      correction.ended = Clock::now();
+      const double took_ms = Milliseconds(correction.ended - correction.begun).count();
       std::printf("taking it in took %7.1f ms; %zu scans, %.1f MB in use\n",
                   took_ms,
                   epoch.scans.size(),
@@ -147,8 +154,8 @@ int Measure(std::size_t scans, int rounds) {
   service.WaitUntilIdle();
   std::vector<double> during, otherwise;
   for (const TimingSink::Answer& answer : sink.answers()) {
-    const bool is_during = std::ranges::any_of(corrected, [&](Clock::time_point at) {
-      return answer.told >= at && answer.told < at + 1s;
+    const bool is_during = std::ranges::any_of(corrections, [&](const Correction& correction) {
+      return answer.told >= correction.begun && answer.told < correction.ended + 1s;
     });
     (is_during ? during : otherwise).push_back(answer.latency_ms);
   }

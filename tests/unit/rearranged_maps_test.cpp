@@ -4,9 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "service/team/atlas/team_atlas.hpp"
 #include "tests/support/room_drive.hpp"
 
 namespace qwsm::team {
@@ -98,6 +102,45 @@ TEST_F(RearrangedMapsTest, OnlyWhatMovesIsOfAnotherVersion) {
   EXPECT_NE(moved.maps().at("")->version(), maps_.Named("").map->version());
   EXPECT_EQ(moved.maps().at("")->Scans().back().map_robot.T_a_b.y_m,
             maps_.Named("").map->Scans().back().map_robot.T_a_b.y_m + 0.1);
+}
+
+TEST_F(RearrangedMapsTest, HoldAllScansOfALargeMap) {
+  for (std::uint64_t sequence = 3; sequence <= 40; ++sequence) Extend("b", sequence);
+  RearrangedMaps made;
+  made.Follow(maps_, Joined());
+  const auto maps = made.maps();
+  EXPECT_EQ(maps.at("b"), nullptr);
+  std::vector<std::string> told{Told("a", 1, 0.0), Told("a", 2, 0.0)};
+  for (std::uint64_t sequence = 1; sequence <= 40; ++sequence) {
+    told.push_back(Told("b", sequence, 10.0));
+  }
+  EXPECT_EQ(ScansOf(*maps.at("")), told);
+}
+
+// Who moves on to the new map would take as long as freeing the old one takes.
+TEST(TeamAtlas, FreesReplacedMapsWhereNobodyWaits) {
+  const SinkList<TeamSink> sinks(std::vector<TeamSink*>{});
+  TeamAtlas atlas({},
+                  {.service = [] { return std::string("base"); },
+                   .keep = [](io::JournalEntry, const std::function<void()>& kept) { kept(); },
+                   .sinks = sinks});
+  for (const std::string robot : {"a", "b"}) {
+    TeamScan scan = Scan(robot, 1);
+    scan.component = robot == "a" ? "" : robot;
+    ASSERT_TRUE(atlas.TakeIn(std::move(scan)));
+  }
+  const MapComponent home = atlas.maps().Named("");
+  std::weak_ptr<TeamMap> into = home.map;
+  std::weak_ptr<TeamMap> from = atlas.maps().Named("b").map;
+  ASSERT_TRUE(atlas.Join({.from = from.lock()->version(),
+                          .from_name = "b",
+                          .into = into.lock()->version(),
+                          .into_name = "",
+                          .into_from = {}}));
+  EXPECT_FALSE(from.expired());
+  atlas.Tidy();
+  EXPECT_TRUE(from.expired());
+  EXPECT_FALSE(into.expired());  // Somebody still reads it.
 }
 
 }  // namespace

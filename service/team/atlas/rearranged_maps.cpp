@@ -3,6 +3,8 @@
 #include "service/team/atlas/rearranged_maps.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <span>
 #include <utility>
 
 namespace qwsm::team {
@@ -10,6 +12,22 @@ namespace {
 
 bool IsSame(const Placement& a, const Placement& b) {
   return a.component == b.component && a.map_robot.T_a_b == b.map_robot.T_a_b;
+}
+
+// Visits the scans from that one on that are to be placed, few at a time: who adds scans is not to
+// wait until all are copied.
+template <class Visit>
+void ForEachScan(const MapComponent& component,
+                 std::size_t first,
+                 std::span<const Placement> places,
+                 Visit visit) {
+  constexpr std::size_t kAtATime = 16;
+  while (first < places.size()) {
+    const std::size_t count = std::min(kAtATime, places.size() - first);
+    for (TeamScan& scan : component.map->Scans(static_cast<ScanId>(first), count)) {
+      visit(std::move(scan), places[first++]);
+    }
+  }
 }
 
 void Put(TeamScan scan, const Placement& place, TeamMap& map) {
@@ -30,16 +48,13 @@ void RearrangedMaps::Follow(const TeamMaps& maps, const Rearrangement& rearrange
     const std::size_t first = std::exchange(placed_[component.name], wanted->second.size());
     const auto made = made_.find(component.name);
     if (made == made_.end()) continue;  // Its scans are where they belong.
-    std::vector<TeamScan> scans = component.map->Scans(static_cast<ScanId>(first));
-    for (std::size_t id = first; id < wanted->second.size(); ++id) {
-      const Placement& place = wanted->second[id];
-      TeamScan& scan = scans[id - first];
+    ForEachScan(component, first, wanted->second, [&](TeamScan scan, const Placement& place) {
       if (place.component == component.name) {
         Put(std::move(scan), place, *made->second);
       } else {
         arriving.emplace_back(std::move(scan), &place);
       }
-    }
+    });
   }
   for (auto& [scan, place] : arriving) Put(std::move(scan), *place, *made_.at(place->component));
 }

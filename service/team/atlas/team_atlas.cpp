@@ -5,11 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <set>
 #include <utility>
 
 #include "service/team/journal/journaled_map.hpp"
+#include "service/team/map/yielding.hpp"
 #include "service/team/scans/component.hpp"
 
 namespace qwsm::team {
@@ -180,8 +182,9 @@ EpochRank TeamAtlas::Next(const EpochRank& last) const {
   return {.number = last.number + 1, .service = surroundings_.service()};
 }
 
-// The maps are made beside the robots, which are answered in the old ones and extend these. Nobody
-// waits but for the end, when what came meanwhile finds its place.
+// The maps are made beside the robots, which are answered in the old ones and extend these, in a
+// thread that gives way to them. Nobody waits but for the end, when what came meanwhile finds its
+// place.
 bool TeamAtlas::Rearrange(const Planner& plan) {
   const std::lock_guard one_at_a_time(rearranging_);
   RearrangedMaps made;
@@ -190,7 +193,7 @@ bool TeamAtlas::Rearrange(const Planner& plan) {
   if (!now) return false;
   is_rearranged_ = true;
   lock.unlock();
-  made.Follow(maps_, now->rearrangement);
+  DoYielding([&] { made.Follow(maps_, now->rearrangement); });
   lock.lock();
   is_rearranged_ = false;
   now = plan();
@@ -214,6 +217,9 @@ void TeamAtlas::TakeEffect(const Rearrangement& rearrangement, const RearrangedM
     } else if (IsCorrected(*maps_.Named(name).map, wanted)) {
       CorrectorOf(name).Adopt(PosesOf(std::span(wanted).first(CorrectorOf(name).size())));
     }
+  }
+  for (const auto& [name, map] : made.maps()) {
+    if (maps_.Has(name)) outdated_.push_back(maps_.Named(name).map);
   }
   maps_.Exchange(made.maps(), home_of_robot);
   Tell(std::move(epoch));
@@ -240,10 +246,16 @@ void TeamAtlas::NoteJoined(const std::string& component,
                         .T_into_from = wanted.map_robot.T_a_b * before.Inverse()};
 }
 
+// To free a large map takes longer than to answer a scan. Sessions let it go with their next scans.
 void TeamAtlas::Tidy() {
   decltype(retired_) retired;
+  decltype(outdated_) let_go;
   const std::lock_guard lock(extension_);
   retired.swap(retired_);
+  const auto unused = std::ranges::partition(
+      outdated_, [](const std::shared_ptr<TeamMap>& map) { return map.use_count() > 1; });
+  let_go.assign(std::make_move_iterator(unused.begin()), std::make_move_iterator(unused.end()));
+  outdated_.erase(unused.begin(), unused.end());
 }
 
 void TeamAtlas::Tell(TeamEpoch epoch) {

@@ -83,7 +83,8 @@ class TeamAtlas {
   /// Takes all scans of a robot out of a component, into one of their own.
   /// @return false if the component has been corrected since.
   bool Part(const std::string& robot, const MapVersion& from, const std::string& from_name);
-  /// Ends looks at components that are none any more. Takes as long as these; to be called beside.
+  /// Ends looks at components that are none any more, and frees maps that others have replaced and
+  /// nobody reads any more. Takes as long as these; to be called beside.
   void Tidy();
 
  private:
@@ -123,6 +124,7 @@ class TeamAtlas {
   bool is_rearranged_ = false;  // Meanwhile correctors take in nothing.
   std::map<std::string, TeamCorrector> correctors_;  // By component.
   std::vector<decltype(correctors_)::node_type> retired_;
+  std::vector<std::shared_ptr<TeamMap>> outdated_;  // Maps that others have replaced.
   EpochRank epoch_;
   Placements told_;                         // By the last epoch of another service.
   std::map<std::string, JoinedTo> joined_;  // Components that are none any more.

@@ -104,6 +104,11 @@ std::size_t TeamMap::CountOf(std::string_view robot) const {
       heads_, robot, [](const TeamScan& scan) { return std::string_view(scan.key.robot); }));
 }
 
+TeamScan TeamMap::HeadOf(ScanId id) const {
+  const std::lock_guard lock(register_);
+  return heads_[id];
+}
+
 ScanKey TeamMap::KeyOf(ScanId id) const {
   const std::lock_guard lock(register_);
   return heads_[id].key;
@@ -115,12 +120,13 @@ std::optional<ScanId> TeamMap::Find(const ScanKey& key) const {
   return known == id_of_.end() ? std::nullopt : std::optional(known->second);
 }
 
-std::vector<TeamScan> TeamMap::Scans(ScanId first) const {
+// The register is locked for each scan anew: who answers a robot asks it, too.
+std::vector<TeamScan> TeamMap::Scans(ScanId first, std::size_t most) const {
   const State::View contents = Read();
-  const std::lock_guard lock(register_);
+  const auto from = std::span(contents->map.scans()).subspan(first);
   std::vector<TeamScan> scans;
-  for (const RelevantScan& scan : std::span(contents->map.scans()).subspan(first)) {
-    TeamScan& one = scans.emplace_back(heads_[scan.id]);
+  for (const RelevantScan& scan : from.first(std::min(most, from.size()))) {
+    TeamScan& one = scans.emplace_back(HeadOf(scan.id));
     one.scan = scan.scan;
     one.map_robot = scan.map_robot;
   }

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -96,8 +97,10 @@ class TeamMap {
   ScanKey KeyOf(ScanId id) const;
   /// The scan of that key, if it was added.
   std::optional<ScanId> Find(const ScanKey& key) const;
-  /// All scans from that one on as they were added, each where it is now.
-  std::vector<TeamScan> Scans(ScanId first = 0) const;
+  /// So many scans from that one on, or all, as they were added, each where it is now. Who adds one
+  /// may have to wait for as long as it takes to copy them.
+  std::vector<TeamScan> Scans(ScanId first = 0,
+                              std::size_t most = std::numeric_limits<std::size_t>::max()) const;
   /// The largest sequence number that the service gave a scan of the robot; 0 if it gave none.
   std::uint64_t LastSequence(std::string_view service, std::string_view robot) const;
 
@@ -107,6 +110,7 @@ class TeamMap {
   TeamMap(const TeamMap& other, const Lock& lock);
 
   bool Register(const TeamScan& scan);
+  TeamScan HeadOf(ScanId id) const;
 
   const std::uint64_t number_;
   State state_;

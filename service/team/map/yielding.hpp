@@ -4,6 +4,9 @@
 
 #include <sys/resource.h>
 
+#include <future>
+#include <utility>
+
 namespace qwsm::team {
 
 /// Lets the calling thread give way to all that answer scans. Linux gives every thread a priority
@@ -11,6 +14,16 @@ namespace qwsm::team {
 inline void YieldToOthers() {
   constexpr int kNice = 10;
   setpriority(PRIO_PROCESS, 0, kNice);
+}
+
+/// Does some work in a thread that gives way, and waits for its end: who has given way once may not
+/// be allowed to come back.
+template <class Work>
+void DoYielding(Work work) {
+  std::async(std::launch::async, [&work] {
+    YieldToOthers();
+    work();
+  }).get();
 }
 
 }  // namespace qwsm::team
