@@ -108,12 +108,6 @@ Origin OpenOrigin(const MapArguments& arguments, const options::LogOptions& log)
 
 constexpr const char* kAnswers = "answers.mcap";
 
-/// Whether path and map are corrected; else mapping is incremental, as in Visser et al.
-/// (2009).
-bool Corrects(const options::ProgramOptions& options) {
-  return options.graph.enabled && options.mapper.matcher == MatcherKind::kQWsm;
-}
-
 /// The page of the run; null where nobody wants to look.
 std::unique_ptr<pipeline::LiveRun> ShowLive(const MapArguments& arguments,
                                             const options::ProgramOptions& options) {
@@ -232,21 +226,14 @@ ExitCode ContinueMap(const MapArguments& arguments,
 ExitCode MapRobots(const MapArguments& arguments,
                    const options::ProgramOptions& options,
                    const io::SeveralRobotsError& several) {
-  if (arguments.continued || arguments.bag || arguments.run.verbosity.json ||
+  if (arguments.continued || arguments.bag || arguments.view || arguments.run.verbosity.json ||
       options.mapper.matcher != MatcherKind::kQWsm) {
     throw UsageError(
-        fmt::format("{}; else they are mapped as a team, with which --continue, --bag, --json and "
-                    "other matchers do not go",
+        fmt::format("{}; else they are mapped as a team, with which --continue, --bag, --view, "
+                    "--json and other matchers do not go",
                     several.what()));
   }
-  const auto map_alone = [&](pipeline::ScanSource& source,
-                             const RunSession& session,
-                             const std::filesystem::path& map) {
-    MapArguments one = arguments;
-    one.save_map = map;
-    return MapAll(one, options, source, session);
-  };
-  return MapTeam(arguments.run, options, {several.robots(), map_alone, arguments.save_map});
+  return MapTeam(arguments.run, options, {several.robots(), arguments.save_map});
 }
 
 ExitCode RunMap(MapArguments arguments) {

@@ -54,6 +54,10 @@ void AddResultArguments(CLI::App& parser, RunArguments& arguments, const std::st
   AddVerbosity(parser, arguments.verbosity, json_help);
 }
 
+bool Corrects(const options::ProgramOptions& options) {
+  return options.graph.enabled && options.mapper.matcher == MatcherKind::kQWsm;
+}
+
 std::unique_ptr<LogSource> OpenLogs(const RunArguments& arguments,
                                     const options::LogOptions& options) {
   auto source =

@@ -42,6 +42,9 @@ CLI::Option* AddRunArguments(
 /// Adds the arguments of a run but the logs.
 void AddResultArguments(CLI::App& parser, RunArguments& arguments, const std::string& json_help);
 
+/// Whether path and map are corrected; else mapping is incremental, as in Visser et al. (2009).
+bool Corrects(const options::ProgramOptions& options);
+
 /// Opens the logs. @throws std::runtime_error where one is no log, or there is no scan in them.
 std::unique_ptr<pipeline::LogSource> OpenLogs(const RunArguments& arguments,
                                               const options::LogOptions& options);

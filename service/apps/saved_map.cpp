@@ -3,6 +3,7 @@
 #include "service/apps/saved_map.hpp"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <iterator>
 #include <span>
@@ -39,16 +40,6 @@ ExitCode ConcludeLost(const PlaceBelief& belief, std::size_t unplaced) {
   return ExitCode::kFailed;
 }
 
-/// Tells of a robot that is lost in the end.
-ExitCode ConcludeDrive(const pipeline::ReplayResult& end,
-                       const Localizer& localizer,
-                       const pipeline::LostAndFound& lost_and_found) {
-  if (end.end == pipeline::ReplayEnd::kExhausted && lost_and_found.held() > 0) {
-    return ConcludeLost(localizer.belief(), lost_and_found.held());
-  }
-  return Conclude(end);
-}
-
 /// Marks on a map that is corrected: each goes with the scan that was taken next to it.
 std::vector<team::Mark> MovedWithScans(std::vector<team::Mark> marks,
                                        std::span<const RelevantScan> scans,
@@ -68,16 +59,23 @@ pipeline::CorrectedRun CorrectTogether(const ScanMap& map,
                                        std::size_t first_scan,
                                        std::span<const io::PathPose> path,
                                        const MapperOptions& options) {
-  std::vector<StampedAnswer> answers;
-  for (const io::PathPose& pose : path) {
-    answers.push_back({.stamp = pose.stamp, .map_robot = pose.map_robot});
-  }
-  JointCorrection joint =
-      CorrectJointly(map, {.first_scan = first_scan, .answers = answers}, options);
+  const std::vector<StampedAnswer> answers = pipeline::AnswersOf(path);
+  const std::array<DriveInMap, 1> last{{{.first_scan = first_scan, .answers = answers}}};
+  JointCorrection joint = CorrectJointly(map, last, options);
+  joint.correction.map_robot = std::move(joint.map_robot.front());
   return {.correction = std::move(joint.correction), .map = std::move(joint.map), .epochs = {}};
 }
 
 }  // namespace
+
+ExitCode ConcludeDrive(const pipeline::ReplayResult& end,
+                       const Localizer& localizer,
+                       const pipeline::LostAndFound& lost_and_found) {
+  if (end.end == pipeline::ReplayEnd::kExhausted && lost_and_found.held() > 0) {
+    return ConcludeLost(localizer.belief(), lost_and_found.held());
+  }
+  return Conclude(end);
+}
 
 bool IsGrid(const std::filesystem::path& path) {
   const std::filesystem::path ending = path.extension();

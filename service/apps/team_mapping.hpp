@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,18 +13,15 @@ namespace qwsm::apps {
 
 /// The robots of one recording, to be mapped together.
 struct RecordedTeam {
-  std::vector<std::string> robots;  ///< As io::SeveralRobotsError names them.
-  /// Maps one robot into the results of a session, and saves its map in a file.
-  std::function<ExitCode(
-      pipeline::ScanSource&, const RunSession&, const std::filesystem::path& map)>
-      map_alone;
+  std::vector<std::string> robots;                ///< As io::SeveralRobotsError names them.
   std::optional<std::filesystem::path> save_map;  ///< Where the map of all is kept, too.
 };
 
-/// Maps the robots of a recording into one map: the first alone, then each of the others in what is
-/// there, wherever it is found in it, extending it. Leaves a folder of results for each robot, and
-/// beside them the map of all.
-/// @returns kFailed where a robot is found nowhere, which is told.
+/// Maps the robots of a recording into one map: the first as if it were alone, then each of the
+/// others in what is there, wherever it is found in it, extending it. In the end map and paths of
+/// all are corrected by one graph. Leaves a folder of results for each robot, and beside them the
+/// map of all.
+/// @returns kFailed where a robot is found nowhere, or is lost in the end, which is told.
 ExitCode MapTeam(const RunArguments& arguments,
                  const options::ProgramOptions& options,
                  const RecordedTeam& team);

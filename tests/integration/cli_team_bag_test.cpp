@@ -4,62 +4,37 @@
 // `qwsm map` on a bag of several robots: they map as a team.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <chrono>
 #include <filesystem>
-#include <iterator>
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "qwsm/metrics/trajectory_error.hpp"
 #include "service/config/options_io.hpp"
-#include "service/io/bags/writing/bag_file.hpp"
-#include "service/io/bags/writing/ros_encoding.hpp"
 #include "service/io/trajectories/trajectory_file.hpp"
-#include "sim/simulation.hpp"
 #include "tests/support/program.hpp"
+#include "tests/support/team_bag.hpp"
 
 namespace qwsm::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array kRobots{"robot_1", "robot_2"};
+const std::array<std::string, 2> kRobots{"robot_1", "robot_2"};
 
-/// What two robots of an office see, where they are, and what their odometry says from its own
-/// origin each.
+/// Two robots in an office.
 std::vector<sim::Reading> Drive() {
-  sim::Simulation simulation(config::LoadOptions<sim::ScenarioOptions>(
-      {.file = QWSM_SOURCE_DIR "/configs/scenarios/team.yaml", .settings = {"duration_s=100"}}));
-  std::vector<sim::Reading> readings;
-  while (std::optional<sim::Reading> reading = simulation.Next()) {
-    if (reading->robot < kRobots.size()) readings.push_back(std::move(*reading));
-  }
-  return readings;
+  return ReadingsOf(
+      config::LoadOptions<sim::ScenarioOptions>(
+          {.file = QWSM_SOURCE_DIR "/configs/scenarios/team.yaml", .settings = {"duration_s=100"}}),
+      kRobots.size());
 }
 
 class TeamBag : public testing::Test {
  protected:
-  void SetUp() override {
-    io::BagFile bag(bag_, io::BagFormat::kMcap);
-    for (const sim::Reading& reading : drive_) {
-      const std::string robot = kRobots[reading.robot];
-      const Timestamp stamp = reading.scan.stamp;
-      bag.Write(
-          {"/" + robot + "/odom", "nav_msgs/msg/Odometry"},
-          stamp,
-          io::EncodeOdometry(stamp, robot + "/odom", robot + "/base_link", reading.T_odom_robot));
-      bag.Write(
-          {"/tf_static", "tf2_msgs/msg/TFMessage", true},
-          stamp,
-          io::EncodeTransform(
-              stamp, robot + "/base_link", robot + "/laser", reading.scan.geometry.T_robot_laser));
-      bag.Write({"/" + robot + "/scan", "sensor_msgs/msg/LaserScan"},
-                stamp,
-                io::EncodeLaserScan(reading.scan, robot + "/laser"));
-    }
-    bag.Commit();
-  }
+  void SetUp() override { WriteTeamBag(drive_, kRobots, bag_); }
 
   Outcome Map(const fs::path& results, const std::vector<std::string>& more = {}) const {
     std::vector<std::string> arguments{"map", bag_, "--output", results};
@@ -67,12 +42,25 @@ class TeamBag : public testing::Test {
     return RunProgram(arguments);
   }
 
-  /// The last reading of a robot: where it is in the end.
-  const sim::Reading& Last(std::size_t robot) const {
-    return *std::find_if(drive_.rbegin(), drive_.rend(), [robot](const sim::Reading& reading) {
-      return reading.robot == robot;
-    });
+  /// The error of the paths of all robots, in one frame.
+  double ErrorOf_m(const fs::path& results, const std::string& trajectory) const {
+    std::vector<PosePair> pairs;
+    for (std::size_t robot = 0; robot < kRobots.size(); ++robot) {
+      const Trajectory path = io::ReadTumFile(results / kRobots[robot] / trajectory);
+      for (const StampedPose2& pose : path) {
+        const auto truth = std::ranges::find_if(drive_, [&](const sim::Reading& reading) {
+          return reading.robot == robot && reading.scan.stamp >= pose.stamp - kRounding;
+        });
+        pairs.push_back({.stamp = pose.stamp,
+                         .T_ref_robot = truth->T_world_robot,
+                         .T_map_robot = pose.T_map_robot});
+      }
+    }
+    EXPECT_GT(pairs.size(), 0.9 * static_cast<double>(drive_.size()));
+    return AbsoluteTrajectoryError(pairs, AlignUmeyama(pairs)).rmse;
   }
+
+  static constexpr std::chrono::nanoseconds kRounding = std::chrono::milliseconds(1);
 
   TemporaryFolder folder_;
   fs::path bag_ = folder_.path() / "team.mcap";
@@ -84,27 +72,47 @@ TEST_F(TeamBag, IsMappedIntoOneMapTheSameEachTime) {
   const Outcome mapped = Map(first);
   ASSERT_EQ(mapped.exit_code, 0) << mapped.errors;
   EXPECT_NE(mapped.output.find("robot_2"), std::string::npos) << mapped.output;
-  EXPECT_TRUE(fs::exists(first / "map.png"));
-  std::array<Pose2, kRobots.size()> T_map_robot;
-  for (std::size_t i = 0; i < kRobots.size(); ++i) {
-    const Trajectory path = io::ReadTumFile(first / kRobots[i] / "trajectory.tum");
-    ASSERT_GT(path.size(), 50U) << kRobots[i] << mapped.errors;
-    T_map_robot[i] = path.back().T_map_robot;
+  for (const char* name : {"map.png", "map.yaml", "map.qwsm"}) {
+    EXPECT_TRUE(fs::exists(first / name)) << name;
   }
-  // The map is that of the first robot: what one is to the other tells whether they share it.
-  const Pose2 found = T_map_robot[0].Inverse() * T_map_robot[1];
-  const Pose2 truth = Last(0).T_world_robot.Inverse() * Last(1).T_world_robot;
-  EXPECT_NEAR(found.x_m, truth.x_m, 0.1);
-  EXPECT_NEAR(found.y_m, truth.y_m, 0.1);
+  EXPECT_LT(ErrorOf_m(first, "trajectory.tum"), 0.01);
 
   const fs::path second = folder_.path() / "second";
   ASSERT_EQ(Map(second, {"--save-map", folder_.path() / "team.qwsm"}).exit_code, 0);
-  for (const char* robot : kRobots) {
-    EXPECT_TRUE(ReadFile(first / robot / "trajectory.tum") ==
-                ReadFile(second / robot / "trajectory.tum"))
-        << robot;
+  for (const std::string& robot : kRobots) {
+    SCOPED_TRACE(robot);
+    for (const char* name : {"trajectory.tum", "trajectory_live.tum", "loops.csv", "graph.g2o"}) {
+      const std::string content = ReadFile(first / robot / name);
+      EXPECT_GT(content.size(), 1000U) << name;
+      EXPECT_TRUE(content == ReadFile(second / robot / name)) << name;
+    }
   }
-  EXPECT_TRUE(fs::exists(folder_.path() / "team.qwsm"));
+  EXPECT_TRUE(ReadFile(folder_.path() / "team.qwsm") == ReadFile(second / "map.qwsm"));
+}
+
+// One graph for all: each robot's folder has it, with the loops between robots.
+TEST_F(TeamBag, IsCorrectedByOneGraph) {
+  const fs::path results = folder_.path() / "corrected";
+  ASSERT_EQ(Map(results, {"--no-pictures"}).exit_code, 0);
+  EXPECT_TRUE(ReadFile(results / kRobots[0] / "graph.g2o") ==
+              ReadFile(results / kRobots[1] / "graph.g2o"));
+  for (const std::string& robot : kRobots) {
+    SCOPED_TRACE(robot);
+    EXPECT_FALSE(ReadFile(results / robot / "trajectory.tum") ==
+                 ReadFile(results / robot / "trajectory_live.tum"));
+    EXPECT_NE(ReadFile(results / robot / "scans.csv").find("corrected_x_m"), std::string::npos);
+  }
+  EXPECT_LE(ErrorOf_m(results, "trajectory.tum"), ErrorOf_m(results, "trajectory_live.tum"));
+}
+
+TEST_F(TeamBag, IsMappedAsAnsweredWhereNothingIsToBeCorrected) {
+  const fs::path results = folder_.path() / "answered";
+  ASSERT_EQ(Map(results, {"--no-pictures", "--set", "graph.enabled=false"}).exit_code, 0);
+  for (const std::string& robot : kRobots) {
+    EXPECT_TRUE(fs::exists(results / robot / "trajectory.tum")) << robot;
+    EXPECT_FALSE(fs::exists(results / robot / "trajectory_live.tum")) << robot;
+  }
+  EXPECT_LT(ErrorOf_m(results, "trajectory.tum"), 0.02);
 }
 
 TEST_F(TeamBag, GivesOneRobotWhereItIsAskedFor) {
@@ -113,6 +121,7 @@ TEST_F(TeamBag, GivesOneRobotWhereItIsAskedFor) {
   EXPECT_TRUE(fs::exists(results / "trajectory.tum"));
   const Outcome refused = Map(results, {"--force", "--bag"});
   EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_EQ(Map(results, {"--force", "--view"}).exit_code, 2);
   EXPECT_NE(
       refused.errors.find("holds several robots: /robot_1, /robot_2; choose one with --robot"),
       std::string::npos)

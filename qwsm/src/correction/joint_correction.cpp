@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "qwsm/correction/joint_correction.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -54,11 +55,11 @@ class NodesOfMap {
 };
 
 // Hangs the answers of a drive on its scans in the map: each on the last one taken until then.
-AnchoredPath Hang(const LastDrive& drive, std::span<const RelevantScan> scans) {
+AnchoredPath Hang(std::span<const StampedAnswer> answers, std::span<const RelevantScan> scans) {
   AnchoredPath path;
   auto next = scans.begin();
   UncertainPose2 map_last;
-  for (const StampedAnswer& answer : drive.answers) {
+  for (const StampedAnswer& answer : answers) {
     MappingStep step{.stamp = answer.stamp, .map_robot = answer.map_robot};
     if (next != scans.end() && next->scan.stamp <= answer.stamp) {
       step.relevant = true;
@@ -72,6 +73,19 @@ AnchoredPath Hang(const LastDrive& drive, std::span<const RelevantScan> scans) {
   return path;
 }
 
+MapCorrector CorrectorOf(const ScanMap& map,
+                         std::span<const DriveInMap> drives,
+                         const MapperOptions& options) {
+  MapCorrector corrector(options);
+  NodesOfMap nodes(options.motion);
+  for (const RelevantScan& scan : map.scans()) {
+    const bool begins_drive =
+        std::ranges::find(drives, scan.id, &DriveInMap::first_scan) != drives.end();
+    corrector.Add(nodes.Next(scan, begins_drive));
+  }
+  return corrector;
+}
+
 Correction Uncorrected(const ScanMap& map) {
   Correction correction;
   for (const RelevantScan& scan : map.scans()) correction.map_node.push_back(scan.map_robot);
@@ -81,20 +95,26 @@ Correction Uncorrected(const ScanMap& map) {
 }  // namespace
 
 JointCorrection CorrectJointly(const ScanMap& map,
-                               const LastDrive& last,
+                               std::span<const DriveInMap> drives,
                                const MapperOptions& options) {
-  if (last.first_scan == map.scans().size()) return {.correction = Uncorrected(map), .map = map};
-  MapCorrector corrector(options);
-  NodesOfMap nodes(options.motion);
-  for (const RelevantScan& scan : map.scans()) {
-    corrector.Add(nodes.Next(scan, scan.id == last.first_scan));
-  }
+  const std::size_t scans = map.scans().size();
+  const bool is_extended = !drives.empty() && drives.front().first_scan < scans;
   JointCorrection joint;
-  joint.correction = corrector.Correct();
-  joint.map = corrector.MapAt(joint.correction.map_node);
-  const AnchoredPath path = Hang(last, map.scans().subspan(last.first_scan));
-  joint.correction.map_robot =
-      path.At(std::span(joint.correction.map_node).subspan(last.first_scan));
+  if (is_extended) {
+    const MapCorrector corrector = CorrectorOf(map, drives, options);
+    joint.correction = corrector.Correct();
+    joint.map = corrector.MapAt(joint.correction.map_node);
+  } else {
+    joint.correction = Uncorrected(map);
+    joint.map = map;
+  }
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    const std::size_t first = drives[i].first_scan;
+    const std::size_t end = i + 1 < drives.size() ? drives[i + 1].first_scan : scans;
+    const AnchoredPath path = Hang(drives[i].answers, map.scans().subspan(first, end - first));
+    joint.map_robot.push_back(
+        path.At(std::span(joint.correction.map_node).subspan(first, end - first)));
+  }
   return joint;
 }
 

@@ -59,6 +59,15 @@ LoopCounts CountLoops(const CorrectedRun& run) {
           .epochs = run.epochs.size()};
 }
 
+std::vector<StampedAnswer> AnswersOf(std::span<const io::PathPose> path) {
+  std::vector<StampedAnswer> answers;
+  answers.reserve(path.size());
+  for (const io::PathPose& pose : path) {
+    answers.push_back({.stamp = pose.stamp, .map_robot = pose.map_robot});
+  }
+  return answers;
+}
+
 CorrectedRun CorrectAtTheEnd(SelfCorrectingMapper& mapper) {
   Correction correction = mapper.Correct();
   mapper.ForgetPoints();

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
+#include "qwsm/correction/joint_correction.hpp"
 #include "qwsm/correction/self_correcting_mapper.hpp"
 #include "service/io/pictures/trajectory_picture.hpp"
 #include "service/pipeline/results/results_folder.hpp"
@@ -25,6 +27,9 @@ struct LoopCounts {
   std::size_t epochs = 0;  ///< How often the map was corrected by them while the robot drove.
 };
 LoopCounts CountLoops(const CorrectedRun& run);
+
+/// The answers of a drive, to be corrected together with those of others.
+std::vector<StampedAnswer> AnswersOf(std::span<const io::PathPose> path);
 
 /// Corrects a run once more when it is over.
 CorrectedRun CorrectAtTheEnd(SelfCorrectingMapper& mapper);
