@@ -64,13 +64,17 @@ RecordWriter MakeWriter(const std::string& format, std::ostream& stream) {
   return TruePoses(stream);
 }
 
+/// @param as_measured whether the other form keeps the times of beams.
 /// @param check is asked after every record, and throws where it could not be written.
 void Convert(const ConvertArguments& arguments,
+             bool as_measured,
              const RecordWriter& write,
              const std::function<void()>& check) {
   const auto options = config::LoadOptions<options::ProgramOptions>(arguments.sources);
+  io::LogOptions log_options = LogOptionsOf(options.log);
+  log_options.as_measured = as_measured;
   for (const fs::path& log : arguments.logs) {
-    const std::unique_ptr<io::LogReader> reader = io::OpenLog(log, LogOptionsOf(options.log));
+    const std::unique_ptr<io::LogReader> reader = io::OpenLog(log, log_options);
     bool is_empty = true;
     while (const std::optional<io::LogRecord> record = reader->Next()) {
       is_empty = false;
@@ -90,6 +94,7 @@ void ConvertToBag(const ConvertArguments& arguments, io::BagFormat format) {
   io::LogBagWriter writer(bag);
   Convert(
       arguments,
+      true,
       [&](const io::LogRecord& record) { writer.Write(record); },
       [&] { bag.ThrowIfFailed(); });
   bag.Commit();
@@ -97,14 +102,14 @@ void ConvertToBag(const ConvertArguments& arguments, io::BagFormat format) {
 
 void ConvertToText(const ConvertArguments& arguments, const std::string& format) {
   if (arguments.output == "-") {
-    Convert(arguments, MakeWriter(format, std::cout), [] {
+    Convert(arguments, false, MakeWriter(format, std::cout), [] {
       if (!std::cout) throw io::StandardOutputError();
     });
     if (!std::cout.flush()) throw io::StandardOutputError();
     return;
   }
   io::AtomicFile file(arguments.output);
-  Convert(arguments, MakeWriter(format, file.stream()), [&] { file.ThrowIfFailed(); });
+  Convert(arguments, false, MakeWriter(format, file.stream()), [&] { file.ThrowIfFailed(); });
   file.Commit();
 }
 

@@ -24,6 +24,7 @@ ExitCode RunReplay(const LogReplayArguments& arguments) {
   ReplayOptionsOf(arguments.replay, verbosity);  // Wrong ones are told before a log is read.
   io::LogOptions log = LogOptionsOf(session.options().log);
   if (log.robot.empty()) log.robot = arguments.replay.robot;
+  log.as_measured = true;
   pipeline::LogSource source(arguments.logs, log, session.options().log.mirrored);
   if (source.Peek() == nullptr) {
     throw UsageError("there is no scan in " + arguments.logs.front().string());

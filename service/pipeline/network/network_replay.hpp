@@ -27,8 +27,8 @@ struct ReplayOptions {
 };
 
 /// Publishes recorded scans as a robot does.
-/// @tparam Kind of the scans. @tparam Source has Peek(), Next() and progress(), and maybe imu(), as
-/// LogSource.
+/// @tparam Kind of the scans. @tparam Source has Peek(), Next() and progress(), and maybe imu() and
+/// T_odom_end(), as LogSource.
 template <class Kind, class Source>
 class NetworkReplay {
  public:
@@ -70,7 +70,7 @@ class NetworkReplay {
       }
       if (interruption.requested()) return false;
       PublishImu();
-      if (!robot_.Publish(*observation)) ++late_;
+      if (!robot_.Publish(*observation, OdometryAtEnd())) ++late_;
       if (!pace_) KeepToAnswers(observation->scan.stamp);
       ShowProgress();
     }
@@ -109,6 +109,12 @@ class NetworkReplay {
     if constexpr (requires { source_.imu(); }) {
       if (has_imu_) robot_.PublishImu(source_.imu());
     }
+  }
+
+  /// Of scans taken in motion, which are published as they were measured.
+  std::optional<typename Kind::Pose> OdometryAtEnd() const {
+    if constexpr (requires { source_.T_odom_end(); }) return source_.T_odom_end();
+    return std::nullopt;
   }
 
   /// Waits for a reporter: a service that hears the robot reports on it a moment later.

@@ -37,6 +37,7 @@ std::optional<Observation> LogSource::Next() {
   std::optional<Observation> observation = ahead_ ? std::exchange(ahead_, std::nullopt) : Read();
   if (observation) ++scans_;
   imu_ = std::exchange(imu_read_, {});
+  T_odom_end_ = T_odom_end_read_;
   return observation;
 }
 
@@ -49,6 +50,7 @@ std::optional<Observation> LogSource::Read() {
   std::optional<io::ScanReading> reading = ReadScan();
   if (!reading) return std::nullopt;
   Observation observation{.scan = std::move(reading->scan), .T_odom_robot = reading->T_odom_robot};
+  T_odom_end_read_ = reading->T_odom_end;
   observation.gyro_rad = gyro_.At(observation.scan.stamp);
   if (mirrored_) Mirror(observation.scan.geometry);
   Check(observation);
@@ -56,12 +58,12 @@ std::optional<Observation> LogSource::Read() {
   return observation;
 }
 
-// Where there is a gyro, a scan waits until readings up to its stamp are read.
+// Where there is a gyro, a scan waits until readings up to its last beam are read.
 std::optional<io::ScanReading> LogSource::ReadScan() {
   const auto must_read = [this] {
     if (held_.empty()) return true;
     return held_.size() < kMostScansHeld && !gyro_.empty() &&
-           !gyro_.Covers(held_.front().scan.stamp);
+           !gyro_.Covers(held_.front().scan.stamp + held_.front().scan.sweep);
   };
   try {
     while (!failure_ && must_read() && ReadRecord()) continue;

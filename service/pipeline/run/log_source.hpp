@@ -38,8 +38,10 @@ class LogSource final : public ScanSource {
   /// The observation that Next() will give; null at the end.
   const Observation* Peek();
 
+  /// Odometry at the last beam of the scan that Next() gave last, where scans are as measured.
+  const std::optional<Pose2>& T_odom_end() const { return T_odom_end_; }
   /// What the inertial sensor felt since the scan before, up to the first reading that is not
-  /// before the scan that Next() gave last.
+  /// before the end of the scan that Next() gave last.
   const std::vector<ImuReading>& imu() const { return imu_; }
   /// Whether the logs had an inertial sensor so far.
   bool has_imu() const { return !gyro_.empty(); }
@@ -71,6 +73,8 @@ class LogSource final : public ScanSource {
   GyroTrack gyro_;
   std::vector<ImuReading> imu_read_;  // Since Next() gave a scan.
   std::vector<ImuReading> imu_;
+  std::optional<Pose2> T_odom_end_read_;  // Of the scan that was read last.
+  std::optional<Pose2> T_odom_end_;       // Of the one that Next() gave.
 };
 
 }  // namespace qwsm::pipeline

@@ -27,10 +27,16 @@ LaserScan ScanOf(LaserScanMessage message, const LaserChoice& laser) {
           .ranges_m = std::move(message.ranges_m)};
 }
 
-/// Time from the first beam to the last, as the message or the options tell; 0 where none does.
-double SweepOf(const LaserScanMessage& message, const LogOptions& options) {
+/// Time from the first beam to the last, as the message or the options tell, who are taken as
+/// exactly as a message tells it; 0 where none does.
+std::chrono::nanoseconds SweepOf(const LaserScanMessage& message, const LogOptions& options) {
+  constexpr double kLongestSweep_s = 1.0;
   const double gaps = static_cast<double>(message.ranges_m.size()) - 1.0;
-  return options.sweep_s.value_or(static_cast<double>(message.time_step_s) * gaps);
+  const float step_s =
+      options.sweep_s ? static_cast<float>(*options.sweep_s / gaps) : message.time_step_s;
+  const double sweep_s = static_cast<double>(step_s) * gaps;
+  if (!(sweep_s > 0.0 && sweep_s <= kLongestSweep_s)) return {};
+  return std::chrono::round<std::chrono::nanoseconds>(std::chrono::duration<double>(sweep_s));
 }
 
 std::chrono::nanoseconds OffsetOf(const LogOptions& options) {
@@ -152,26 +158,30 @@ std::optional<LogRecord> BagReader::NextScan() {
   return std::nullopt;
 }
 
-/// The scan as from the robot's place at its stamp, where beams have times and odometry tells how
-/// the robot moved meanwhile.
-LaserScan BagReader::Deskew(LaserScan scan,
-                            double sweep_s,
-                            const std::optional<Pose2>& T_odom_first) const {
-  constexpr double kLongestSweep_s = 1.0;
-  if (!(sweep_s > 0.0 && sweep_s <= kLongestSweep_s) || !T_odom_first) return scan;
-  const auto sweep =
-      std::chrono::round<std::chrono::nanoseconds>(std::chrono::duration<double>(sweep_s));
-  const std::optional<Pose2> T_odom_last = choice_.odometry.At(scan.stamp + sweep, 0);
-  if (!T_odom_last) return scan;
-  Pose2 T_first_last = T_odom_first->Inverse() * *T_odom_last;
+/// Brings the beams of a scan to the robot's place at its stamp, where they have times and odometry
+/// tells how the robot moved meanwhile; of who wants it as measured, tells that motion. A scan
+/// without odometry keeps the times of its beams, for who finds out how the robot moves.
+void BagReader::BringToOnePlace(ScanReading& reading) const {
+  LaserScan& scan = reading.scan;
+  if (scan.sweep.count() <= 0 || !reading.T_odom_robot) return;
+  const Timestamp end = scan.stamp + scan.sweep;
+  const std::optional<Pose2> T_odom_end = choice_.odometry.At(end, 0);
+  if (!T_odom_end) {
+    scan.sweep = {};
+    return;
+  }
+  if (options_.as_measured) {
+    reading.T_odom_end = T_odom_end;
+    return;
+  }
+  Pose2 T_first_last = reading.T_odom_robot->Inverse() * *T_odom_end;
   const std::optional<double> gyro_first_rad = gyro_.At(scan.stamp);
-  const std::optional<double> gyro_last_rad = gyro_.At(scan.stamp + sweep);
+  const std::optional<double> gyro_last_rad = gyro_.At(end);
   // Its bias does not count within a scan.
   if (gyro_first_rad && gyro_last_rad) {
     T_first_last.theta_rad = NormalizeAngle(*gyro_last_rad - *gyro_first_rad);
   }
-  scan.sweep = sweep;
-  return Deskewed(scan, T_first_last);
+  scan = Deskewed(scan, T_first_last);
 }
 
 /// @param height_m 0 where it is not known
@@ -197,16 +207,17 @@ ScanReading BagReader::ReadScan(const Place& place) {
   const std::string_view bytes = PlainMessage(messages.Read(place.scan.address), buffer_);
   const LaserChoice& laser = choice_.lasers[place.laser];
   LaserScanMessage message = DecodeLaserScan(bytes, encoding);
-  const double sweep_s = SweepOf(message, options_);
+  const std::chrono::nanoseconds sweep = SweepOf(message, options_);
   ScanReading reading{.scan = ScanOf(std::move(message), laser),
                       .T_odom_robot = choice_.odometry.At(place.scan.stamp, place.scan.sequence),
                       .laser = laser.name};
   reading.scan.stamp = place.scan.stamp;
+  reading.scan.sweep = sweep;
   LaserGeometry& geometry = reading.scan.geometry;
   if (options_.range_max_m) geometry.range_max_m = *options_.range_max_m;
   if (options_.T_robot_laser) geometry.T_robot_laser = *options_.T_robot_laser;
   LeaveOutFloorOf(options_.laser_height_m.value_or(laser.height_m), reading.scan);
-  reading.scan = Deskew(std::move(reading.scan), sweep_s, reading.T_odom_robot);
+  BringToOnePlace(reading);
   return reading;
 }
 

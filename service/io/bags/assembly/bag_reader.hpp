@@ -43,7 +43,7 @@ class BagReader final : public LogReader {
   ScanReading ReadScan(const Place& place);
   void LeaveOutFloorOf(double height_m, LaserScan& scan);
   void TellOfFloor();
-  LaserScan Deskew(LaserScan scan, double sweep_s, const std::optional<Pose2>& T_odom_first) const;
+  void BringToOnePlace(ScanReading& reading) const;
   std::optional<OdometryReading> NextOf(const OdometryTrack& track,
                                         std::size_t next,
                                         Timestamp until) const;

@@ -45,6 +45,7 @@ void LogBagWriter::WriteScan(const ScanReading& reading) {
   const std::string frame = name.empty() ? "laser" : name;
   WriteMounting(scan.stamp, frame, scan.geometry.T_robot_laser);
   if (reading.T_odom_robot) WriteOdometry(scan.stamp, *reading.T_odom_robot);
+  if (reading.T_odom_end) WriteOdometry(scan.stamp + scan.sweep, *reading.T_odom_end);
   bag_->Write({(name.empty() ? "" : "/" + name) + "/scan", "sensor_msgs/msg/LaserScan"},
               scan.stamp,
               EncodeLaserScan(scan, frame));

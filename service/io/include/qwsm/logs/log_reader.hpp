@@ -54,6 +54,9 @@ struct LogOptions {
   std::string robot;
   /// Of a bag: time from a scan's first beam to its last, in seconds; else as its messages say.
   std::optional<double> sweep_s;
+  /// Of a bag: whether scans taken in motion stay as they were measured, for who brings their beams
+  /// to one place by himself: with their `sweep`, and ScanReading::T_odom_end.
+  bool as_measured = false;
   /// Of a bag: height of the laser above the floor; else as its transforms say.
   std::optional<double> laser_height_m{};
   /// Of a bag: what is added to the stamps of scans, in seconds.

@@ -18,6 +18,8 @@ struct ScanReading {
   std::optional<Pose2> T_odom_robot;
   /// Name of the laser: "front", "rear", "laser3" (CARMEN), "laser:0" (Player).
   std::string laser;
+  /// Odometry at the last beam, of a scan that is as it was measured (LogOptions::as_measured).
+  std::optional<Pose2> T_odom_end{};
 };
 
 /// The robot's own dead reckoning.
