@@ -12,13 +12,17 @@
 namespace qwsm {
 namespace {
 
-constexpr double kWalk_mps = 0.02;      // Sigma of the slip's change in a second.
-constexpr double kWalk_rad_s = 0.005;   // The same of how it turns the robot.
-constexpr double kSteadyFor_s = 2.0;    // Over which the slip stays about the same.
+constexpr double kSteadyFor_s = 2.0;    // Over which a velocity stays about the same.
 constexpr double kMostSigmasOff = 3.0;  // One wrong match, or odometry that jumps, moves it so far.
 
 double SecondsIn(std::chrono::nanoseconds duration) {
   return std::chrono::duration<double>(duration).count();
+}
+
+// How far a velocity carries the robot, as the pose after it.
+Pose2 MotionIn(std::chrono::nanoseconds time, const Eigen::Vector3d& velocity) {
+  const Eigen::Vector3d moved = SecondsIn(time) * velocity;
+  return {moved.x(), moved.y(), moved.z()};
 }
 
 // A pose as seen from another one, by its numbers.
@@ -29,29 +33,33 @@ Eigen::Vector3d Missed(const Pose2& found, const Pose2& told) {
 
 }  // namespace
 
-LaserScan SlipEstimator::Mended(LaserScan scan) const {
-  if (scan.deskewed_sweep.count() <= 0) return scan;
-  const Eigen::Vector3d slipped = SecondsIn(scan.deskewed_sweep) * slip_;
-  return Deskewed(scan, {slipped.x(), slipped.y(), slipped.z()});
-}
-
 Observation SlipEstimator::Mended(Observation observation) const {
-  observation.scan = Mended(std::move(observation.scan));
+  LaserScan& scan = observation.scan;
+  const bool is_skewed = scan.sweep.count() > 0 && !observation.T_odom_robot;
+  if (!is_skewed && scan.deskewed_sweep.count() <= 0) return observation;
+  const std::chrono::nanoseconds sweep = is_skewed ? scan.sweep : scan.deskewed_sweep;
+  scan = Deskewed(scan, MotionIn(sweep, UntoldOf(observation).mean));
   return observation;
 }
 
+// A scan fits the map as it was taken in the middle of its sweep, whatever its beams were moved by:
+// the pose at the first beam follows by the velocity that was believed, which is not to confirm
+// itself. What is believed beside odometry is too small to matter.
 std::optional<SlipEstimator::Look> SlipEstimator::LookOf(const Observation& observation,
-                                                         const MappingStep& step) {
+                                                         const MappingStep& step) const {
   const bool is_matched =
       step.status == StepStatus::kMatched || step.status == StepStatus::kExtended;
-  if (!is_matched || !observation.T_odom_robot) return std::nullopt;
-  const Pose2& T_map_robot = step.map_robot.T_a_b;
+  if (!is_matched) return std::nullopt;
+  Pose2 T_map_robot = step.map_robot.T_a_b;
   Eigen::Matrix3d R_robot_map = Eigen::Matrix3d::Identity();
   R_robot_map.topLeftCorner<2, 2>() = T_map_robot.Rotation().transpose();
+  if (!observation.T_odom_robot) {
+    T_map_robot = T_map_robot * MotionIn(observation.scan.deskewed_sweep / 2, velocity_.mean);
+  }
   return Look{
       .stamp = observation.scan.stamp,
       .T_map_robot = T_map_robot,
-      .T_odom_robot = *observation.T_odom_robot,
+      .T_odom_robot = observation.T_odom_robot,
       .gyro_rad = observation.gyro_rad,
       .variances = (R_robot_map * step.local_covariance * R_robot_map.transpose()).diagonal()};
 }
@@ -66,18 +74,24 @@ void SlipEstimator::Learn(const Observation& observation, const MappingStep& ste
 }
 
 void SlipEstimator::Learn(const Look& before, const Look& now, double elapsed_s) {
-  Pose2 told = before.T_odom_robot.Inverse() * now.T_odom_robot;
+  const Pose2 found = before.T_map_robot.Inverse() * now.T_map_robot;
+  const Eigen::Vector3d noise = (before.variances + now.variances) / (elapsed_s * elapsed_s);
+  velocity_.Learn(Missed(found, {}) / elapsed_s, noise, elapsed_s);
+  if (!before.T_odom_robot || !now.T_odom_robot) return;
+  Pose2 told = before.T_odom_robot->Inverse() * *now.T_odom_robot;
   if (before.gyro_rad && now.gyro_rad) told.theta_rad = *now.gyro_rad - *before.gyro_rad;
-  const Eigen::Vector3d slipped =
-      Missed(before.T_map_robot.Inverse() * now.T_map_robot, told) / elapsed_s;
-  const Eigen::Vector3d walk(kWalk_mps, kWalk_mps, kWalk_rad_s);
+  slip_.Learn(Missed(found, told) / elapsed_s, noise, elapsed_s);
+}
+
+void SlipEstimator::Velocity::Learn(const Eigen::Vector3d& seen,
+                                    const Eigen::Vector3d& noise,
+                                    double elapsed_s) {
   for (int i = 0; i < 3; ++i) {
-    variances_(i) += walk(i) * walk(i) * elapsed_s;
-    const double noise = (before.variances(i) + now.variances(i)) / (elapsed_s * elapsed_s);
-    const double most = kMostSigmasOff * std::sqrt(variances_(i) + noise);
-    const double gain = variances_(i) / (variances_(i) + noise);
-    slip_(i) += gain * std::clamp(slipped(i) - slip_(i), -most, most);
-    variances_(i) *= 1.0 - gain;
+    variances(i) += walk(i) * walk(i) * elapsed_s;
+    const double most = kMostSigmasOff * std::sqrt(variances(i) + noise(i));
+    const double gain = variances(i) / (variances(i) + noise(i));
+    mean(i) += gain * std::clamp(seen(i) - mean(i), -most, most);
+    variances(i) *= 1.0 - gain;
   }
 }
 

@@ -57,7 +57,11 @@ void RobotSession::RunOne() {
   const std::optional<Pose2> claimed =
       tracker_.Mount(work->scan, work->T_robot_sensor_claimed, is_placed_);
   HideTeammates(*work);
-  work->scan = slip_.Mended(std::move(work->scan));
+  work->scan = slip_
+                   .Mended({.scan = std::move(work->scan),
+                            .T_odom_robot = work->T_odom_robot,
+                            .gyro_rad = work->gyro_rad})
+                   .scan;
   const std::vector<ScanPoint> points = ToPoints(work->scan);
   Answer(*work, points, claimed);
 }

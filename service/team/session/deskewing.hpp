@@ -37,6 +37,13 @@ inline LaserScan AsFromOnePlace(LaserScan scan,
   }
   return Deskewed(scan, T_first_last);
 }
+/// The scan as if its beams had no times: as it was measured, nothing is to be mended.
+inline LaserScan WithoutTimes(LaserScan scan) {
+  scan.sweep = {};
+  return scan;
+}
+inline CloudScan WithoutTimes(CloudScan scan) { return scan; }
+
 /// Leaves out the beams that may have hit the floor; see LeaveOutFloor().
 /// @param set_height_m of the laser, where that is set; 0: the scan tells it.
 inline void LeaveOutFloorOf(const TiltTrack& tilt, double set_height_m, LaserScan& scan) {

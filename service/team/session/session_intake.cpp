@@ -231,7 +231,8 @@ std::optional<typename SessionIntake<Kind>::Work> SessionIntake<Kind>::Take() {
   if (queue_.empty()) return std::nullopt;
   Arrival next = queue_.Pop();
   LeaveOutFloorOf(tilt_, options_.laser_height_m, next.scan);
-  if (options_.deskew) next.scan = AsFromOnePlace(std::move(next.scan), odometry_, gyro_);
+  next.scan = options_.deskew ? AsFromOnePlace(std::move(next.scan), odometry_, gyro_)
+                              : WithoutTimes(std::move(next.scan));
   Work work{.scan = std::move(next.scan),
             .arrived = next.arrived,
             .T_odom_robot = {},

@@ -10,44 +10,59 @@
 
 namespace qwsm {
 
-/// How the robot moves beside what odometry tells: wheels slip along and across their way, and tell
-/// turns badly. Scans whose beams odometry has brought to one place are mended by it.
+/// How the robot moves while its laser scans, beside what odometry tells: wheels slip along and
+/// across their way, and tell turns badly. Scans whose beams odometry has brought to one place are
+/// mended by it; those of a robot without odometry are brought to one place by it alone.
 ///
-/// The slip is a velocity in the frame of the robot, learned from the poses that matches find, by a
+/// That is a velocity in the frame of the robot, learned from the poses that matches find, by a
 /// Kalman filter for each of its three parts: it changes as a random walk.
 class SlipEstimator {
  public:
-  /// The scan as if the robot had stood where it was at the first beam: odometry has put its beams
-  /// there (Deskewed()), but for the slip. Other scans are left as they are.
-  LaserScan Mended(LaserScan scan) const;
-  /// The observation with its scan mended.
+  /// The observation with its scan as if the robot had stood where it was at the first beam. Scans
+  /// whose beams have no times, and those that odometry could have brought to one place and has
+  /// not, are left as they are.
   Observation Mended(Observation observation) const;
 
-  /// Takes where an observation was found to be taken, the next one after the last.
+  /// Takes where a mended observation was found to be taken, the next one after the last.
   void Learn(const Observation& observation, const MappingStep& step);
 
   /// The next pose does not go on from the last one: the map was corrected, or the robot moved.
   void Interrupt() { last_.reset(); }
 
-  /// In the frame of the robot: m/s, m/s, rad/s.
-  const Eigen::Vector3d& slip() const { return slip_; }
+  /// Beside what odometry tells, in the frame of the robot: m/s, m/s, rad/s.
+  const Eigen::Vector3d& slip() const { return slip_.mean; }
+  /// All of its motion, where there is no odometry.
+  const Eigen::Vector3d& velocity() const { return velocity_.mean; }
 
  private:
   /// Where a scan was taken, as matched and as told.
   struct Look {
     Timestamp stamp{};
-    Pose2 T_map_robot;
-    Pose2 T_odom_robot;
+    Pose2 T_map_robot;  // Without odometry, in the middle of the sweep.
+    std::optional<Pose2> T_odom_robot;
     std::optional<double> gyro_rad;
     Eigen::Vector3d variances;  // Of the match, along the axes of the robot.
   };
 
-  static std::optional<Look> LookOf(const Observation& observation, const MappingStep& step);
+  /// A velocity that changes as a random walk.
+  struct Velocity {
+    Eigen::Vector3d walk;       // Sigmas of its change in a second.
+    Eigen::Vector3d variances;  // Of what is known of it.
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+
+    void Learn(const Eigen::Vector3d& seen, const Eigen::Vector3d& noise, double elapsed_s);
+  };
+
+  const Velocity& UntoldOf(const Observation& observation) const {
+    return observation.T_odom_robot ? slip_ : velocity_;
+  }
+  std::optional<Look> LookOf(const Observation& observation, const MappingStep& step) const;
   void Learn(const Look& before, const Look& now, double elapsed_s);
 
   std::optional<Look> last_;  // Of the last scan, if that was matched.
-  Eigen::Vector3d slip_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d variances_ = Eigen::Vector3d::Constant(0.01);  // Of 0.1 m/s, 0.1 rad/s.
+  Velocity slip_{.walk = {0.02, 0.02, 0.005}, .variances = Eigen::Vector3d::Constant(0.01)};
+  // As robots accelerate.
+  Velocity velocity_{.walk = {0.5, 0.5, 1.0}, .variances = Eigen::Vector3d::Constant(1.0)};
 };
 
 }  // namespace qwsm
