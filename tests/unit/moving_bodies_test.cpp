@@ -18,7 +18,6 @@ using namespace std::chrono_literals;
 constexpr double kHalfWidth_m = 1.4;  // Of a corridor along x,
 constexpr double kBody_m = 0.25;      // and half of those in it.
 constexpr double kSpeed_mps = 0.5;
-constexpr Timestamp kStep = 100ms;
 
 double RangeTo(const Eigen::Vector2d& middle_m, const Eigen::Vector2d& along) {
   const double nearest_m = middle_m.dot(along);
@@ -52,17 +51,18 @@ LaserScan ScanAt(double x_m, const std::vector<Eigen::Vector2d>& bodies_m, Times
 /// A robot that drives along the corridor, and a body that begins somewhere and moves.
 class Drive {
  public:
-  explicit Drive(double body_x_m) : body_m_(body_x_m, -0.7) {}
+  explicit Drive(double body_x_m, Timestamp step = 100ms) : step_(step), body_m_(body_x_m, -0.7) {}
 
   void For(Timestamp duration, double body_mps) {
-    for (Timestamp end = stamp_ + duration; stamp_ < end; stamp_ += kStep) {
+    for (Timestamp end = stamp_ + duration; stamp_ < end; stamp_ += step_) {
       found_m_ = bodies_.Follow(ScanAt(x_m_, {body_m_}, stamp_), Pose2{.x_m = x_m_});
       off_m_ = std::numeric_limits<double>::infinity();
       for (const Eigen::Vector2d& found_m : found_m_) {
         off_m_ = std::min(off_m_, (found_m + Eigen::Vector2d(x_m_, 0.0) - body_m_).norm());
       }
-      x_m_ += 0.1 * kSpeed_mps;
-      body_m_.x() += 0.1 * body_mps;
+      const double step_s = std::chrono::duration<double>(step_).count();
+      x_m_ += step_s * kSpeed_mps;
+      body_m_.x() += step_s * body_mps;
     }
   }
 
@@ -71,6 +71,7 @@ class Drive {
 
  private:
   MovingBodies bodies_;
+  Timestamp step_;
   Timestamp stamp_{};
   double x_m_ = 0.0;
   Eigen::Vector2d body_m_;
@@ -107,6 +108,14 @@ TEST(MovingBodies, AreStillThoseThatHaveStopped) {
   drive.For(1500ms, -kSpeed_mps);
   drive.For(3s, 0.0);
   EXPECT_TRUE(drive.IsBodyFound());
+}
+
+TEST(MovingBodies, AreNoneWhereScansAreTooSeldomToFollowThem) {
+  Drive drive(7.0, 1s);
+  for (int scan = 0; scan < 5; ++scan) {
+    drive.For(1s, 0.0);
+    EXPECT_EQ(drive.found(), 0U);
+  }
 }
 
 TEST(MovingBodies, AreNoWalls) {

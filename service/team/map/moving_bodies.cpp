@@ -77,7 +77,10 @@ std::vector<Eigen::Vector2d> MovingBodies::Follow(const LaserScan& scan,
   std::erase_if(bodies_, [&](const Body& body) {
     return scan.stamp - body.sightings.back().stamp > kOutOfSight;
   });
+  const bool is_followed = last_ && scan.stamp - *last_ <= kOutOfSight;
+  last_ = scan.stamp;
   std::vector<Eigen::Vector2d> moving_m;
+  if (!is_followed) return moving_m;
   for (const Row& row : RowsOf(scan)) {
     if (!IsFreeStanding(scan, row)) continue;
     const Eigen::Vector2d p_robot_m = scan.geometry.T_robot_laser * MiddleOf(scan, row);

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "qwsm/geometry/pose2.hpp"
@@ -19,10 +20,14 @@ class MovingBodies {
  public:
   /// Takes the next scan of the robot, of any of its lasers.
   /// @return where the bodies are, in the frame of the robot, that move or have, and those of which
-  /// it is not known yet; a body that stands for a while is a part of the place.
+  /// it is not known yet; a body that stands for a while is a part of the place. None where scans
+  /// are too seldom to follow one from scan to scan: nothing would ever be known to stand.
   std::vector<Eigen::Vector2d> Follow(const LaserScan& scan, const Pose2& T_odom_robot);
   /// Odometry does not go on from the last scan.
-  void Forget() { bodies_.clear(); }
+  void Forget() {
+    bodies_.clear();
+    last_.reset();
+  }
 
  private:
   struct Sighting {
@@ -39,6 +44,7 @@ class MovingBodies {
   static bool Moves(const Body& body);
 
   std::vector<Body> bodies_;
+  std::optional<Timestamp> last_;  // Of the scan before.
 };
 
 }  // namespace qwsm::team
