@@ -101,6 +101,18 @@ team::TeamEpoch Moved(const team::TeamMap& map, std::uint64_t number) {
   return epoch;
 }
 
+/// When a correction was taken in.
+struct Correction {
+  Clock::time_point begun;
+  Clock::time_point ended;
+};
+
+bool IsBeside(const std::vector<Correction>& corrections, Clock::time_point told) {
+  return std::ranges::any_of(corrections, [&](const Correction& correction) {
+    return told >= correction.begun && told < correction.ended + 1s;
+  });
+}
+
 int Measure(std::size_t scans, int rounds) {
   const std::vector<sim::Reading> readings = Drive(kSecondsBetween * (rounds + 1), 1);
   team::TeamServiceOptions options;
@@ -120,10 +132,6 @@ int Measure(std::size_t scans, int rounds) {
                      .scan = reading.scan,
                      .map_robot = UncertainPose2::WithSigmas(reading.T_world_robot, 0.01, 0.001)}});
   }
-  struct Correction {
-    Clock::time_point begun;
-    Clock::time_point ended;
-  };
   std::vector<Correction> corrections;
   std::jthread corrector([&] {
     for (int round = 1; round <= rounds; ++round) {
@@ -154,10 +162,7 @@ int Measure(std::size_t scans, int rounds) {
   service.WaitUntilIdle();
   std::vector<double> during, otherwise;
   for (const TimingSink::Answer& answer : sink.answers()) {
-    const bool is_during = std::ranges::any_of(corrections, [&](const Correction& correction) {
-      return answer.told >= correction.begun && answer.told < correction.ended + 1s;
-    });
-    (is_during ? during : otherwise).push_back(answer.latency_ms);
+    (IsBeside(corrections, answer.told) ? during : otherwise).push_back(answer.latency_ms);
   }
   Print("corrected", std::move(during));
   Print("else", std::move(otherwise));
