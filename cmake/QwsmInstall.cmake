@@ -8,12 +8,15 @@ include(CMakePackageConfigHelpers)
 
 set(QWSM_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/qwsm)
 
-# qwsm_install_library(TARGET DESCRIPTION "..." REQUIRES "..."): installs a library that is always
-# there with the headers of its file set, exports it as qwsm::TARGET, and writes TARGET.pc.
+# qwsm_install_library(TARGET [WITH ARCHIVE ...] DESCRIPTION "..." REQUIRES "..."): installs a library
+# that is always there, and archives that it is linked with, with the headers of their file sets,
+# exports it as qwsm::TARGET, and writes TARGET.pc.
 function(qwsm_install_library target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "DESCRIPTION;REQUIRES" "")
-  qwsm_install_archives(qwsmTargets ${target})
-  qwsm_install_pc(${target} "${arg_DESCRIPTION}" "${arg_REQUIRES}" "-l${target}")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "DESCRIPTION;REQUIRES" "WITH")
+  qwsm_install_archives(qwsmTargets ${target} ${arg_WITH})
+  list(TRANSFORM arg_WITH PREPEND " -l" OUTPUT_VARIABLE archives)
+  string(CONCAT libs "-l${target}" ${archives})
+  qwsm_install_pc(${target} "${arg_DESCRIPTION}" "${arg_REQUIRES}" "${libs}")
 endfunction()
 
 # qwsm_install_component(NAME TARGETS ... DESCRIPTION "..." PACKAGES "..." ... REQUIRES "..."

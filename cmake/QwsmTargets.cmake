@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # qwsm_target_defaults(TARGET): language level, warnings and floating-point rules of every target.
+# qwsm_optimise_little(TARGET): for sources that take long to compile and have no time to win.
 # qwsm_add_precompiled(NAME LIBS ... HEADERS ...): headers that are parsed once, for all who take them.
 # qwsm_take_precompiled(TARGET NAME): begins every source of TARGET with these headers.
 # qwsm_build_together(TARGET [AT_MOST N] [EXCEPT ...]): compiles the sources of TARGET together, N at a
@@ -33,6 +34,10 @@ function(qwsm_target_defaults target)
     $<$<BOOL:${QWSM_WARNINGS_AS_ERRORS}>:-Werror>)
 endfunction()
 
+function(qwsm_optimise_little target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
 function(qwsm_add_precompiled name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LIBS;HEADERS")
   file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp CONTENT "")
@@ -45,6 +50,12 @@ endfunction()
 function(qwsm_take_precompiled target name)
   if(NOT QWSM_SEPARATE_SOURCES)
     target_precompile_headers(${target} REUSE_FROM ${name})
+    get_target_property(type ${target} TYPE)
+    if(type STREQUAL EXECUTABLE)
+      # The headers are compiled as code of libraries: what programs are compiled to must be like it.
+      set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+      target_compile_options(${target} PRIVATE -fPIC)
+    endif()
   endif()
 endfunction()
 

@@ -17,11 +17,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kScans = 40;
+constexpr int kScansCompared = 40;
 
 class CompareCommand : public ::testing::Test {
  protected:
-  void SetUp() override { WriteRoomLog(log_, kScans); }
+  void SetUp() override { WriteRoomLog(log_, kScansCompared); }
 
   TemporaryFolder folder_;
   fs::path log_ = folder_.path() / "room.log";
@@ -35,7 +35,7 @@ TEST_F(CompareCommand, LeavesFiguresOfAllMatchersSideBySide) {
   EXPECT_NE(outcome.output.find("q-wsm against icp"), std::string::npos) << outcome.output;
   const std::string table = ReadFile(results_ / "comparison.csv");
   EXPECT_TRUE(table.starts_with("stamp_s,q-wsm_status,q-wsm_residual_mm,")) << table.substr(0, 200);
-  EXPECT_EQ(std::ranges::count(table, '\n'), kScans + 1);
+  EXPECT_EQ(std::ranges::count(table, '\n'), kScansCompared + 1);
   EXPECT_NE(ReadFile(results_ / "metrics.json").find("\"residual_ratio\""), std::string::npos);
   EXPECT_TRUE(ReadFile(results_ / "residual.png").starts_with("\x89PNG"));
 }

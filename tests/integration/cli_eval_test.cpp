@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kScans = 30;
+constexpr int kScansJudged = 30;
 
 /// A trajectory that is 3 cm to the left of the truth, and a truth.
 class EvalCommand : public ::testing::Test {
@@ -25,7 +25,7 @@ class EvalCommand : public ::testing::Test {
   void SetUp() override {
     Trajectory truth;
     Trajectory shifted;
-    for (int scan = 0; scan < kScans; ++scan) {
+    for (int scan = 0; scan < kScansJudged; ++scan) {
       const Timestamp stamp = std::chrono::milliseconds(100 * scan);
       Pose2 T_map_robot = PoseInRoom(scan);
       truth.push_back({stamp, T_map_robot});
@@ -98,7 +98,7 @@ TEST(ConvertCommand, GivesALogThatMapsTheSame) {
   const TemporaryFolder folder;
   const fs::path log = folder.path() / "room.log";
   const fs::path converted = folder.path() / "converted.log";
-  WriteRoomLog(log, kScans);
+  WriteRoomLog(log, kScansJudged);
   ASSERT_EQ(RunProgram({"convert", log, "-o", converted}).exit_code, 0);
   RunProgram({"map", log, "-o", folder.path() / "a"});
   RunProgram({"map", converted, "-o", folder.path() / "b"});

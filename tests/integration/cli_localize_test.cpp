@@ -17,13 +17,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kScans = 60;
+constexpr int kScansLocalized = 60;
 constexpr int kFirst = 20;  // Where the second drive begins.
 
 class LocalizeCommand : public ::testing::Test {
  protected:
   void SetUp() override {
-    WriteRoomLog(log_, kScans);
+    WriteRoomLog(log_, kScansLocalized);
     const Outcome outcome =
         RunProgram({"map", log_, "-o", folder_.path() / "mapped", "--save-map", map_});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
@@ -43,7 +43,7 @@ class LocalizeCommand : public ::testing::Test {
   void ExpectOnThePath(double within_m = 0.03) const {
     const Trajectory mapped = io::ReadTumFile(folder_.path() / "mapped/trajectory.tum");
     const Trajectory localized = io::ReadTumFile(results_ / "trajectory.tum");
-    ASSERT_EQ(localized.size(), static_cast<std::size_t>(kScans - kFirst));
+    ASSERT_EQ(localized.size(), static_cast<std::size_t>(kScansLocalized - kFirst));
     for (std::size_t i = 0; i < localized.size(); ++i) {
       const Pose2& expected = mapped[i + kFirst].T_map_robot;
       const Pose2 off = expected.Inverse() * localized[i].T_map_robot;

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kScans = 40;
+constexpr int kScansMapped = 40;
 
 std::size_t CountLines(const fs::path& file) {
   const std::string text = ReadFile(file);
@@ -29,7 +29,7 @@ std::size_t CountLines(const fs::path& file) {
 
 class MapCommand : public ::testing::Test {
  protected:
-  void SetUp() override { WriteRoomLog(log_, kScans); }
+  void SetUp() override { WriteRoomLog(log_, kScansMapped); }
 
   TemporaryFolder folder_;
   fs::path log_ = folder_.path() / "room.log";
@@ -40,8 +40,8 @@ TEST_F(MapCommand, LeavesAllResults) {
   const Outcome outcome = RunProgram({"map", log_, "--output", results_});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_NE(outcome.output.find("scans          40"), std::string::npos) << outcome.output;
-  EXPECT_EQ(CountLines(results_ / "trajectory.tum"), kScans);
-  EXPECT_EQ(CountLines(results_ / "scans.csv"), kScans + 1);
+  EXPECT_EQ(CountLines(results_ / "trajectory.tum"), kScansMapped);
+  EXPECT_EQ(CountLines(results_ / "scans.csv"), kScansMapped + 1);
   EXPECT_NE(ReadFile(results_ / "metrics.json").find("\"scans\": 40"), std::string::npos);
   EXPECT_NE(ReadFile(results_ / "config.yaml").find("matcher: q-wsm"), std::string::npos);
   EXPECT_NE(ReadFile(results_ / "run.log").find("40 scans"), std::string::npos);
@@ -58,8 +58,8 @@ TEST_F(MapCommand, LeavesAllResults) {
 TEST_F(MapCommand, FollowsTheRobot) {
   RunProgram({"map", log_, "--output", results_});
   const Trajectory trajectory = io::ReadTumFile(results_ / "trajectory.tum");
-  ASSERT_EQ(trajectory.size(), kScans);
-  const Pose2 T_start_end = PoseInRoom(0).Inverse() * PoseInRoom(kScans - 1);
+  ASSERT_EQ(trajectory.size(), kScansMapped);
+  const Pose2 T_start_end = PoseInRoom(0).Inverse() * PoseInRoom(kScansMapped - 1);
   const Pose2 T_map_end = trajectory.back().T_map_robot;
   EXPECT_NEAR(T_map_end.x_m, T_start_end.x_m, 0.02);
   EXPECT_NEAR(T_map_end.y_m, T_start_end.y_m, 0.02);
@@ -106,7 +106,7 @@ TEST_F(MapCommand, RunsAgainFromItsOwnConfiguration) {
 
 TEST_F(MapCommand, WritesJsonLinesForPipes) {
   const Outcome outcome = RunProgram({"map", log_, "--output", results_, "--json"});
-  EXPECT_EQ(std::ranges::count(outcome.output, '\n'), kScans);
+  EXPECT_EQ(std::ranges::count(outcome.output, '\n'), kScansMapped);
   EXPECT_TRUE(outcome.output.starts_with("{\"stamp_s\":1000.0,"));
 }
 
@@ -121,7 +121,7 @@ TEST_F(MapCommand, ReplacesItsOwnResultsOnly) {
   EXPECT_NE(refused.errors.find("--force"), std::string::npos) << refused.errors;
   EXPECT_EQ(RunProgram({"map", log_, "--output", foreign, "--force"}).exit_code, 0);
   EXPECT_EQ(ReadFile(foreign / "chapter1.tex"), "Introduction");
-  EXPECT_EQ(CountLines(foreign / "trajectory.tum"), kScans);
+  EXPECT_EQ(CountLines(foreign / "trajectory.tum"), kScansMapped);
 }
 
 TEST_F(MapCommand, DoesNotPutResultsBesideItsInput) {
@@ -153,7 +153,7 @@ TEST_F(MapCommand, KeepsWhatCameBeforeAFault) {
       RunProgram({"map", log_, "--output", results_, "--set", "log.strict=true"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.errors.find("room.log:41: "), std::string::npos) << outcome.errors;
-  EXPECT_EQ(CountLines(results_ / "trajectory.tum"), kScans);
+  EXPECT_EQ(CountLines(results_ / "trajectory.tum"), kScansMapped);
   EXPECT_EQ(RunProgram({"map", log_, "--output", results_}).exit_code, 0)
       << "skipped when not strict";
 }

@@ -4,7 +4,7 @@
 // A network that falls in two while robots drive, and is whole again: two services, each with two
 // robots, have one map afterwards. By hand for longer and for many drives:
 //
-//   QWSM_CUT_SEEDS=20 QWSM_CUT_DRIVE_S=300 QWSM_CUT_RATE=1 integration_dds_cut_test
+//   QWSM_CUT_SEEDS=20 QWSM_CUT_DRIVE_S=300 QWSM_CUT_RATE=1 integration_dds --gtest_filter=DdsCut.*
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -28,7 +28,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kScans = 16;
+constexpr int kScansOfDrive = 16;
 
 Timestamp StampOf(int scan) { return std::chrono::seconds(scan + 1); }
 
@@ -62,7 +62,7 @@ class CloudRobot {
   const std::set<Timestamp>& reported() const { return reported_; }
 
  private:
-  slam6d::Drive3 drive_ = slam6d::DriveInCircle(kScans, 4000, 5);
+  slam6d::Drive3 drive_ = slam6d::DriveInCircle(kScansOfDrive, 4000, 5);
   dds::Participant participant_;
   dds::RegistrationReportReader reports_;
   dds::CloudRobotPublisher publisher_;
@@ -99,17 +99,17 @@ TEST_F(DdsSlam6dKill, ServiceKilledAtEveryScanHasTheModelOfOneThatLived) {
   {
     Daemon service = Serve("lived");
     CloudRobot robot(network_);
-    for (int scan = 0; scan < kScans; ++scan) ASSERT_TRUE(robot.PublishUntilReported(scan));
+    for (int scan = 0; scan < kScansOfDrive; ++scan) ASSERT_TRUE(robot.PublishUntilReported(scan));
     EXPECT_EQ(service.End().exit_code, 0);
   }
   CloudRobot robot(network_);
   std::mt19937 random(5);
-  for (int scan = 0; scan < kScans; ++scan) {
+  for (int scan = 0; scan < kScansOfDrive; ++scan) {
     SCOPED_TRACE(scan);
     Daemon service = Serve("killed");
     const bool was_stored = Stored("killed").contains(StampOf(scan));
     ASSERT_TRUE(was_stored || robot.PublishUntilReported(scan));
-    if (scan + 1 < kScans) robot.Publish(scan + 1);  // May be in the journal or not.
+    if (scan + 1 < kScansOfDrive) robot.Publish(scan + 1);  // May be in the journal or not.
     std::this_thread::sleep_for(std::chrono::microseconds(random() % 30'000));
     service.End(SIGKILL);
     robot.Hear(10ms);
@@ -120,7 +120,7 @@ TEST_F(DdsSlam6dKill, ServiceKilledAtEveryScanHasTheModelOfOneThatLived) {
       << service.ErrorsSoFar();
   EXPECT_EQ(service.End().exit_code, 0);
   const std::string expected = ReadFile(Path("lived/robot1/trajectory.tum"));
-  EXPECT_EQ(std::ranges::count(expected, '\n'), kScans);
+  EXPECT_EQ(std::ranges::count(expected, '\n'), kScansOfDrive);
   EXPECT_EQ(ReadFile(Path("killed/robot1/trajectory.tum")), expected);
   EXPECT_TRUE(ReadFile(Path("killed/robot1/model.ply")) ==
               ReadFile(Path("lived/robot1/model.ply")));

@@ -17,7 +17,7 @@
 namespace qwsm::team {
 namespace {
 
-constexpr int kKills = 30;
+constexpr int kKillsOfCorrection = 30;
 constexpr std::uint64_t kCorrected = 1'000'000;  // No scan has that number.
 
 TeamServiceOptions Options() {
@@ -38,9 +38,9 @@ std::vector<TeamScan> BentScans() {
 }
 
 /// Tells when a correction is safe.
-class TellingSink final : public TeamSink {
+class EpochTeller final : public TeamSink {
  public:
-  explicit TellingSink(test::ChildProcess::Tell tell) : tell_(std::move(tell)) {}
+  explicit EpochTeller(test::ChildProcess::Tell tell) : tell_(std::move(tell)) {}
   void TakeEpoch(const TeamEpoch&) override { tell_(kCorrected); }
 
  private:
@@ -62,7 +62,7 @@ class EpochCrash : public ::testing::Test {
   /// @return whether a correction was told to be safe.
   bool RunUntilKilled(const std::filesystem::path& journal, std::size_t scans, std::size_t spins) {
     test::ChildProcess child([&](const test::ChildProcess::Tell& tell) {
-      TellingSink sink(tell);
+      EpochTeller sink(tell);
       TeamService service(Options(), sink, journal);
       service.Start();
       for (std::size_t i = 0; i < scans_.size(); ++i) {
@@ -90,7 +90,7 @@ TEST_F(EpochCrash, MapIsAsBeforeOrAsAfter) {
   std::mt19937 random(7);
   int corrected = 0;
   int uncorrected = 0;
-  for (int kill = 0; kill < kKills; ++kill) {
+  for (int kill = 0; kill < kKillsOfCorrection; ++kill) {
     SCOPED_TRACE(kill);
     const test::TemporaryFolder folder;
     // Half of the time within the correction, or just behind it.

@@ -19,14 +19,14 @@
 namespace qwsm::team {
 namespace {
 
-constexpr int kKills = 20;
+constexpr int kKillsOfJoining = 20;
 constexpr int kMostScans = 80;
 constexpr std::uint64_t kJoined = 1'000'000;  // No scan has that number.
 
 /// Tells when a joint is safe.
-class TellingSink final : public TeamSink {
+class JointTeller final : public TeamSink {
  public:
-  explicit TellingSink(test::ChildProcess::Tell tell) : tell_(std::move(tell)) {}
+  explicit JointTeller(test::ChildProcess::Tell tell) : tell_(std::move(tell)) {}
   void TakeEpoch(const TeamEpoch&) override { tell_(kJoined); }
 
  private:
@@ -67,7 +67,7 @@ class JointCrash : public ::testing::Test {
   /// @return whether the joint was told to be safe.
   static bool RunUntilKilled(const std::filesystem::path& journal, int scans, std::size_t spins) {
     test::ChildProcess child([&](const test::ChildProcess::Tell& tell) {
-      TellingSink sink(tell);
+      JointTeller sink(tell);
       TeamService service(test::LosslessOptions(), sink, journal);
       DriveUntilJoined(
           service, [] { return false; }, [&](int scan) { tell(static_cast<std::uint64_t>(scan)); });
@@ -91,7 +91,7 @@ TEST_F(JointCrash, MapsAreTwoOrOne) {
   std::mt19937 random(7);
   int joined = 0;
   int apart = 0;
-  for (int kill = 0; kill < kKills; ++kill) {
+  for (int kill = 0; kill < kKillsOfJoining; ++kill) {
     SCOPED_TRACE(kill);
     const test::TemporaryFolder folder;
     // Well before, just behind, or half of the time within the joint.

@@ -26,7 +26,7 @@
 namespace qwsm::team {
 namespace {
 
-constexpr int kKills = 100;
+constexpr int kKillsOfJournal = 100;
 constexpr int kScansOfALap = 126;
 
 TeamServiceOptions LosslessOptions() {
@@ -50,9 +50,9 @@ void Give(TeamService& service, int first, int count) {
 constexpr std::uint64_t kNotMatched = 0;  // No scan has that number.
 
 /// Tells the sequence numbers of relevant scans as they are shared, and poses without a match.
-class TellingSink final : public test::RecordingSink {
+class ScanTeller final : public test::RecordingSink {
  public:
-  explicit TellingSink(test::ChildProcess::Tell tell) : tell_(std::move(tell)) {}
+  explicit ScanTeller(test::ChildProcess::Tell tell) : tell_(std::move(tell)) {}
   void TakeRelevantScan(const TeamScan& scan) override { tell_(scan.key.sequence); }
   void TakeAnswer(const RobotAnswer& answer) override {
     if (answer.step.status == StepStatus::kDeadReckoned) tell_(kNotMatched);
@@ -68,7 +68,7 @@ std::set<std::uint64_t> RunUntilKilled(const std::filesystem::path& journal,
                                        int first_scan,
                                        std::mt19937& random) {
   test::ChildProcess child([&](const test::ChildProcess::Tell& tell) {
-    TellingSink sink(tell);
+    ScanTeller sink(tell);
     TeamService service(LosslessOptions(), sink, journal);
     service.Start();
     Give(service, first_scan, kScansOfALap);
@@ -97,7 +97,7 @@ TEST(JournalCrash, ServiceKilledAHundredTimesLosesNoScanItSharedAndMatchesTheNex
   std::mt19937 random(11);
   std::set<std::uint64_t> reported;
   int next_scan = 0;
-  for (int kill = 0; kill < kKills; ++kill) {
+  for (int kill = 0; kill < kKillsOfJournal; ++kill) {
     SCOPED_TRACE(kill);
     reported.merge(RunUntilKilled(file, next_scan, random));
     ASSERT_FALSE(reported.contains(kNotMatched));

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::size_t CountOf(const std::string& what, const std::string& text) {
+std::size_t TimesIn(const std::string& what, const std::string& text) {
   std::size_t count = 0;
   for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; ++at) ++count;
   return count;
@@ -112,8 +112,8 @@ TEST_F(Report, TakesNoNameOfALogForHtml) {
   RunProgram({"map", hostile, "--output", results_});
   ExpectSound(results_);
   const std::string page = ReadFile(results_ / "report.html");
-  EXPECT_EQ(CountOf("<script", page), 2U) << "the data and our own";
-  EXPECT_EQ(CountOf("</script", page), 2U);
+  EXPECT_EQ(TimesIn("<script", page), 2U) << "the data and our own";
+  EXPECT_EQ(TimesIn("</script", page), 2U);
 }
 
 TEST_F(Report, IsLeftByAnInterruptedRun) {

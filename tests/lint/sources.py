@@ -77,10 +77,11 @@ def functions(source):
         head = "" if character in "{};" else head + character
 
 
-COMPILED_TOGETHER = re.compile(r"qwsm/src/|slam6d/src/|sim/src/|service/(?:.*/)?")
+COMPILED_TOGETHER = re.compile(
+    r"qwsm/src/|slam6d/src/|sim/src/|service/(?:.*/)?|tests/(?:unit|property|integration|regression)/")
 NAMESPACE = re.compile(r"^namespace ([\w:]+) \{$", re.MULTILINE)
 UNNAMED = re.compile(r"^namespace \{$(.*?)^\}  // namespace$", re.MULTILINE | re.DOTALL)
-DEFINES = re.compile(r"^(?!using |namespace )\w[\w:<>,&* .]*[ *&](\w+) ?(?:\(|=|\{|;|\[)", re.MULTILINE)
+DEFINES = re.compile(r"^(?!using |namespace |class |struct )\w[\w:<>,&* .]*[ *&](\w+) ?(?:\(|=|\{|;|\[)", re.MULTILINE)
 
 
 def check_unnamed_namespaces(tree):

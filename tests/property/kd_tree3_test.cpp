@@ -40,7 +40,7 @@ double Distance2(const std::optional<Neighbor>& neighbor) {
   return neighbor ? neighbor->distance2_m2 : kInfinity;
 }
 
-Eigen::Vector3d Draw(std::mt19937& random, double scale_m) {
+Eigen::Vector3d DrawPoint(std::mt19937& random, double scale_m) {
   std::normal_distribution<double> coordinate_m(0.0, scale_m);
   const double x = coordinate_m(random);
   const double y = coordinate_m(random);
@@ -52,7 +52,7 @@ constexpr Shape kShapes[] = {
     Shape::kBlob, Shape::kSurface, Shape::kGrid, Shape::kLine, Shape::kCopies, Shape::kScales};
 
 Eigen::Vector3d DrawPoint(Shape shape, std::mt19937& random) {
-  const Eigen::Vector3d p = Draw(random, 10.0);
+  const Eigen::Vector3d p = DrawPoint(random, 10.0);
   switch (shape) {
     case Shape::kBlob:
       return p;
@@ -85,7 +85,7 @@ TEST(KdTree3, EqualsBruteForce) {
                       {.bucket_size = 1 + static_cast<int>(seed), .simd = kLevels[seed % 3]});
     for (int i = 0; i < 200; ++i) {
       const double max_distance_m = i % 3 == 0 ? kInfinity : 0.1 * i;
-      const Eigen::Vector3d query = Draw(random, i % 2 == 0 ? 10.0 : 1000.0);
+      const Eigen::Vector3d query = DrawPoint(random, i % 2 == 0 ? 10.0 : 1000.0);
       EXPECT_EQ(Distance2(tree.FindNearest(query, max_distance_m)),
                 BruteForce2(cloud, query, max_distance_m));
     }
@@ -97,7 +97,7 @@ TEST(KdTree3, ReturnsThePointThatHasTheDistance) {
   const PointCloud cloud = DrawCloud(Shape::kCopies, 500, random);
   const KdTree tree(cloud);
   for (int i = 0; i < 100; ++i) {
-    const Eigen::Vector3d query = Draw(random, 10.0);
+    const Eigen::Vector3d query = DrawPoint(random, 10.0);
     const std::optional<Neighbor> neighbor = tree.FindNearest(query);
     ASSERT_TRUE(neighbor);
     EXPECT_EQ(SquaredDistance(cloud[neighbor->index], query), neighbor->distance2_m2);
@@ -134,7 +134,7 @@ TEST(KdTree3, ApproximateSearchKeepsItsErrorBoundAndVisitsFewerLeaves) {
   SearchStatistics approximate;
   int worse = 0;
   for (int i = 0; i < 500; ++i) {
-    const Eigen::Vector3d query = Draw(random, 10.0);
+    const Eigen::Vector3d query = DrawPoint(random, 10.0);
     const double nearest2 = Distance2(tree.FindNearest(query, kInfinity, &exact));
     const double found2 =
         Distance2(tree.FindNearestApproximately(query, 1.0, kInfinity, &approximate));
@@ -149,8 +149,8 @@ TEST(KdTree3, ApproximateSearchKeepsItsErrorBoundAndVisitsFewerLeaves) {
 Pose3 Moved(const Pose3& pose, int step, std::mt19937& random) {
   const bool jump = step % 7 == 6;
   const double size = jump ? 30.0 : std::exp2(-step);
-  const Pose3 motion{.rotation = RotationFromVector(Draw(random, 0.1 * size)),
-                     .translation_m = Draw(random, size)};
+  const Pose3 motion{.rotation = RotationFromVector(DrawPoint(random, 0.1 * size)),
+                     .translation_m = DrawPoint(random, size)};
   return motion * pose;
 }
 
@@ -214,7 +214,7 @@ TEST(CachedSearch3, TellsApartWhatFloatsDoNot) {
   PointCloud cloud;
   for (int i = 0; i < 300; ++i) {
     const Eigen::Vector3d place_m = DrawPoint(Shape::kBlob, random);
-    for (int k = 0; k < 4; ++k) cloud.push_back(place_m + Draw(random, 1e-7));
+    for (int k = 0; k < 4; ++k) cloud.push_back(place_m + DrawPoint(random, 1e-7));
   }
   const PointCloud queries = DrawCloud(Shape::kBlob, 400, random);
   for (const SimdLevel level : kLevels) {

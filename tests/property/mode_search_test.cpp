@@ -20,14 +20,14 @@ using Random = std::mt19937_64;
 constexpr double kExtent_m = 6.0;
 const Points kPlaces = {{-2.0, 0.0}, {2.0, 0.0}};
 
-Points AnyPoints(Random& random, int count) {
+Points AnyPlaces(Random& random, int count) {
   std::uniform_real_distribution<double> coordinate_m(-kExtent_m, kExtent_m);
   Points points_m;
   for (int i = 0; i < count; ++i) points_m.emplace_back(coordinate_m(random), coordinate_m(random));
   return points_m;
 }
 
-LikelihoodPyramid MapOf(const Points& points_m) {
+LikelihoodPyramid PyramidOf(const Points& points_m) {
   LikelihoodPyramid map;
   for (const Eigen::Vector2d& p_m : points_m) map.Insert(p_m, 0.0);
   return map;
@@ -56,10 +56,10 @@ TEST(ModeSearch, FindsWhereTheScanWasTakenAtAnyHeading) {
   std::uniform_real_distribution<double> angle_rad(-std::numbers::pi, std::numbers::pi);
   for (int round = 0; round < 20; ++round) {
     SCOPED_TRACE(round);
-    const Points walls_m = AnyPoints(random, 80);
+    const Points walls_m = AnyPlaces(random, 80);
     const Pose2 T_map_robot(1.3, -0.7, angle_rad(random));
     const FoundModes found = SearchModes(
-        MapOf(walls_m), SeenFrom(T_map_robot, walls_m), {.places_m = kPlaces, .margin = 0.1});
+        PyramidOf(walls_m), SeenFrom(T_map_robot, walls_m), {.places_m = kPlaces, .margin = 0.1});
     ASSERT_FALSE(found.modes.empty());
     EXPECT_TRUE(IsNear(found.modes.front().T_map_robot, T_map_robot));
     EXPECT_LE(found.floor_score, found.modes.front().score - 0.1 + 1e-9);
@@ -71,8 +71,8 @@ TEST(ModeSearch, FindsNoWorsePoseThanAnExhaustiveSearch) {
   const Points origin = {{0.0, 0.0}};
   for (int round = 0; round < 8; ++round) {
     SCOPED_TRACE(round);
-    const LikelihoodPyramid map = MapOf(AnyPoints(random, 150));
-    const Points scan_m = AnyPoints(random, 30);  // Which was taken nowhere in the map.
+    const LikelihoodPyramid map = PyramidOf(AnyPlaces(random, 150));
+    const Points scan_m = AnyPlaces(random, 30);  // Which was taken nowhere in the map.
     const FoundModes found = SearchModes(map, scan_m, {.places_m = origin, .reach_m = 1.5});
     ASSERT_FALSE(found.modes.empty());
     EXPECT_GT(found.modes.front().score, BestScore(map, scan_m, 1.5) - 0.02);
@@ -81,7 +81,7 @@ TEST(ModeSearch, FindsNoWorsePoseThanAnExhaustiveSearch) {
 
 TEST(ModeSearch, FindsAllPlacesThatAreAlike) {
   Random random(3);
-  const Points room_m = AnyPoints(random, 40);
+  const Points room_m = AnyPlaces(random, 40);
   const Pose2 T_map_other(30.0, 5.0, 2.0);
   Points both_m = room_m;
   for (const Eigen::Vector2d& p_m : room_m) both_m.push_back(T_map_other * p_m);
@@ -89,7 +89,7 @@ TEST(ModeSearch, FindsAllPlacesThatAreAlike) {
   const Points places = {
       T_map_robot.translation_m(), (T_map_other * T_map_robot).translation_m(), {15.0, 2.5}};
   const FoundModes found = SearchModes(
-      MapOf(both_m), SeenFrom(T_map_robot, room_m), {.places_m = places, .margin = 0.1});
+      PyramidOf(both_m), SeenFrom(T_map_robot, room_m), {.places_m = places, .margin = 0.1});
   ASSERT_EQ(found.modes.size(), 2U);
   const bool is_first = IsNear(found.modes[0].T_map_robot, T_map_robot);
   EXPECT_TRUE(IsNear(found.modes[is_first ? 0 : 1].T_map_robot, T_map_robot));
@@ -99,23 +99,23 @@ TEST(ModeSearch, FindsAllPlacesThatAreAlike) {
 // A window around all of them would not fit into memory.
 TEST(ModeSearch, SearchesMapsThatAreFarApart) {
   Random random(4);
-  const Points room_m = AnyPoints(random, 40);
+  const Points room_m = AnyPlaces(random, 40);
   const Pose2 T_map_other(2e6, -3e6, 1.0);
-  Points both_m = AnyPoints(random, 40);
+  Points both_m = AnyPlaces(random, 40);
   for (const Eigen::Vector2d& p_m : room_m) both_m.push_back(T_map_other * p_m);
   const Pose2 T_map_robot = T_map_other * Pose2(0.5, 0.5, 0.3);
   const Points places = {{0.0, 0.0}, T_map_robot.translation_m()};
   const FoundModes found = SearchModes(
-      MapOf(both_m), SeenFrom({0.5, 0.5, 0.3}, room_m), {.places_m = places, .margin = 0.1});
+      PyramidOf(both_m), SeenFrom({0.5, 0.5, 0.3}, room_m), {.places_m = places, .margin = 0.1});
   ASSERT_FALSE(found.modes.empty());
   EXPECT_TRUE(IsNear(found.modes[0].T_map_robot, T_map_robot));
 }
 
 TEST(ModeSearch, FindsNothingWhereThereIsNothingToFind) {
   const Points one_m = {{1.0, 1.0}};
-  EXPECT_TRUE(SearchModes(MapOf({}), one_m, {.places_m = kPlaces, .min_score = 0.3}).modes.empty());
-  EXPECT_TRUE(SearchModes(MapOf(one_m), {}, {.places_m = kPlaces}).modes.empty());
-  EXPECT_TRUE(SearchModes(MapOf(one_m), one_m, {}).modes.empty());
+  EXPECT_TRUE(SearchModes(PyramidOf({}), one_m, {.places_m = kPlaces, .min_score = 0.3}).modes.empty());
+  EXPECT_TRUE(SearchModes(PyramidOf(one_m), {}, {.places_m = kPlaces}).modes.empty());
+  EXPECT_TRUE(SearchModes(PyramidOf(one_m), one_m, {}).modes.empty());
 }
 
 }  // namespace

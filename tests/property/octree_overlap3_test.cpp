@@ -8,7 +8,7 @@
 namespace slam6d {
 namespace {
 
-double DistanceM(const Pose3& a, const Pose3& b) {
+double OffM(const Pose3& a, const Pose3& b) {
   return (a.translation_m - b.translation_m).norm();
 }
 
@@ -49,7 +49,7 @@ TEST(OctreeOverlap, BringsAPoorGuessWithinReachOfIcp) {
     guess.rotation = RotationFromRollPitchYaw({0.0, 0.0, 0.15 * off(random)}) * guess.rotation;
     const OverlapReference reference{.model = &ref, .T_map_ref = {}};
     const OverlapGuess found = GuessByOverlap({&reference, 1}, cur, guess, options);
-    EXPECT_LT(DistanceM(found.T_map_cur, T_ref_cur), 0.25);
+    EXPECT_LT(OffM(found.T_map_cur, T_ref_cur), 0.25);
     EXPECT_LT(RotationAngle(found.T_map_cur.rotation.transpose() * T_ref_cur.rotation), 0.06);
     EXPECT_GE(found.overlap, Overlap({&reference, 1}, cur, guess, options));
   }

@@ -46,7 +46,7 @@ Loop MakeLoop(unsigned seed) {
   return loop;
 }
 
-double LargestErrorM(const std::vector<Pose3>& poses, const std::vector<Pose3>& truth) {
+double LargestGapM(const std::vector<Pose3>& poses, const std::vector<Pose3>& truth) {
   double largest_m = 0.0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     largest_m = std::max(largest_m, (poses[i].translation_m - truth[i].translation_m).norm());
@@ -59,7 +59,7 @@ TEST(LoopCloser, ClosesTheLoopAndLeavesTheFirstScan) {
   const graph::CeresLoopCloser ceres;
   for (unsigned seed = 1; seed <= 5; ++seed) {
     const Loop loop = MakeLoop(seed);
-    const double open_m = LargestErrorM(loop.graph.T_map_scan, loop.truth);
+    const double open_m = LargestGapM(loop.graph.T_map_scan, loop.truth);
     for (const LoopCloser* closer :
          {static_cast<const LoopCloser*>(&path), static_cast<const LoopCloser*>(&ceres)}) {
       SCOPED_TRACE(testing::Message() << "seed " << seed << (closer == &path ? " path" : " Ceres"));
@@ -69,7 +69,7 @@ TEST(LoopCloser, ClosesTheLoopAndLeavesTheFirstScan) {
                 1e-3);
       EXPECT_TRUE(closed.front().rotation.isApprox(loop.truth.front().rotation, 1e-12));
       EXPECT_EQ(closed.front().translation_m, loop.truth.front().translation_m);
-      EXPECT_LT(LargestErrorM(closed, loop.truth), open_m);
+      EXPECT_LT(LargestGapM(closed, loop.truth), open_m);
     }
   }
 }
@@ -82,8 +82,8 @@ TEST(LoopCloser, LeavesALoopWithoutErrorAsItIs) {
   }
   const PathLoopCloser path;
   const graph::CeresLoopCloser ceres;
-  EXPECT_LT(LargestErrorM(path.Close(loop.graph), loop.truth), 1e-9);
-  EXPECT_LT(LargestErrorM(ceres.Close(loop.graph), loop.truth), 1e-9);
+  EXPECT_LT(LargestGapM(path.Close(loop.graph), loop.truth), 1e-9);
+  EXPECT_LT(LargestGapM(ceres.Close(loop.graph), loop.truth), 1e-9);
 }
 
 TEST(PathLoopCloser, MovesWhatComesAfterTheLoopAsAWhole) {

@@ -14,7 +14,7 @@ namespace {
 using Random = std::mt19937_64;
 
 /// Some noisy walls and a few scattered points, inserted scan by scan.
-std::vector<std::pair<MapPoint, ScanId>> AnyPoints(Random& random, int scans) {
+std::vector<std::pair<MapPoint, ScanId>> AnyScans(Random& random, int scans) {
   std::uniform_real_distribution<double> along_m(-1.0, 1.0);
   std::normal_distribution<double> noise_m(0.0, 0.01);
   std::vector<std::pair<MapPoint, ScanId>> points;
@@ -67,7 +67,7 @@ TEST(SurfaceMap, SurfacesAreThoseOfThePointsAround) {
     SCOPED_TRACE(seed);
     Random random(seed);
     SurfaceMap map;
-    for (const auto& [point, scan] : AnyPoints(random, 6)) ASSERT_TRUE(map.Insert(point, scan));
+    for (const auto& [point, scan] : AnyScans(random, 6)) ASSERT_TRUE(map.Insert(point, scan));
     ExpectSurfacesOfBruteForce(map);
   }
 }
@@ -76,7 +76,7 @@ TEST(SurfaceMap, ForMatchingHasTheSameSurfacesAndMakesTheLikelihoodWhenAsked) {
   Random random(7);
   SurfaceMap searched;
   SurfaceMap matched = SurfaceMap::ForMatching({});
-  for (const auto& [point, scan] : AnyPoints(random, 6)) {
+  for (const auto& [point, scan] : AnyScans(random, 6)) {
     searched.Insert(point, scan);
     matched.Insert(point, scan);
   }
@@ -95,7 +95,7 @@ TEST(SurfaceMap, AfterAScanIsRemovedIsWhatItWouldHaveBeenWithoutIt) {
   for (unsigned seed = 0; seed < 5; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
-    const auto points = AnyPoints(random, 4);
+    const auto points = AnyScans(random, 4);
     SurfaceMap with;
     SurfaceMap without;
     for (const auto& [point, scan] : points) {

@@ -22,10 +22,10 @@ namespace {
 
 constexpr double kTurn_rad_s = 2.0;
 constexpr double kSweep_s = 0.1;
-constexpr double kMost = 1.2;  // Times the error of scans that are taken at once.
+constexpr double kMostOfAtOnce = 1.2;  // Times the error of scans that are taken at once.
 // It begins to slip, from one scan to the next, as it sets off.
 constexpr double kMostSlipping = 1.3;
-constexpr int kDrives = 5;
+constexpr int kDrivesInMotion = 5;
 
 using Tell = std::function<Observation(const sim::Reading&)>;
 
@@ -84,13 +84,13 @@ using MakeDrive = std::function<std::unique_ptr<sim::Simulation>(int seed, const
 double MeanErrorOf_m(const Way& way, const MakeDrive& drive) {
   double sum_m = 0.0;
   std::printf("  %-34s", way.name);
-  for (int seed = 1; seed <= kDrives; ++seed) {
+  for (int seed = 1; seed <= kDrivesInMotion; ++seed) {
     const double error_m = ErrorOf_m(*drive(seed, way), way.tell);
     std::printf(" %5.2f", 1e3 * error_m);
     sum_m += error_m;
   }
-  std::printf("  mean %5.2f mm\n", 1e3 * sum_m / kDrives);
-  return sum_m / kDrives;
+  std::printf("  mean %5.2f mm\n", 1e3 * sum_m / kDrivesInMotion);
+  return sum_m / kDrivesInMotion;
 }
 
 std::unique_ptr<sim::Simulation> Turn(int seed, const Way& way, double forward_mps) {
@@ -132,7 +132,7 @@ TEST(Deskew, OnTheSpotScansAreAsGoodAsThoseTakenAtOnce) {
   const double skewed_m = MeanErrorOf_m(kSkewed, OnTheSpot);
   EXPECT_GT(skewed_m, 2.0 * at_once_m) << "there is nothing to mend";
   EXPECT_LT(MeanErrorOf_m(kByWheels, OnTheSpot), 1.3 * at_once_m);
-  EXPECT_LT(MeanErrorOf_m(kByGyro, OnTheSpot), kMost * at_once_m);
+  EXPECT_LT(MeanErrorOf_m(kByGyro, OnTheSpot), kMostOfAtOnce * at_once_m);
 }
 
 // The wheels slip aside by 0.12 m in each second, which neither they nor a gyro feel.

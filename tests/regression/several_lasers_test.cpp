@@ -24,7 +24,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kPeriod_s = 0.1;
 constexpr double kDuration_s = 90.0;
-constexpr double kMost = 1.1;  // Times the error of one laser that looks all around.
+constexpr double kMostOfOneLaser = 1.1;  // Times the error of one laser that looks all around.
 
 using Mount = std::function<void(sim::RobotOptions&)>;
 
@@ -126,8 +126,8 @@ Errors ErrorsOf(const char* what, const Mount& mount) {
 }
 
 void ExpectAsGood(const Errors& errors, const Errors& one) {
-  EXPECT_LT(errors.answered_m, kMost * one.answered_m);
-  EXPECT_LT(errors.corrected_m, kMost * one.corrected_m);
+  EXPECT_LT(errors.answered_m, kMostOfOneLaser * one.answered_m);
+  EXPECT_LT(errors.corrected_m, kMostOfOneLaser * one.corrected_m);
 }
 
 TEST(SeveralLasers, TwoBackToBackAreAsGoodAsOneThatLooksAllAround) {

@@ -16,14 +16,14 @@
 namespace qwsm::test {
 
 /// A wall along an axis, or not.
-struct Wall {
+struct RoomWall {
   Eigen::Vector2d from_m;
   Eigen::Vector2d to_m;
 };
 
 /// Distance along a ray to the nearest wall of a room of 10 x 6 m with a box in it.
 inline double RangeInRoom_m(const Eigen::Vector2d& origin_m, double bearing_rad) {
-  static const std::array<Wall, 8> kWalls{{{{-5, -3}, {5, -3}},
+  static const std::array<RoomWall, 8> kWalls{{{{-5, -3}, {5, -3}},
                                            {{5, -3}, {5, 3}},
                                            {{5, 3}, {-5, 3}},
                                            {{-5, 3}, {-5, -3}},
@@ -36,7 +36,7 @@ inline double RangeInRoom_m(const Eigen::Vector2d& origin_m, double bearing_rad)
     return a.x() * b.y() - a.y() * b.x();
   };
   double nearest_m = 80.0;
-  for (const Wall& wall : kWalls) {
+  for (const RoomWall& wall : kWalls) {
     const Eigen::Vector2d along = wall.to_m - wall.from_m;
     const double sine = cross(ray, along);
     if (std::abs(sine) < 1e-12) continue;

@@ -56,7 +56,7 @@ void Validate(const CartOptions& o, Report& report) {
   }
 }
 
-CartOptions Load(const std::string& text, const std::vector<std::string>& settings = {}) {
+CartOptions LoadCart(const std::string& text, const std::vector<std::string>& settings = {}) {
   CartOptions options;
   OptionGroup group = GroupOf(options);
   Loader loader(group);
@@ -66,9 +66,9 @@ CartOptions Load(const std::string& text, const std::vector<std::string>& settin
   return options;
 }
 
-std::string Complaint(const std::string& text, const std::vector<std::string>& settings = {}) {
+std::string ComplaintOfCart(const std::string& text, const std::vector<std::string>& settings = {}) {
   try {
-    Load(text, settings);
+    LoadCart(text, settings);
   } catch (const ConfigError& error) {
     return error.what();
   }
@@ -84,7 +84,7 @@ constexpr const char* kCart =
     "  - wheels: [{}, {radius_m: 0.3}]\n";
 
 TEST(ConfigList, ReadsListsWithinLists) {
-  const CartOptions cart = Load(kCart);
+  const CartOptions cart = LoadCart(kCart);
   ASSERT_EQ(cart.axles.size(), 2U);
   ASSERT_EQ(cart.axles[0].wheels.size(), 2U);
   EXPECT_EQ(cart.axles[0].wheels[0].radius_m, 0.2);
@@ -95,36 +95,36 @@ TEST(ConfigList, ReadsListsWithinLists) {
 }
 
 TEST(ConfigList, ReadsBackWhatItDumps) {
-  const CartOptions cart = Load(kCart);
+  const CartOptions cart = LoadCart(kCart);
   const std::string yaml = DumpOptions(cart);
-  EXPECT_EQ(DumpOptions(Load(yaml)), yaml);
-  EXPECT_EQ(Load(yaml).axles[0].wheels[0].maker, "Otto's");
+  EXPECT_EQ(DumpOptions(LoadCart(yaml)), yaml);
+  EXPECT_EQ(LoadCart(yaml).axles[0].wheels[0].maker, "Otto's");
   EXPECT_EQ(DumpOptions(CartOptions{}), "# front to rear\naxles: []\n");
 }
 
 TEST(ConfigList, SettingsReachItems) {
-  EXPECT_EQ(Load(kCart, {"axles[1].wheels[0].radius_m=0.5"}).axles[1].wheels[0].radius_m, 0.5);
-  EXPECT_EQ(Complaint(kCart, {"axles[2].load_deg=1"}),
+  EXPECT_EQ(LoadCart(kCart, {"axles[1].wheels[0].radius_m=0.5"}).axles[1].wheels[0].radius_m, 0.5);
+  EXPECT_EQ(ComplaintOfCart(kCart, {"axles[2].load_deg=1"}),
             "--set axles[2].load_deg: 'axles[2]' is no group of options");
-  EXPECT_EQ(Complaint(kCart, {"axles=1"}),
+  EXPECT_EQ(ComplaintOfCart(kCart, {"axles=1"}),
             "--set axles: is a list; set an option of one of its items, such as [0]");
 }
 
 TEST(ConfigList, SaysWhereAnItemIsWrong) {
-  EXPECT_EQ(Complaint("axles:\n"
+  EXPECT_EQ(ComplaintOfCart("axles:\n"
                       "  - wheels: [{radius_m: 9}, {makr: me}]\n"
                       "  - 3\n"),
             "cart.yaml:2:25: axles[0].wheels[0].radius_m: must be between 0.01 and 1, got 9\n"
             "cart.yaml:2:30: axles[0].wheels[1].makr: unknown option; did you mean 'maker'?\n"
             "cart.yaml:3:5: axles[1]: expected a group of options (key: value, indented below)");
-  EXPECT_EQ(Complaint("axles: 3\n"),
+  EXPECT_EQ(ComplaintOfCart("axles: 3\n"),
             "cart.yaml:1:8: axles: expected a list (one '- ' for each item, indented below)");
 }
 
 TEST(ConfigList, ChecksItemsAndTheWhole) {
-  EXPECT_EQ(Complaint("axles:\n  - wheels: [{}]\n"),
+  EXPECT_EQ(ComplaintOfCart("axles:\n  - wheels: [{}]\n"),
             "cart.yaml:2:13: axles[0].wheels: an axle has two");
-  EXPECT_EQ(Complaint("axles:\n  - {wheels: [{}, {}], load_deg: 90}\n"),
+  EXPECT_EQ(ComplaintOfCart("axles:\n  - {wheels: [{}, {}], load_deg: 90}\n"),
             "cart.yaml:2:34: axles[0].load_deg: overloaded");
 }
 

@@ -19,16 +19,16 @@
 namespace qwsm::dds {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(Planar, GivesHeadingsBackToTheLastBit) {
   std::mt19937 random(1);
-  std::uniform_real_distribution<double> any(-kPi, kPi);
+  std::uniform_real_distribution<double> any(-pi, pi);
   for (int i = 0; i < 20'000; ++i) {
     const double theta_rad = any(random);
     ASSERT_EQ(YawOf(QuaternionOf(theta_rad)), theta_rad) << "case " << i;
   }
-  for (const double theta_rad : {0.0, 1e-300, -1e-9, 1e-5, kPi, -3.14159, 0.5 * kPi}) {
+  for (const double theta_rad : {0.0, 1e-300, -1e-9, 1e-5, pi, -3.14159, 0.5 * pi}) {
     EXPECT_EQ(YawOf(QuaternionOf(theta_rad)), theta_rad);
   }
 }
@@ -78,7 +78,7 @@ TEST(StaticTransforms, FollowFramesAskWhoKnowsThemAndRefuseCircles) {
     message.transforms = {._maximum = 1, ._length = 1, ._buffer = &transform, ._release = false};
     transforms.Take(message, source);
   };
-  add("base_link", "mast", {1.0, 0.0, kPi / 2});
+  add("base_link", "mast", {1.0, 0.0, pi / 2});
   add("mast", "laser", {0.5, 0.0, 0.0});
   const auto found = transforms.Find("base_link", "laser");
   ASSERT_TRUE(found);

@@ -9,12 +9,14 @@ namespace {
 
 const UncertainPose2 kStep = UncertainPose2::WithSigmas({0.1, 0.0, 0.0}, 0.01, 0.002);
 
-UncertainPose2 At(double x_m) { return UncertainPose2::WithSigmas({x_m, 0.0, 0.0}, 0.005, 0.001); }
+UncertainPose2 MatchedAt(double x_m) {
+  return UncertainPose2::WithSigmas({x_m, 0.0, 0.0}, 0.005, 0.001);
+}
 
 /// Follows a robot of which each match stays behind by so much more.
 DeadReckoning AfterScans(int scans, double behind_m) {
   DeadReckoning reckoning;
-  for (int i = 0; i < scans; ++i) reckoning.Follow(kStep, At(i * (0.1 - behind_m)));
+  for (int i = 0; i < scans; ++i) reckoning.Follow(kStep, MatchedAt(i * (0.1 - behind_m)));
   return reckoning;
 }
 
@@ -38,9 +40,9 @@ TEST(DeadReckoning, SaysNothingBefore) {
 
 TEST(DeadReckoning, KnowsWhatOdometryMayBeOffBy) {
   const UncertainPose2 reckoned = *AfterScans(20, 0.0).Predict(kStep);
-  EXPECT_FALSE(IsFarFrom(reckoned, At(2.0)));
-  EXPECT_FALSE(IsFarFrom(reckoned, At(1.9)));  // Two sigmas of twenty steps.
-  EXPECT_TRUE(IsFarFrom(reckoned, At(1.5)));
+  EXPECT_FALSE(IsFarFrom(reckoned, MatchedAt(2.0)));
+  EXPECT_FALSE(IsFarFrom(reckoned, MatchedAt(1.9)));  // Two sigmas of twenty steps.
+  EXPECT_TRUE(IsFarFrom(reckoned, MatchedAt(1.5)));
 }
 
 TEST(DeadReckoning, FollowsAMapThatIsMoved) {

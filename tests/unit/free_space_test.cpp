@@ -14,7 +14,7 @@
 namespace qwsm::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr float kRange_m = 5.0F;
 
 /// A laser in the middle of a round room.
@@ -32,7 +32,7 @@ LaserScan InARoundRoom(double first_rad,
   return scan;
 }
 
-Eigen::Vector2d Towards(double bearing_rad, double range_m) {
+Eigen::Vector2d SeenTowards(double bearing_rad, double range_m) {
   return range_m * Eigen::Vector2d(std::cos(bearing_rad), std::sin(bearing_rad));
 }
 
@@ -61,36 +61,36 @@ TEST_P(FreeRangeImageOf, SawThroughAllBeforeItsBeamsEndedAndNothingElse) {
   const double middle_rad = 0.5 * (turning.first_rad + turning.last_rad);
   const double half_rad = 0.5 * std::abs(turning.last_rad - turning.first_rad);
   constexpr double kBorder_rad = 0.05;  // Where some neighbouring beams are missing.
-  for (double off_rad = -kPi + 0.01; off_rad < kPi; off_rad += 0.01) {
+  for (double off_rad = -pi + 0.01; off_rad < pi; off_rad += 0.01) {
     const bool is_in_view = std::abs(off_rad) < half_rad - kBorder_rad;
     if (!is_in_view && std::abs(off_rad) < half_rad + kBorder_rad) continue;
     SCOPED_TRACE(off_rad);
     const double bearing_rad = middle_rad + off_rad;
-    EXPECT_EQ(SawThrough(image, T_map_laser * Towards(bearing_rad, 4.6)), is_in_view);
-    EXPECT_FALSE(SawThrough(image, T_map_laser * Towards(bearing_rad, 4.8)));  // Within the margin.
-    EXPECT_FALSE(SawThrough(image, T_map_laser * Towards(bearing_rad, 5.5)));
+    EXPECT_EQ(SawThrough(image, T_map_laser * SeenTowards(bearing_rad, 4.6)), is_in_view);
+    EXPECT_FALSE(SawThrough(image, T_map_laser * SeenTowards(bearing_rad, 4.8)));  // Within the margin.
+    EXPECT_FALSE(SawThrough(image, T_map_laser * SeenTowards(bearing_rad, 5.5)));
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Lasers,
                          FreeRangeImageOf,
-                         testing::Values(Turning{"Forwards", -0.5 * kPi, 0.5 * kPi},
-                                         Turning{"Clockwise", 0.75 * kPi, -0.75 * kPi},
-                                         Turning{"AllAround", -kPi, kPi},
-                                         Turning{"FromZero", 0.0, 2.0 * kPi}),
+                         testing::Values(Turning{"Forwards", -0.5 * pi, 0.5 * pi},
+                                         Turning{"Clockwise", 0.75 * pi, -0.75 * pi},
+                                         Turning{"AllAround", -pi, pi},
+                                         Turning{"FromZero", 0.0, 2.0 * pi}),
                          [](const auto& tested) { return tested.param.name; });
 
 TEST(FreeRangeImage, KnowsNothingWhereABeamNearbyBroughtNoEcho) {
   LaserScan scan = InARoundRoom(-1.0, 1.0, 201);
   scan.ranges_m[100] = std::numeric_limits<float>::quiet_NaN();
   const FreeRangeImage image(scan, {}, {.margin_beams = 2});
-  EXPECT_FALSE(SawThrough(image, Towards(0.0, 2.0)));
-  EXPECT_FALSE(SawThrough(image, Towards(0.02, 2.0)));
-  EXPECT_TRUE(SawThrough(image, Towards(0.05, 2.0)));
+  EXPECT_FALSE(SawThrough(image, SeenTowards(0.0, 2.0)));
+  EXPECT_FALSE(SawThrough(image, SeenTowards(0.02, 2.0)));
+  EXPECT_TRUE(SawThrough(image, SeenTowards(0.05, 2.0)));
 }
 
 TEST(FreeRangeImage, IsNotMistakenAtTheLaserItself) {
-  EXPECT_TRUE(SawThrough(FreeRangeImage(InARoundRoom(-kPi, kPi, 361), {}, {}), {0.0, 0.0}));
+  EXPECT_TRUE(SawThrough(FreeRangeImage(InARoundRoom(-pi, pi, 361), {}, {}), {0.0, 0.0}));
 }
 
 class WhoWalksIn : public testing::Test {
@@ -101,7 +101,7 @@ class WhoWalksIn : public testing::Test {
     for (std::size_t i = first_beam; i < first_beam + beams; ++i) scan_.ranges_m[i] = 2.0F;
   }
 
-  LaserScan scan_ = InARoundRoom(-0.5 * kPi, 0.5 * kPi, 181);
+  LaserScan scan_ = InARoundRoom(-0.5 * pi, 0.5 * pi, 181);
   FreeSpace seen_free_;
 };
 

@@ -10,13 +10,13 @@
 namespace qwsm {
 namespace {
 
-constexpr double kSigma_rad = 0.003;  // Of a turn that a match finds.
+constexpr double kTurnSigma_rad = 0.003;  // Of a turn that a match finds.
 constexpr double kPeriod_s = 0.5;
 
 /// A robot that turns to and fro on grass: its wheels tell a fifth more.
-class Turning {
+class TurningRobot {
  public:
-  explicit Turning(double bias_rad_s, double gyro_factor = 1.0)
+  explicit TurningRobot(double bias_rad_s, double gyro_factor = 1.0)
       : bias_rad_s_(bias_rad_s), gyro_factor_(gyro_factor) {}
 
   void Step() {
@@ -31,7 +31,7 @@ class Turning {
     const double before_rad = T_odom_robot_.theta_rad;
     T_odom_robot_ = *odometry_.Follow(observation);
     const double told_rad = NormalizeAngle(T_odom_robot_.theta_rad - before_rad);
-    if (steps_ > 1) odometry_.Learn(turn_rad + kSigma_rad * normal_(random_), kSigma_rad);
+    if (steps_ > 1) odometry_.Learn(turn_rad + kTurnSigma_rad * normal_(random_), kTurnSigma_rad);
     if (steps_ > 200) {
       by_gyro_rad2_ += std::pow(told_rad - turn_rad, 2);
       by_wheels_rad2_ += std::pow(0.2 * turn_rad, 2);
@@ -60,7 +60,7 @@ class Turning {
 };
 
 TEST(GyroOdometry, LearnsTheBias) {
-  Turning turning(0.02);
+  TurningRobot turning(0.02);
   for (int i = 0; i < 400; ++i) turning.Step();
   EXPECT_TRUE(turning.odometry().leads());
   EXPECT_NEAR(turning.odometry().bias_rad_s(), 0.02, 0.001);
@@ -68,7 +68,7 @@ TEST(GyroOdometry, LearnsTheBias) {
 }
 
 TEST(GyroOdometry, DoesWithoutAGyroThatIsUpsideDown) {
-  Turning turning(0.0, -1.0);
+  TurningRobot turning(0.0, -1.0);
   for (int i = 0; i < 400; ++i) turning.Step();
   EXPECT_FALSE(turning.odometry().leads());
   EXPECT_LT(turning.Share(), 1.05);

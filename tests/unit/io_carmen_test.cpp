@@ -20,7 +20,7 @@ using test::FailureOf;
 using test::LogContent;
 using test::ReadLogText;
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(CarmenLog, ReadsOdometryWithItsExactStamp) {
   const LogContent log =
@@ -63,8 +63,8 @@ TEST(CarmenLog, ReadsAFlaserLineWithTheOdometryAtItsEnd) {
   EXPECT_EQ(reading.scan.stamp, 10250ms);
   EXPECT_EQ(reading.scan.ranges_m, (std::vector{1.5F, 2.25F, 81.91F}));
   EXPECT_EQ(reading.T_odom_robot, (Pose2{1.0, 2.0, 0.5}));
-  EXPECT_NEAR(reading.scan.geometry.Bearing(0), -kPi / 2.0, 1e-6);
-  EXPECT_NEAR(reading.scan.geometry.Bearing(2), kPi / 2.0, 1e-6);
+  EXPECT_NEAR(reading.scan.geometry.Bearing(0), -pi / 2.0, 1e-6);
+  EXPECT_NEAR(reading.scan.geometry.Bearing(2), pi / 2.0, 1e-6);
   EXPECT_EQ(reading.scan.geometry.T_robot_laser, Pose2{});
 }
 
@@ -96,10 +96,10 @@ TEST(CarmenLog, KnowsScannersByTheirCountOfReadings) {
 
 TEST(CarmenLog, TakesTheFieldOfViewItIsTold) {
   LogOptions options;
-  options.field_of_view_rad = 2.0 * kPi / 3.0;
+  options.field_of_view_rad = 2.0 * pi / 3.0;
   const LogContent log = ReadLogText(FlaserOf(121), options);
-  EXPECT_NEAR(log.scans.at(0).scan.geometry.Bearing(0), -kPi / 3.0, 1e-6);
-  EXPECT_NEAR(log.scans.at(0).scan.geometry.Bearing(120), kPi / 3.0, 1e-6);
+  EXPECT_NEAR(log.scans.at(0).scan.geometry.Bearing(0), -pi / 3.0, 1e-6);
+  EXPECT_NEAR(log.scans.at(0).scan.geometry.Bearing(120), pi / 3.0, 1e-6);
 }
 
 TEST(CarmenLog, ReadsARobotlaserLineWithBearingsRangeAndMounting) {
@@ -113,7 +113,7 @@ TEST(CarmenLog, ReadsARobotlaserLineWithBearingsRangeAndMounting) {
     EXPECT_EQ(reading.scan.stamp, 10500ms);
     EXPECT_EQ(reading.scan.ranges_m, (std::vector{1.0F, 2.0F, 3.0F}));
     EXPECT_EQ(reading.scan.geometry.range_max_m, 30.0F);
-    EXPECT_NEAR(reading.scan.geometry.Bearing(2), kPi / 2.0, 1e-5);
+    EXPECT_NEAR(reading.scan.geometry.Bearing(2), pi / 2.0, 1e-5);
     EXPECT_EQ(reading.T_odom_robot, (Pose2{1.0, 2.0, 0.0}));
     EXPECT_EQ(reading.scan.geometry.T_robot_laser, (Pose2{0.1, 0.0, 0.0}));
   }
@@ -201,7 +201,7 @@ TEST(CarmenLog, InterpolatesOdometryForRawSweeps) {
   ASSERT_TRUE(log.scans[0].T_odom_robot.has_value());
   EXPECT_DOUBLE_EQ(log.scans[0].T_odom_robot->x_m, 1.0);
   EXPECT_DOUBLE_EQ(log.scans[0].T_odom_robot->y_m, 2.0);
-  EXPECT_NEAR(log.scans[0].T_odom_robot->theta_rad, 3.1 + 0.25 * (2.0 * kPi - 6.2), 1e-12);
+  EXPECT_NEAR(log.scans[0].T_odom_robot->theta_rad, 3.1 + 0.25 * (2.0 * pi - 6.2), 1e-12);
   EXPECT_EQ(log.scans[1].T_odom_robot, (Pose2{4.0, 8.0, -3.1}));
   EXPECT_FALSE(log.scans[2].T_odom_robot.has_value());
 }

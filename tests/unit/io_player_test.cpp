@@ -16,7 +16,7 @@ using namespace std::chrono_literals;
 using test::LogContent;
 using test::ReadLogText;
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(PlayerLog, ReadsFilesOfPlayerOne) {
   const LogContent log = ReadLogText(
@@ -38,8 +38,8 @@ TEST(PlayerLog, ReadsFilesOfPlayerOne) {
   EXPECT_EQ(reading.laser, "laser:0");
   EXPECT_EQ(reading.scan.stamp, 1045869313250ms);
   EXPECT_EQ(reading.scan.ranges_m, (std::vector{1.0F, 2.0F, 3.0F, 4.0F, 8.191F}));
-  EXPECT_NEAR(reading.scan.geometry.Bearing(0), -kPi / 2.0, 1e-4);
-  EXPECT_NEAR(reading.scan.geometry.Bearing(4), kPi / 2.0, 1e-4);
+  EXPECT_NEAR(reading.scan.geometry.Bearing(0), -pi / 2.0, 1e-4);
+  EXPECT_NEAR(reading.scan.geometry.Bearing(4), pi / 2.0, 1e-4);
   ASSERT_TRUE(reading.T_odom_robot.has_value());
   EXPECT_NEAR(reading.T_odom_robot->x_m, 2.0, 1e-9);
 }
@@ -74,8 +74,8 @@ TEST(PlayerLog, ReadsBeamsWithTheirBearings) {
   EXPECT_TRUE(log.report.faults.empty());
   ASSERT_EQ(log.scans.size(), 1U);
   EXPECT_EQ(log.scans[0].scan.ranges_m, (std::vector{0.62F, 0.63F, 8.183F}));
-  EXPECT_NEAR(log.scans[0].scan.geometry.Bearing(0), -kPi / 2.0, 1e-3);
-  EXPECT_NEAR(log.scans[0].scan.geometry.Bearing(2), kPi / 2.0, 1e-3);
+  EXPECT_NEAR(log.scans[0].scan.geometry.Bearing(0), -pi / 2.0, 1e-3);
+  EXPECT_NEAR(log.scans[0].scan.geometry.Bearing(2), pi / 2.0, 1e-3);
   EXPECT_EQ(log.scans[0].T_odom_robot, (Pose2{1.0, 0.0, 0.0}));
 }
 

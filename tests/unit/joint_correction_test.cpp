@@ -13,7 +13,7 @@
 namespace qwsm::test {
 namespace {
 
-ScanMap MapOf(const std::vector<MappingStep>& relevant) {
+ScanMap MapOfRelevant(const std::vector<MappingStep>& relevant) {
   ScanMap map;
   for (const MappingStep& step : relevant) {
     map.Insert(step.relevant_scan, ToPoints(step.relevant_scan), step.map_relevant);
@@ -26,7 +26,7 @@ TEST(JointCorrection, MendsAMapThatAnotherDriveWentOnWith) {
   Answers all = Drive(OfficeLoop());
   Bend(all.steps, 0.0003);
   const Answers relevant = Relevant(all);
-  const ScanMap map = MapOf(relevant.steps);
+  const ScanMap map = MapOfRelevant(relevant.steps);
   const std::size_t half = map.scans().size() / 2;
   Answers second;
   std::vector<StampedAnswer> answers;
@@ -55,7 +55,7 @@ TEST(JointCorrection, MendsAMapThatAnotherDriveWentOnWith) {
 TEST(JointCorrection, CorrectsThePathsOfAllDrives) {
   Answers all = Drive(OfficeLoop());
   Bend(all.steps, 0.0003);
-  const ScanMap map = MapOf(Relevant(all).steps);
+  const ScanMap map = MapOfRelevant(Relevant(all).steps);
   const std::size_t half = map.scans().size() / 2;
   std::array<Answers, 2> parts;
   std::array<std::vector<StampedAnswer>, 2> answers;
@@ -81,7 +81,7 @@ TEST(JointCorrection, CorrectsThePathsOfAllDrives) {
 
 TEST(JointCorrection, LeavesAMapToWhichNothingWasAdded) {
   const Answers relevant = BentOfficeLoop();
-  const ScanMap map = MapOf(relevant.steps);
+  const ScanMap map = MapOfRelevant(relevant.steps);
   const std::vector<StampedAnswer> answers{{.stamp = {}, .map_robot = {.T_a_b = {1.0, 2.0, 0.5}}}};
   const JointCorrection joint = CorrectJointly(
       map, std::vector<DriveInMap>{{.first_scan = map.scans().size(), .answers = answers}});

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 
 constexpr Pose2 kFront{0.2, 0.0, 0.0};
 constexpr Pose2 kRear{-0.2, 0.0, 3.0};
-constexpr double kSigma_m = 0.004;
+constexpr double kMatchSigma_m = 0.004;
 
 Observation At(const Pose2& T_robot_laser, std::chrono::milliseconds stamp) {
   Observation observation;
@@ -24,7 +24,7 @@ Observation At(const Pose2& T_robot_laser, std::chrono::milliseconds stamp) {
 }
 
 /// A match that says x, after a prediction that says next to nothing.
-MappingStep FoundAt(double x_m, double sigma_m = kSigma_m) {
+MappingStep FoundAt(double x_m, double sigma_m = kMatchSigma_m) {
   MappingStep step{.status = StepStatus::kMatched};
   step.match.predicted = UncertainPose2::WithSigmas({.x_m = x_m}, 1.0, 1.0);
   step.match.T_ref_cur = {.x_m = x_m};
@@ -66,20 +66,20 @@ TEST(LaserTurns, WhatOthersToldIsPassedOn) {
   const std::optional<UncertainPose2> told = turns.ToldByOthers(At(kRear, 1000ms));
   ASSERT_TRUE(told);
   EXPECT_NEAR(told->T_a_b.x_m, 0.01, 1e-4);
-  EXPECT_NEAR(std::sqrt(told->covariance(0, 0)), kSigma_m, 0.1 * kSigma_m);
+  EXPECT_NEAR(std::sqrt(told->covariance(0, 0)), kMatchSigma_m, 0.1 * kMatchSigma_m);
 }
 
 // Else the front laser's word would come back to it by way of the rear one, as a second opinion.
 TEST(LaserTurns, NoScanCountsTwice) {
   LaserTurns turns = TakingTurns(1s);
-  MappingStep fused = FoundAt(0.0, 0.5 * kSigma_m);
-  fused.match.predicted = UncertainPose2::WithSigmas({.x_m = -0.003}, 0.6 * kSigma_m, kSigma_m);
+  MappingStep fused = FoundAt(0.0, 0.5 * kMatchSigma_m);
+  fused.match.predicted = UncertainPose2::WithSigmas({.x_m = -0.003}, 0.6 * kMatchSigma_m, kMatchSigma_m);
   turns.Note(At(kRear, 1000ms), fused, false);
   const std::optional<UncertainPose2> told = turns.ToldByOthers(At(kFront, 1000ms));
   ASSERT_TRUE(told);
   // Of 4 parts of information, 2.78 were the prediction's.
   EXPECT_NEAR(told->T_a_b.x_m, 0.003 * 2.78 / 1.22, 2e-4);
-  EXPECT_NEAR(std::sqrt(told->covariance(0, 0)), kSigma_m / std::sqrt(1.22), 0.1 * kSigma_m);
+  EXPECT_NEAR(std::sqrt(told->covariance(0, 0)), kMatchSigma_m / std::sqrt(1.22), 0.1 * kMatchSigma_m);
 }
 
 TEST(LaserTurns, ALaserThatIsHeardNoMoreIsForgottenWithinAPeriod) {
@@ -97,7 +97,7 @@ TEST(LaserTurns, ALaserThatIsHeardNoMoreIsForgottenWithinAPeriod) {
 TEST(LaserTurns, TheNextScanTellsWhereTheLastOneWasTaken) {
   LaserTurns turns = TakingTurns(1s);
   turns.Note(At(kRear, 1000ms), FoundAt(0.01), false);
-  const UncertainPose2 before = UncertainPose2::WithSigmas({}, kSigma_m, kSigma_m);
+  const UncertainPose2 before = UncertainPose2::WithSigmas({}, kMatchSigma_m, kMatchSigma_m);
   const UncertainPose2 after = turns.WithHindsight(before, At(kFront, 1000ms));
   EXPECT_NEAR(after.T_a_b.x_m, 0.005, 5e-4);
   EXPECT_LT(after.covariance(0, 0), 0.6 * before.covariance(0, 0));

@@ -25,7 +25,7 @@ SimulatedDrive DriveOf(const Scene& scene, std::uint64_t seed) {
   return DriveThrough(scene, options);
 }
 
-ScanMap MapOf(const SimulatedDrive& drive) {
+ScanMap MapOfDrive(const SimulatedDrive& drive) {
   Mapper mapper({}, ScanMap(), {.T_a_b = drive.T_world_robot.front()});
   for (const Observation& observation : drive.observations) mapper.Process(observation);
   return mapper.map();
@@ -62,7 +62,7 @@ MapperOptions InTheMapAsItIs() {
 bool IsLost(const Answer& answer) { return answer.step.status == StepStatus::kLost; }
 
 TEST(Localizer, FindsARobotThatStartsAnywhere) {
-  const ScanMap map = MapOf(DriveOf(TwoRoomsAndCorridor(), 1));
+  const ScanMap map = MapOfDrive(DriveOf(TwoRoomsAndCorridor(), 1));
   const SimulatedDrive again = DriveOf(TwoRoomsAndCorridor(), 2);
   for (const std::ptrdiff_t first : {0, 25, 60}) {
     SCOPED_TRACE(first);
@@ -79,7 +79,7 @@ TEST(Localizer, FindsARobotThatStartsAnywhere) {
 TEST(Localizer, BeginsWhereItIsTold) {
   const SimulatedDrive drive = DriveOf(FurnishedRoom(), 1);
   Localizer localizer(
-      InTheMapAsItIs(), MapOf(drive), UncertainPose2{.T_a_b = drive.T_world_robot.front()});
+      InTheMapAsItIs(), MapOfDrive(drive), UncertainPose2{.T_a_b = drive.T_world_robot.front()});
   for (const Answer& answer : Localized(drive, localizer)) {
     EXPECT_FALSE(IsLost(answer));
     EXPECT_LT(answer.off_m, 0.15);
@@ -87,7 +87,7 @@ TEST(Localizer, BeginsWhereItIsTold) {
 }
 
 TEST(Localizer, FindsNothingInTheMapOfAnotherPlace) {
-  Localizer localizer(InTheMapAsItIs(), MapOf(DriveOf(FurnishedRoom(), 1)));
+  Localizer localizer(InTheMapAsItIs(), MapOfDrive(DriveOf(FurnishedRoom(), 1)));
   const std::vector<Answer> answers = Localized(DriveOf(OfficeLoop(), 2), localizer);
   EXPECT_TRUE(std::ranges::all_of(answers, IsLost));
   EXPECT_FALSE(std::ranges::any_of(answers, [](const Answer& a) { return a.step.relevant; }));
@@ -95,7 +95,7 @@ TEST(Localizer, FindsNothingInTheMapOfAnotherPlace) {
 
 // Where one place is like the next, none of them is claimed.
 TEST(Localizer, ClaimsNoPlaceInACorridorThatIsEverywhereAlike) {
-  const ScanMap map = MapOf(DriveOf(LongCorridor(), 1));
+  const ScanMap map = MapOfDrive(DriveOf(LongCorridor(), 1));
   const SimulatedDrive again = From(DriveOf(LongCorridor(), 2), 20);
   Localizer localizer(InTheMapAsItIs(), map);
   for (const Answer& answer : Localized(again, localizer)) {
@@ -116,7 +116,7 @@ Scene AlikeEnds(std::vector<Eigen::Vector2d> route_m) {
 // Whoever mapped the corridor began with his back to one of its ends, and never saw it. To the
 // robot that looks at it, it is like the other one, as long as nothing else comes into view.
 TEST(Localizer, ClaimsNoPlaceByWhatItSawFromTheBeginning) {
-  const ScanMap map = MapOf(DriveThrough(AlikeEnds({{1, 1}, {22, 1}}), {}));
+  const ScanMap map = MapOfDrive(DriveThrough(AlikeEnds({{1, 1}, {22, 1}}), {}));
   const SimulatedDrive back = DriveThrough(AlikeEnds({{7, 1}, {1.5, 1}}), {.seed = 2});
   Localizer localizer(InTheMapAsItIs(), map);
   for (const Answer& answer : Localized(back, localizer)) EXPECT_TRUE(IsLost(answer));
@@ -125,7 +125,7 @@ TEST(Localizer, ClaimsNoPlaceByWhatItSawFromTheBeginning) {
 
 // Somebody carries the robot elsewhere; its wheels do not turn meanwhile.
 TEST(Localizer, NoticesThatTheRobotWasCarriedAndFindsItAgain) {
-  const ScanMap map = MapOf(DriveOf(TwoRoomsAndCorridor(), 1));
+  const ScanMap map = MapOfDrive(DriveOf(TwoRoomsAndCorridor(), 1));
   SimulatedDrive drive = DriveOf(TwoRoomsAndCorridor(), 2);
   const std::size_t carried_at = 30;
   const std::size_t carried_to = drive.observations.size() / 2;
@@ -148,7 +148,7 @@ TEST(Localizer, NoticesThatTheRobotWasCarriedAndFindsItAgain) {
 
 // What the robot saw before it was found is in the map in the end, at its place.
 TEST(Localizer, GoesOnWithTheMapOnceItIsFound) {
-  const ScanMap map = MapOf(From(DriveOf(TwoRoomsAndCorridor(), 1), 40));
+  const ScanMap map = MapOfDrive(From(DriveOf(TwoRoomsAndCorridor(), 1), 40));
   const SimulatedDrive again = DriveOf(TwoRoomsAndCorridor(), 2);
   Localizer localizer({}, map);
   const std::vector<Answer> answers = Localized(From(again, 40), localizer);
@@ -168,7 +168,7 @@ TEST(Localizer, GoesOnWithTheMapOnceItIsFound) {
 
 TEST(Localizer, LooksOnThroughScansThatShowNothing) {
   const SimulatedDrive drive = DriveOf(FurnishedRoom(), 1);
-  Localizer localizer(InTheMapAsItIs(), MapOf(drive));
+  Localizer localizer(InTheMapAsItIs(), MapOfDrive(drive));
   Observation blind = drive.observations.front();
   std::ranges::fill(blind.scan.ranges_m, std::numeric_limits<float>::infinity());
   for (int i = 0; i < 5; ++i) EXPECT_EQ(localizer.Process(blind).status, StepStatus::kLost);

@@ -20,7 +20,7 @@ using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(ErrorStatistics, AgreeWithHandComputedValues) {
   const ErrorStatistics errors = Summarize({4.0, 1.0, 3.0, 2.0});
@@ -77,7 +77,7 @@ TEST(InterpolatedPose, LiesBetweenItsNeighbours) {
   EXPECT_DOUBLE_EQ(pose->x_m, 1.0);
   EXPECT_DOUBLE_EQ(pose->y_m, 1.0);
   // The short way round: from 3 over pi to 2 pi - 3, a quarter of it.
-  EXPECT_NEAR(pose->theta_rad, 3.0 + 0.25 * (2.0 * kPi - 6.0), 1e-12);
+  EXPECT_NEAR(pose->theta_rad, 3.0 + 0.25 * (2.0 * pi - 6.0), 1e-12);
 }
 
 TEST(InterpolatedPose, EndsWithTheTolerance) {
@@ -206,15 +206,15 @@ TEST(AlignUmeyama, NeedsNoTurnForOnePosition) {
 }
 
 TEST(RelativePoseError, CountsAJumpOnceAndATurnAsTurn) {
-  const std::vector<PosePair> pairs = PairsOf({{{0, 0, 0}, {5, 5, kPi / 2}},
-                                               {{1, 0, 0}, {5, 6, kPi / 2}},    // Right.
-                                               {{2, 0, 0}, {5, 7.3, kPi / 2}},  // 0.3 m too far.
-                                               {{3, 0, 0}, {5, 8.3, kPi}}});    // Turned too much.
+  const std::vector<PosePair> pairs = PairsOf({{{0, 0, 0}, {5, 5, pi / 2}},
+                                               {{1, 0, 0}, {5, 6, pi / 2}},    // Right.
+                                               {{2, 0, 0}, {5, 7.3, pi / 2}},  // 0.3 m too far.
+                                               {{3, 0, 0}, {5, 8.3, pi}}});    // Turned too much.
   const RelativePoseError error = EvaluateRelativePoses(pairs);
   EXPECT_EQ(error.translation_m.count, 3U);
   EXPECT_NEAR(error.translation_m.max, 0.3, 1e-12);
   EXPECT_NEAR(error.translation_m.mean, 0.1, 1e-12);
-  EXPECT_NEAR(error.rotation_rad.max, kPi / 2, 1e-12);
+  EXPECT_NEAR(error.rotation_rad.max, pi / 2, 1e-12);
   EXPECT_NEAR(error.rotation_rad.median, 0.0, 1e-12);
 }
 
@@ -230,7 +230,7 @@ TEST(Nees, WeighsTheErrorByTheCovariance) {
   const UncertainPose2 estimate{.T_a_b = {1.0, 2.0, -3.1},
                                 .covariance = Eigen::Vector3d(0.25, 4.0, 0.01).asDiagonal()};
   const Pose2 truth{0.5, 0.0, 3.1};
-  const double turn_rad = 2.0 * kPi - 6.2;  // Across the cut at pi.
+  const double turn_rad = 2.0 * pi - 6.2;  // Across the cut at pi.
   const std::optional<double> nees = Nees(estimate, truth);
   ASSERT_TRUE(nees);
   EXPECT_NEAR(*nees, 1.0 + 1.0 + turn_rad * turn_rad / 0.01, 1e-9);
@@ -270,10 +270,10 @@ TEST(CarryByOdometry, BlendsFromBothSides) {
   // north.
   const std::vector<CarriedReading> readings = {
       {.stamp = seconds(0), .T_odom_robot = {-1, 0, 0}},  // Before the first estimate: no pose.
-      {.stamp = seconds(1), .T_odom_robot = {0, 0, 0}, .T_map_robot = Pose2{10, 0, kPi / 2}},
+      {.stamp = seconds(1), .T_odom_robot = {0, 0, 0}, .T_map_robot = Pose2{10, 0, pi / 2}},
       {.stamp = seconds(2), .T_odom_robot = {1, 0, 0}},
       {.stamp = seconds(3), .T_odom_robot = {2, 0, 0}},
-      {.stamp = seconds(4), .T_odom_robot = {3, 0, 0}, .T_map_robot = Pose2{10, 3.3, kPi / 2}},
+      {.stamp = seconds(4), .T_odom_robot = {3, 0, 0}, .T_map_robot = Pose2{10, 3.3, pi / 2}},
       {.stamp = seconds(5), .T_odom_robot = {4, 0, 0}}};
   const Trajectory carried = CarryByOdometry(readings);
   ASSERT_EQ(carried.size(), 5U);
@@ -283,7 +283,7 @@ TEST(CarryByOdometry, BlendsFromBothSides) {
     EXPECT_EQ(carried[i].stamp, seconds(static_cast<int>(i) + 1));
     EXPECT_NEAR(carried[i].T_map_robot.x_m, 10.0, 1e-12);
     EXPECT_NEAR(carried[i].T_map_robot.y_m, expected_y_m[i], 1e-12);
-    EXPECT_NEAR(carried[i].T_map_robot.theta_rad, kPi / 2, 1e-12);
+    EXPECT_NEAR(carried[i].T_map_robot.theta_rad, pi / 2, 1e-12);
   }
 }
 

@@ -18,13 +18,13 @@
 namespace qwsm {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 // Beams ahead (+x), to the left (+y), back and to the right, from the middle of the cell at the
 // origin when cells are 1 m.
 RelevantScan FourBeams(const std::vector<float>& ranges_m) {
   const LaserGeometry geometry{.first_bearing_rad = 0.0F,
-                               .bearing_step_rad = static_cast<float>(kPi / 2),
+                               .bearing_step_rad = static_cast<float>(pi / 2),
                                .range_min_m = 0.1F,
                                .range_max_m = 20.0F,
                                .T_robot_laser = {}};
@@ -98,7 +98,7 @@ TEST(OccupancyGrid, LetsTheShareOfHitsDecide) {
 
 TEST(OccupancyGrid, StandsWhereTheLaserLooks) {
   RelevantScan scan = FourBeams({3.0F, 4.0F, 2.0F, 2.0F});
-  scan.map_robot.T_a_b = {-20.5, 7.5, kPi / 2};
+  scan.map_robot.T_a_b = {-20.5, 7.5, pi / 2};
   scan.scan.geometry.T_robot_laser = {1.0, 0.0, 0.0};  // At (-20.5, 8.5).
   const std::vector<RelevantScan> scans = {scan};
   const OccupancyGridResult result = RenderOccupancyGrid(scans, OneMetreCells());

@@ -10,7 +10,7 @@
 namespace qwsm {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 void ExpectNear(const Pose2& a, const Pose2& b, double tolerance) {
   EXPECT_NEAR(a.x_m, b.x_m, tolerance);
@@ -20,13 +20,13 @@ void ExpectNear(const Pose2& a, const Pose2& b, double tolerance) {
 
 TEST(NormalizeAngle, WrapsIntoTheHalfOpenCircle) {
   EXPECT_DOUBLE_EQ(NormalizeAngle(0.5), 0.5);
-  EXPECT_DOUBLE_EQ(NormalizeAngle(-kPi), kPi);
-  EXPECT_NEAR(NormalizeAngle(3.0 * kPi), kPi, 1e-12);
-  EXPECT_NEAR(NormalizeAngle(1.0 + 200.0 * kPi), 1.0, 1e-12);
+  EXPECT_DOUBLE_EQ(NormalizeAngle(-pi), pi);
+  EXPECT_NEAR(NormalizeAngle(3.0 * pi), pi, 1e-12);
+  EXPECT_NEAR(NormalizeAngle(1.0 + 200.0 * pi), 1.0, 1e-12);
 }
 
 TEST(Pose2, MapsPointsFromChildToParent) {
-  const Pose2 T_map_robot{1.0, 2.0, kPi / 2.0};
+  const Pose2 T_map_robot{1.0, 2.0, pi / 2.0};
   const Eigen::Vector2d p_map = T_map_robot * Eigen::Vector2d(3.0, 0.0);
   EXPECT_NEAR(p_map.x(), 1.0, 1e-12);
   EXPECT_NEAR(p_map.y(), 5.0, 1e-12);
@@ -35,7 +35,7 @@ TEST(Pose2, MapsPointsFromChildToParent) {
 TEST(Pose2, ObeysTheGroupLaws) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> position_m(-1e3, 1e3);
-  std::uniform_real_distribution<double> heading_rad(-kPi, kPi);
+  std::uniform_real_distribution<double> heading_rad(-pi, pi);
   const auto draw = [&] {
     return Pose2{position_m(random), position_m(random), heading_rad(random)};
   };

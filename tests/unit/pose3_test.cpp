@@ -11,7 +11,7 @@
 namespace slam6d {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 Eigen::Vector3d Draw(std::mt19937& random, double scale) {
   std::uniform_real_distribution<double> coordinate(-scale, scale);
@@ -29,7 +29,7 @@ double Difference(const Pose3& a, const Pose3& b) {
 }
 
 TEST(Pose3, MapsPointsFromChildToParent) {
-  const Pose3 T_map_robot{.rotation = RotationFromRollPitchYaw({0.0, 0.0, kPi / 2.0}),
+  const Pose3 T_map_robot{.rotation = RotationFromRollPitchYaw({0.0, 0.0, pi / 2.0}),
                           .translation_m = {1.0, 2.0, 3.0}};
   const Eigen::Vector3d p_map = T_map_robot * Eigen::Vector3d(3.0, 0.0, 1.0);
   EXPECT_NEAR((p_map - Eigen::Vector3d(1.0, 5.0, 4.0)).norm(), 0.0, 1e-12);
@@ -80,7 +80,7 @@ TEST(Pose3, RotationVectorsAndAnglesAreInverseToTheirRotations) {
 }
 
 TEST(Pose3, RollPitchYawOfGimbalLockGivesTheSameRotation) {
-  const Eigen::Matrix3d R = RotationFromRollPitchYaw({0.3, kPi / 2.0, 0.8});
+  const Eigen::Matrix3d R = RotationFromRollPitchYaw({0.3, pi / 2.0, 0.8});
   EXPECT_NEAR((RotationFromRollPitchYaw(RollPitchYaw(R)) - R).norm(), 0.0, 1e-7);
 }
 
@@ -110,7 +110,7 @@ TEST(Pose3, QuaternionsCarryARotationAndBringItBackToTheLastBit) {
     ASSERT_EQ(RotationFromQuaternion(QuaternionOf(carried)), carried) << "case " << i;
     ASSERT_EQ(RotationFromQuaternion(-3.0 * QuaternionOf(carried)), carried) << "case " << i;
   }
-  for (const double angle_rad : {0.0, 0.5 * kPi, kPi}) {
+  for (const double angle_rad : {0.0, 0.5 * pi, pi}) {
     const Eigen::Matrix3d R =
         RotationFromQuaternion(QuaternionOf(RotationFromRollPitchYaw({0.0, 0.0, angle_rad})));
     EXPECT_EQ(RotationFromQuaternion(QuaternionOf(R)), R) << angle_rad;

@@ -15,11 +15,11 @@
 namespace qwsm {
 namespace {
 
-constexpr double kSigma_m = 0.02;
-constexpr double kSigma_rad = 0.005;
+constexpr double kRelationSigma_m = 0.02;
+constexpr double kRelationSigma_rad = 0.005;
 
 Eigen::Matrix3d Information(double scale = 1.0) {
-  const Eigen::Vector3d sigmas(kSigma_m, 1.5 * kSigma_m, kSigma_rad);
+  const Eigen::Vector3d sigmas(kRelationSigma_m, 1.5 * kRelationSigma_m, kRelationSigma_rad);
   return (scale * sigmas).cwiseAbs2().cwiseInverse().asDiagonal();
 }
 
@@ -49,9 +49,9 @@ struct TwoRounds {
   PoseEdge Measured(NodeId from, NodeId to, EdgeTrust trust) {
     std::normal_distribution<double> noise;
     Pose2 T = T_map_true[from].Inverse() * T_map_true[to];
-    T.x_m += kSigma_m * noise(random);
-    T.y_m += 1.5 * kSigma_m * noise(random);
-    T.theta_rad = NormalizeAngle(T.theta_rad + kSigma_rad * noise(random));
+    T.x_m += kRelationSigma_m * noise(random);
+    T.y_m += 1.5 * kRelationSigma_m * noise(random);
+    T.theta_rad = NormalizeAngle(T.theta_rad + kRelationSigma_rad * noise(random));
     return {.from = from, .to = to, .T_from_to = T, .information = Information(), .trust = trust};
   }
 

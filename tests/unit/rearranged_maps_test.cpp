@@ -24,7 +24,7 @@ TeamScan Scan(const std::string& robot, std::uint64_t sequence) {
 }
 
 /// Robot, sequence and x of each scan, in their order.
-std::vector<std::string> ScansOf(const TeamMap& map) {
+std::vector<std::string> ListOf(const TeamMap& map) {
   std::vector<std::string> scans;
   for (const TeamScan& scan : map.Scans()) {
     scans.push_back(scan.key.robot + " " + std::to_string(scan.key.sequence) + " " +
@@ -72,7 +72,7 @@ TEST_F(RearrangedMapsTest, WhatCameMeanwhileIsThereToo) {
   const auto maps = made.maps();
   ASSERT_EQ(maps.size(), 2U);
   EXPECT_EQ(maps.at("b"), nullptr);
-  EXPECT_EQ(ScansOf(*maps.at("")),
+  EXPECT_EQ(ListOf(*maps.at("")),
             (std::vector{Told("a", 1, 0.0),
                          Told("a", 2, 0.0),
                          Told("b", 1, 10.0),
@@ -82,10 +82,10 @@ TEST_F(RearrangedMapsTest, WhatCameMeanwhileIsThereToo) {
 }
 
 TEST_F(RearrangedMapsTest, RobotsAreAnsweredInTheOldOnesMeanwhile) {
-  const std::vector<std::string> before = ScansOf(*maps_.Named("").map);
+  const std::vector<std::string> before = ListOf(*maps_.Named("").map);
   RearrangedMaps made;
   made.Follow(maps_, Joined());
-  EXPECT_EQ(ScansOf(*maps_.Named("").map), before);
+  EXPECT_EQ(ListOf(*maps_.Named("").map), before);
 }
 
 // Who was matched with a map that only grows need not find its place anew.

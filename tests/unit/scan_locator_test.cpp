@@ -23,7 +23,7 @@ LaserScan ScanOf(const World& world, const Pose2& T_world_robot) {
   return Measure({.beams = 181, .range_max_m = 20.0}, world, T_world_robot, random);
 }
 
-ScanMap MapOf(const LaserScan& scan, const Pose2& T_map_robot) {
+ScanMap MapOfScan(const LaserScan& scan, const Pose2& T_map_robot) {
   ScanMap map;
   map.Insert(scan, ToPoints(scan), {.T_a_b = T_map_robot});
   return map;
@@ -40,7 +40,7 @@ class WalkingAhead : public testing::Test {
   static constexpr double kWalk_m = 0.13;
 
   WalkingAhead()
-      : map_(MapOf(ScanOf(CorridorWithSomeoneAt(3.0), {}), {})),
+      : map_(MapOfScan(ScanOf(CorridorWithSomeoneAt(3.0), {}), {})),
         points_(ToPoints(ScanOf(CorridorWithSomeoneAt(3.0 + kWalk_m), truth_))) {}
 
   double ErrorAlong(const FreeSpace& seen_free) const {
@@ -68,7 +68,7 @@ TEST_F(WalkingAhead, DoesNotWhereTheWayWasSeenFree) {
 
 TEST(ScanLocator, FindsAPoseFarBeyondTheFirstWindow) {
   const World world = CorridorWithSomeoneAt(3.0);
-  const ScanMap map = MapOf(ScanOf(world, {}), {});
+  const ScanMap map = MapOfScan(ScanOf(world, {}), {});
   const Pose2 truth{0.3, 0.1, 0.1};
   const MatchResult match =
       ScanLocator().Locate(map, ToPoints(ScanOf(world, truth)), Expected({}, 0.25));

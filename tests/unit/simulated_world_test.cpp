@@ -16,7 +16,7 @@
 namespace qwsm::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 Eigen::Vector2d Towards(double heading_rad) {
   return {std::cos(heading_rad), std::sin(heading_rad)};
@@ -25,8 +25,8 @@ Eigen::Vector2d Towards(double heading_rad) {
 TEST(CastRay, MeasuresWallsExactly) {
   const World world{.walls = {{{2.0, -1.0}, {2.0, 1.0}}, {{5.0, -9.0}, {5.0, 9.0}}}, .columns = {}};
   EXPECT_DOUBLE_EQ(*CastRay(world, {0.0, 0.0}, Towards(0.0)), 2.0);
-  EXPECT_NEAR(*CastRay(world, {0.0, 0.0}, Towards(kPi / 4)), 5.0 * std::sqrt(2.0), 1e-12);
-  EXPECT_EQ(CastRay(world, {0.0, 0.0}, Towards(kPi)), std::nullopt);
+  EXPECT_NEAR(*CastRay(world, {0.0, 0.0}, Towards(pi / 4)), 5.0 * std::sqrt(2.0), 1e-12);
+  EXPECT_EQ(CastRay(world, {0.0, 0.0}, Towards(pi)), std::nullopt);
   EXPECT_DOUBLE_EQ(*CastRay(world, {0.0, 1.5}, Towards(0.0)), 5.0);
 }
 
@@ -35,7 +35,7 @@ TEST(CastRay, MeasuresColumnsExactly) {
   EXPECT_DOUBLE_EQ(*CastRay(world, {0.0, 0.0}, Towards(0.0)), 2.5);
   EXPECT_NEAR(*CastRay(world, {0.0, 0.3}, Towards(0.0)), 3.0 - 0.4, 1e-12);
   EXPECT_EQ(CastRay(world, {0.0, 0.6}, Towards(0.0)), std::nullopt);
-  EXPECT_EQ(CastRay(world, {0.0, 0.0}, Towards(kPi)), std::nullopt);
+  EXPECT_EQ(CastRay(world, {0.0, 0.0}, Towards(pi)), std::nullopt);
 }
 
 TEST(SceneFromDrawing, StandsOnItsLowerLeftCorner) {
@@ -52,7 +52,7 @@ TEST(SceneFromDrawing, StandsOnItsLowerLeftCorner) {
   EXPECT_EQ(scene.world.columns[0].center_m, Eigen::Vector2d(1.25, 1.25));
   EXPECT_EQ(scene.world.walls.size(), 8U);  // The outline inside and outside.
   EXPECT_DOUBLE_EQ(*CastRay(scene.world, scene.route_m[1], Towards(0.0)), 0.25);
-  EXPECT_DOUBLE_EQ(*CastRay(scene.world, scene.route_m[1], Towards(kPi)), 0.75);
+  EXPECT_DOUBLE_EQ(*CastRay(scene.world, scene.route_m[1], Towards(pi)), 0.75);
 }
 
 TEST(SceneFromDrawing, RefusesAnUnclearRoute) {
@@ -70,7 +70,7 @@ TEST(SimulatedLaser, ReadsTheTruthWithoutNoise) {
   const LaserScan ahead = Measure(laser, world, {0.0, 0.0, 0.0}, random);
   EXPECT_FLOAT_EQ(ahead.ranges_m[1], 1.5F);
   EXPECT_EQ(StateOf(ahead.ranges_m[0], ahead.geometry), BeamState::kMiss);
-  const LaserScan turned_left = Measure(laser, world, {0.0, 0.0, kPi / 2}, random);
+  const LaserScan turned_left = Measure(laser, world, {0.0, 0.0, pi / 2}, random);
   EXPECT_FLOAT_EQ(turned_left.ranges_m[0], 2.0F);  // The right beam.
 }
 
@@ -141,7 +141,7 @@ std::vector<std::optional<double>> ClearancesAround(const World& world,
                                                     const Pose2& T_world_robot) {
   std::vector<std::optional<double>> clearances_m;
   for (int i = 0; i < 32; ++i) {
-    clearances_m.push_back(CastRay(world, T_world_robot.translation_m(), Towards(i * kPi / 16)));
+    clearances_m.push_back(CastRay(world, T_world_robot.translation_m(), Towards(i * pi / 16)));
   }
   return clearances_m;
 }

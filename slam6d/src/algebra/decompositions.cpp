@@ -5,7 +5,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/SVD>
 
 namespace slam6d {
 namespace {
@@ -14,11 +13,6 @@ namespace {
 using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
 
 }  // namespace
-
-Svd3 SvdOf(const Eigen::Matrix3d& A) {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(A, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return {.U = svd.matrixU(), .values = svd.singularValues(), .V = svd.matrixV()};
-}
 
 Eigen::Vector4d DominantEigenvector(const Eigen::Matrix4d& symmetric) {
   return Eigen::SelfAdjointEigenSolver<Small>(symmetric).eigenvectors().col(3);

@@ -11,14 +11,6 @@ namespace slam6d {
 // Eigen's decompositions of small matrices, compiled once for the library: a source that calls them
 // itself takes ten seconds longer to compile each.
 
-/// The singular value decomposition A = U diag(values) V^T.
-struct Svd3 {
-  Eigen::Matrix3d U;
-  Eigen::Vector3d values;  ///< Not negative, falling.
-  Eigen::Matrix3d V;
-};
-Svd3 SvdOf(const Eigen::Matrix3d& A);
-
 /// The unit eigenvector of the largest eigenvalue of a symmetric matrix.
 Eigen::Vector4d DominantEigenvector(const Eigen::Matrix4d& symmetric);
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "slam6d/src/algebra/decompositions.hpp"
+#include "slam6d/src/algebra/svd.hpp"
 
 namespace slam6d {
 

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "slam6d/src/algebra/decompositions.hpp"
+#include "slam6d/src/algebra/svd.hpp"
 
 namespace slam6d {
 namespace {

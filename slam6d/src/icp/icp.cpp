@@ -42,20 +42,6 @@ IcpResult Stop(IcpResult result, IcpStatus status, const IcpMinimizer& minimizer
 
 }  // namespace
 
-std::string_view Name(IcpStatus status) {
-  switch (status) {
-    case IcpStatus::kConverged:
-      return "converged";
-    case IcpStatus::kIterationLimit:
-      return "the iteration limit was reached";
-    case IcpStatus::kTooFewPairs:
-      return "too few pairs within the maximum distance";
-    case IcpStatus::kDegenerate:
-      return "the pairs leave some motion open";
-  }
-  return "";
-}
-
 IcpResult Align(const ScanModel& ref,
                 const ScanModel& cur,
                 const Pose3& T_ref_cur_guess,

@@ -100,11 +100,6 @@ Matrix6d Turned(const Eigen::Matrix3d& R_a_b, const Matrix6d& covariance_b) {
 
 }  // namespace
 
-std::string_view Name(SlamStatus status) {
-  constexpr std::array<std::string_view, 4> kNames{"first", "matched", "dead-reckoned", "unusable"};
-  return kNames[static_cast<std::size_t>(status)];
-}
-
 Pose3 ExtrapolateOdometry(const Pose3& T_map_last,
                           const Pose3& T_odom_last,
                           const Pose3& T_odom_scan) {

@@ -106,7 +106,19 @@ enum class IcpStatus {
 };
 
 /// The status in words for a person.
-std::string_view Name(IcpStatus status);
+constexpr std::string_view Name(IcpStatus status) {
+  switch (status) {
+    case IcpStatus::kConverged:
+      return "converged";
+    case IcpStatus::kIterationLimit:
+      return "the iteration limit was reached";
+    case IcpStatus::kTooFewPairs:
+      return "too few pairs within the maximum distance";
+    case IcpStatus::kDegenerate:
+      return "the pairs leave some motion open";
+  }
+  return "";
+}
 
 struct [[nodiscard]] IcpResult {
   IcpStatus status = IcpStatus::kTooFewPairs;

@@ -72,7 +72,20 @@ enum class SlamStatus {
   kUnusable,
 };
 
-std::string_view Name(SlamStatus status);
+/// The status in words for a person.
+constexpr std::string_view Name(SlamStatus status) {
+  switch (status) {
+    case SlamStatus::kFirst:
+      return "first";
+    case SlamStatus::kMatched:
+      return "matched";
+    case SlamStatus::kDeadReckoned:
+      return "dead-reckoned";
+    case SlamStatus::kUnusable:
+      return "unusable";
+  }
+  return "";
+}
 
 /// What became of one scan.
 struct SlamStep {
