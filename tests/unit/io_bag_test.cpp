@@ -242,6 +242,33 @@ TEST_F(Bag, DeskewsScansWhoseBeamsHaveTimes) {
   EXPECT_EQ(ReadMcap(drive, "zstd", options).scans.at(0).scan.geometry.bearing_step_rad, 0.1F);
 }
 
+TEST_F(Bag, GivesScansAsMeasuredToWhoAsksForThat) {
+  std::vector<MadeMessage> drive;
+  for (int i = 0; i < 4; ++i) {
+    drive.push_back(test::OdometryMessageOf(Ros::k2, "/odom", At(i), "laser", {0, 0, 0.2 * i}));
+    drive.push_back(test::ScanMessage(Ros::k2, "/scan", At(i), "laser", RangesAt(i), 0.025F));
+  }
+  LogOptions options;
+  options.as_measured = true;
+  const ScanReading reading = ReadMcap(drive, "zstd", options).scans.at(0);
+  EXPECT_EQ(reading.scan.geometry.bearing_step_rad, 0.1F);
+  EXPECT_EQ(reading.scan.sweep,
+            50'000'001ns);  // A message tells the time between beams as a float.
+  ASSERT_TRUE(reading.T_odom_end);
+  EXPECT_NEAR(reading.T_odom_end->theta_rad, 0.1, 1e-6);
+}
+
+TEST_F(Bag, LeavesTheTimesOfBeamsWithAScanThatHasNoOdometry) {
+  std::vector<MadeMessage> drive;
+  for (int i = 0; i < 4; ++i) {
+    drive.push_back(test::ScanMessage(Ros::k2, "/scan", At(i), "laser", RangesAt(i), 0.025F));
+  }
+  const ScanReading reading = ReadMcap(drive).scans.at(0);
+  EXPECT_EQ(reading.scan.geometry.bearing_step_rad, 0.1F);
+  EXPECT_EQ(reading.scan.sweep,
+            50'000'001ns);  // A message tells the time between beams as a float.
+}
+
 TEST_F(Bag, SaysThatNothingTellsWhereTheLaserSits) {
   std::vector<MadeMessage> drive = Drive(Ros::k2);
   drive.pop_back();
