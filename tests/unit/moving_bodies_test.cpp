@@ -18,6 +18,7 @@ using namespace std::chrono_literals;
 constexpr double kHalfWidth_m = 1.4;  // Of a corridor along x,
 constexpr double kBody_m = 0.25;      // and half of those in it.
 constexpr double kSpeed_mps = 0.5;
+constexpr Timestamp kStep = 100ms;
 
 double RangeTo(const Eigen::Vector2d& middle_m, const Eigen::Vector2d& along) {
   const double nearest_m = middle_m.dot(along);
@@ -51,7 +52,7 @@ LaserScan ScanAt(double x_m, const std::vector<Eigen::Vector2d>& bodies_m, Times
 /// A robot that drives along the corridor, and a body that begins somewhere and moves.
 class Drive {
  public:
-  explicit Drive(double body_x_m, Timestamp step = 100ms) : step_(step), body_m_(body_x_m, -0.7) {}
+  explicit Drive(double body_x_m, Timestamp step = kStep) : step_(step), body_m_(body_x_m, -0.7) {}
 
   void For(Timestamp duration, double body_mps) {
     for (Timestamp end = stamp_ + duration; stamp_ < end; stamp_ += step_) {
@@ -116,6 +117,15 @@ TEST(MovingBodies, AreNoneWhereScansAreTooSeldomToFollowThem) {
     drive.For(1s, 0.0);
     EXPECT_EQ(drive.found(), 0U);
   }
+}
+
+TEST(MovingBodies, AreForgottenWhereTheClockIsSet) {
+  MovingBodies bodies;
+  const std::vector<Eigen::Vector2d> body_m{{4.0, -0.7}};
+  for (int i = 0; i < 20; ++i) bodies.Follow(ScanAt(0.0, body_m, 24h + i * kStep), {});
+  EXPECT_EQ(bodies.Follow(ScanAt(0.0, body_m, 24h + 20 * kStep), {}).size(), 0U);
+  bodies.Follow(ScanAt(0.0, body_m, 0h), {});
+  EXPECT_EQ(bodies.Follow(ScanAt(0.0, body_m, kStep), {}).size(), 1U);  // Not known to stand.
 }
 
 TEST(MovingBodies, AreNoWalls) {

@@ -75,9 +75,9 @@ Eigen::Vector2d MiddleOf(const LaserScan& scan, const Row& row) {
 std::vector<Eigen::Vector2d> MovingBodies::Follow(const LaserScan& scan,
                                                   const Pose2& T_odom_robot) {
   std::erase_if(bodies_, [&](const Body& body) {
-    return scan.stamp - body.sightings.back().stamp > kOutOfSight;
+    return std::chrono::abs(scan.stamp - body.sightings.back().stamp) > kOutOfSight;
   });
-  const bool is_followed = last_ && scan.stamp - *last_ <= kOutOfSight;
+  const bool is_followed = last_ && std::chrono::abs(scan.stamp - *last_) <= kOutOfSight;
   last_ = scan.stamp;
   std::vector<Eigen::Vector2d> moving_m;
   if (!is_followed) return moving_m;
@@ -100,8 +100,9 @@ MovingBodies::Body& MovingBodies::BodyAt(const Sighting& seen) {
   if (body == bodies_.end() || off_m(*body) > kSameBody_m) {
     body = bodies_.insert(bodies_.end(), {.sightings = {}, .first_seen = seen.stamp});
   }
-  std::erase_if(body->sightings,
-                [&](const Sighting& old) { return seen.stamp - old.stamp > kMoment; });
+  std::erase_if(body->sightings, [&](const Sighting& old) {
+    return std::chrono::abs(seen.stamp - old.stamp) > kMoment;
+  });
   body->sightings.push_back(seen);
   return *body;
 }
