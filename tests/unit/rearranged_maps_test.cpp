@@ -114,7 +114,7 @@ TEST_F(RearrangedMapsTest, HoldAllScansOfALargeMap) {
   for (std::uint64_t sequence = 1; sequence <= 40; ++sequence) {
     told.push_back(Told("b", sequence, 10.0));
   }
-  EXPECT_EQ(ScansOf(*maps.at("")), told);
+  EXPECT_EQ(ListOf(*maps.at("")), told);
 }
 
 // Who moves on to the new map would take as long as freeing the old one takes.
