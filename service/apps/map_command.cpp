@@ -24,6 +24,7 @@
 #include "service/pipeline/results/answer_bag.hpp"
 #include "service/pipeline/results/corrected_run.hpp"
 #include "service/pipeline/results/journal_marks.hpp"
+#include "service/pipeline/results/loss_teller.hpp"
 #include "service/pipeline/results/marks_list.hpp"
 #include "service/pipeline/results/marks_of_map.hpp"
 #include "service/pipeline/results/results_writer.hpp"
@@ -138,15 +139,31 @@ void KeepMap(const MapArguments& arguments,
 
 constexpr const char* kAtEnd = "the log is at its end";
 
+/// Answers a scan, and tells what became of robot and map.
+MappingStep AnswerAndTell(const Observation& observation,
+                          SelfCorrectingMapper& mapper,
+                          pipeline::LossTeller& losses,
+                          pipeline::LiveRun* live) {
+  const std::size_t epochs = mapper.epochs().size();
+  MappingStep step = mapper.Process(observation);
+  losses.Take(step);
+  if (live != nullptr && mapper.epochs().size() > epochs) {
+    live->Correct(mapper.epochs().back(), mapper.mapper().map());
+  }
+  return step;
+}
+
 ExitCode MapAll(const MapArguments& arguments,
                 const options::ProgramOptions& options,
                 pipeline::ScanSource& source,
                 const RunSession& session) {
   std::optional<SelfCorrectingMapper> correcting;
+  std::optional<pipeline::LossTeller> losses;
   if (Corrects(options)) {
     // Corrected maps, larger than all else, are made on another thread.
     pipeline::ShareMemoryAmongThreads();
     correcting.emplace(options.mapper, pipeline::BeginOnAnotherThread);
+    losses.emplace(*correcting);
   }
   Mapper incremental(options.mapper);
   pipeline::ResultsWriter results(
@@ -160,13 +177,8 @@ ExitCode MapAll(const MapArguments& arguments,
   if (live) sinks.push_back(live.get());
   if (arguments.bag) sinks.push_back(&answers);
   const auto answer = [&](const Observation& observation) {
-    if (!correcting) return incremental.Process(observation);
-    const std::size_t epochs = correcting->epochs().size();
-    MappingStep step = correcting->Process(observation);
-    if (live && correcting->epochs().size() > epochs) {
-      live->Correct(correcting->epochs().back(), correcting->mapper().map());
-    }
-    return step;
+    return correcting ? AnswerAndTell(observation, *correcting, *losses, live.get())
+                      : incremental.Process(observation);
   };
   const pipeline::ReplayResult end = session.Run("map", source, answer, sinks);
   results.SetTitle(session.Title("map", end));
@@ -174,6 +186,7 @@ ExitCode MapAll(const MapArguments& arguments,
   std::optional<pipeline::CorrectedRun> corrected;
   const Mapper& mapper = correcting ? correcting->mapper() : incremental;
   if (correcting) {
+    losses->Finish();
     corrected = pipeline::CorrectAtTheEnd(*correcting);
     results.Finish(
         mapper.map(), mapper.options().matcher, *corrected, options.rendering, source.truth());

@@ -8,30 +8,18 @@
 #include <filesystem>
 #include <random>
 #include <set>
-#include <variant>
 #include <vector>
 
 #include "qwsm/correction/self_correcting_mapper.hpp"
-#include "qwsm/logs/log_reader.hpp"
 #include "qwsm/mapping/mapper.hpp"
 #include "qwsm/metrics/relations.hpp"
 #include "service/io/trajectories/relations_file.hpp"
+#include "tests/support/recorded_log.hpp"
 
 namespace qwsm::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<Observation> Observations(const fs::path& path) {
-  std::vector<Observation> observations;
-  const auto log = io::OpenLog(path);
-  while (const auto record = log->Next()) {
-    const auto* reading = std::get_if<io::ScanReading>(&*record);
-    if (reading == nullptr) continue;
-    observations.push_back({.scan = reading->scan, .T_odom_robot = reading->T_odom_robot});
-  }
-  return observations;
-}
 
 // From each of these scans on the robot seems to have been turned, and moved in its own frame.
 std::vector<Observation> WithJumps(std::vector<Observation> observations, unsigned seed) {
@@ -77,7 +65,7 @@ TEST(JumpingOdometry, LeavesTheMapAsItWouldHaveBeen) {
   const fs::path log = data / "intel.full.clf.gz";
   if (!fs::exists(log)) GTEST_SKIP() << "no " << log;
   const std::vector<Relation> relations = io::ReadRelationsFile(data / "intel.full.relations");
-  const std::vector<Observation> unbroken = Observations(log);
+  const std::vector<Observation> unbroken = ObservationsOf(log);
   const double error_m = MeanError_m(unbroken, relations);
   for (const unsigned seed : {1U, 2U}) {
     EXPECT_LT(MeanError_m(WithJumps(unbroken, seed), relations), 1.3 * error_m) << seed;

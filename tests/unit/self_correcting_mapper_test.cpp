@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "tests/support/carried.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/simulated_drive.hpp"
 
@@ -59,6 +60,55 @@ TEST(SelfCorrectingMapper, DoesNotDependOnThreads) {
   ASSERT_EQ(one.map_robot.size(), other.map_robot.size());
   for (std::size_t i = 0; i < one.map_robot.size(); ++i) {
     EXPECT_EQ(one.map_robot[i].T_a_b, other.map_robot[i].T_a_b) << i;
+  }
+}
+
+/// A robot that drives through two rooms twice, and is carried on the way.
+struct CarriedDrive {
+  std::vector<Observation> observations;
+  std::vector<Pose2> T_map_true;
+
+  CarriedDrive() {
+    const SimulatedDrive drive = DriveThrough(TwoRoomsAndCorridor(), {});
+    const LogGap gap{.first = drive.observations.size() / 2,
+                     .scans = drive.observations.size() / 3};
+    observations = Carried(drive.observations, gap);
+    const Pose2 T_map_world = drive.T_world_robot.front().Inverse();
+    for (std::size_t i = 0; i < drive.T_world_robot.size(); ++i) {
+      if (i >= gap.first && i < gap.first + gap.scans) continue;
+      T_map_true.push_back(T_map_world * drive.T_world_robot[i]);
+    }
+  }
+};
+
+TEST(SelfCorrectingMapper, KnowsThatTheRobotWasCarried) {
+  const CarriedDrive drive;
+  SelfCorrectingMapper mapper;
+  std::size_t lost = 0;
+  for (const Observation& observation : drive.observations) {
+    const MappingStep step = mapper.Process(observation);
+    if (step.status != StepStatus::kLost) continue;
+    EXPECT_FALSE(step.relevant);
+    ++lost;
+  }
+  EXPECT_GE(mapper.losses(), 1U);
+  EXPECT_EQ(mapper.belief(), nullptr) << "it is in the other one of the rooms that it knows";
+  EXPECT_GT(lost, 0U);
+  const Correction correction = mapper.Correct();
+  EXPECT_EQ(correction.map_robot.size(), drive.observations.size());
+  EXPECT_EQ(correction.map_node.size(), mapper.mapper().map().scans().size());
+  EXPECT_LT(WorstError_m(correction.map_robot, drive.T_map_true), 0.3);
+}
+
+TEST(SelfCorrectingMapper, DoesNotDependOnThreadsWhenTheRobotIsLost) {
+  const CarriedDrive drive;
+  SelfCorrectingMapper at_once;
+  SelfCorrectingMapper beside({}, OnAnotherThread);
+  for (const Observation& observation : drive.observations) {
+    const MappingStep one = at_once.Process(observation);
+    const MappingStep other = beside.Process(observation);
+    EXPECT_EQ(one.status, other.status);
+    EXPECT_EQ(one.map_robot.T_a_b, other.map_robot.T_a_b);
   }
 }
 

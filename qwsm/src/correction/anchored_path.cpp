@@ -34,6 +34,11 @@ void AnchoredPath::Take(const MappingStep& step, const UncertainPose2& map_last)
   answers_.back().node_robot = is_node ? UncertainPose2{} : Since(map_node, step.map_robot);
 }
 
+void AnchoredPath::ForgetSince(std::size_t first_answer, NodeId first_node) {
+  answers_.erase(answers_.begin() + static_cast<std::ptrdiff_t>(first_answer), answers_.end());
+  anchors_.erase(anchors_.begin() + first_node, anchors_.end());
+}
+
 std::vector<UncertainPose2> AnchoredPath::At(std::span<const UncertainPose2> map_node) const {
   std::vector<UncertainPose2> path;
   path.reserve(answers_.size());

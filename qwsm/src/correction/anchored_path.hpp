@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -17,6 +18,11 @@ class AnchoredPath {
   /// Takes the answer to a scan. If it is relevant, it is a node, the first one being node 0.
   /// @param map_last the last node in the map of the answer.
   void Take(const MappingStep& step, const UncertainPose2& map_last);
+
+  /// Number of answers that were taken.
+  std::size_t size() const { return answers_.size(); }
+  /// Forgets the answers from one on, and the nodes from one on.
+  void ForgetSince(std::size_t first_answer, NodeId first_node);
 
   /// The path when the nodes are there. Between two nodes it goes from the correction of the one
   /// to that of the other as time goes; where the answers did not continue, it keeps the first.

@@ -21,8 +21,10 @@ std::function<void()> WorkAtOnce(std::function<void()> work) {
   return [] {};
 }
 
-BackgroundCorrector::BackgroundCorrector(const MapperOptions& options, WorkBeside beside)
-    : beside_(std::move(beside)), corrector_(options) {}
+BackgroundCorrector::BackgroundCorrector(const MapperOptions& options,
+                                         WorkBeside beside,
+                                         ChainsOf chains_of)
+    : beside_(std::move(beside)), chains_of_(chains_of), corrector_(options) {}
 
 BackgroundCorrector::~BackgroundCorrector() { Finish(); }
 
@@ -32,8 +34,9 @@ void BackgroundCorrector::Add(ScanNode node) {
 }
 
 bool BackgroundCorrector::IsLookDue() const {
-  if (news_.size() < kNodesOfALook * robots_.size()) return false;
-  return robots_.size() == 1 || !is_looking_;
+  const std::size_t robots = chains_of_ == ChainsOf::kTeam ? robots_.size() : 1;
+  if (news_.size() < kNodesOfALook * robots) return false;
+  return robots == 1 || !is_looking_;
 }
 
 std::optional<CorrectedMap> BackgroundCorrector::LookAgain() {
@@ -92,6 +95,17 @@ void BackgroundCorrector::Adopt(std::span<const UncertainPose2> map_node) {
   const auto news = map_node.subspan(map_node_.size());
   map_node_.assign(map_node.begin(), map_node.end() - static_cast<std::ptrdiff_t>(news.size()));
   for (std::size_t i = 0; i < news.size(); ++i) news_[i].map_robot = news[i];
+}
+
+void BackgroundCorrector::ForgetSince(std::size_t first) {
+  Finish();
+  proposal_.reset();
+  if (first < map_node_.size()) {
+    map_node_.erase(map_node_.begin() + static_cast<std::ptrdiff_t>(first), map_node_.end());
+    robot_.resize(first);
+    corrector_.ForgetSince(static_cast<NodeId>(first));
+  }
+  news_.erase(news_.begin() + static_cast<std::ptrdiff_t>(first - map_node_.size()), news_.end());
 }
 
 // The last scan of the same robot that was looked at; of a robot that is new, the nearest one.

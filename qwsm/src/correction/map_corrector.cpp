@@ -193,6 +193,22 @@ void MapCorrector::Adopt(std::span<const UncertainPose2> map_node) {
   state_->has_moved = true;
 }
 
+// Submaps that are left keep their numbers; those that lose scans are not what loops came from.
+void MapCorrector::ForgetSince(NodeId first) {
+  State& state = *state_;
+  std::erase_if(state.loops, [&](const FoundLoop& found) {
+    return found.loop.edge.to >= first ||
+           state.chains.submaps()[found.submap].nodes.back() >= first;
+  });
+  state.recent = {};
+  state.chains = ScanChains(state.options);
+  std::vector<ScanNode> nodes = std::exchange(state.nodes, {});
+  nodes.erase(nodes.begin() + first, nodes.end());
+  for (ScanNode& node : nodes) Add(std::move(node));
+  state.looked_for = std::min(state.looked_for, first);
+  state.settled_loops = std::min(state.settled_loops, CountAccepted(state.loops));
+}
+
 ScanMap MapCorrector::MapAt(std::span<const UncertainPose2> map_node) const {
   ScanMap map(state_->options.map);
   for (NodeId node = 0; node < map_node.size(); ++node) {

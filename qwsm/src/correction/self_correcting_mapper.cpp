@@ -6,17 +6,24 @@
 
 #include "anchored_path.hpp"
 #include "qwsm/geometry/frame_covariance.hpp"
+#include "qwsm/mapping/scan_locator.hpp"
 
 namespace qwsm {
 
 SelfCorrectingMapper::SelfCorrectingMapper(const MapperOptions& options, WorkBeside beside)
-    : mapper_(options),
-      corrector_(options, std::move(beside)),
-      path_(std::make_unique<AnchoredPath>()) {}
+    : options_(options),
+      mapper_(options),
+      corrector_(options, std::move(beside), ChainsOf::kOneRobot),
+      path_(std::make_unique<AnchoredPath>()),
+      watch_(options.free_space) {}
 
 SelfCorrectingMapper::~SelfCorrectingMapper() = default;
 
 MappingStep SelfCorrectingMapper::Process(const Observation& observation) {
+  return lost_ ? Search(observation) : Map(observation);
+}
+
+MappingStep SelfCorrectingMapper::Map(const Observation& observation) {
   if (corrector_.IsLookDue()) {
     if (auto corrected = corrector_.LookAgain()) {
       GoOnIn(std::move(*corrected), observation.scan.stamp);
@@ -24,9 +31,130 @@ MappingStep SelfCorrectingMapper::Process(const Observation& observation) {
   }
   MappingStep step = mapper_.Process(observation);
   step.epoch = static_cast<int>(epochs_.size());
-  path_->Take(step, nodes_.map_last().value_or(UncertainPose2{}));
-  if (auto node = nodes_.Take(step)) corrector_.Add(std::move(*node));
+  const PlaceDoubt doubt = watch_.Look(mapper_.map(), observation.scan, step);
+  Note(observation, path_->size());
+  Take(step);
+  if (doubt == PlaceDoubt::kLost) return Lose();
+  if (doubt == PlaceDoubt::kInDoubt && step.status == StepStatus::kMatched) {
+    step.status = StepStatus::kExtended;
+    step.reason = "the map contradicts it";
+  }
   return step;
+}
+
+void SelfCorrectingMapper::Note(const Observation& observation, std::size_t answers_before) {
+  if (!watch_.is_asking()) {
+    doubtful_ = {};
+    return;
+  }
+  if (doubtful_.observations.empty()) doubtful_.answers_before = answers_before;
+  doubtful_.observations.push_back(observation);
+}
+
+void SelfCorrectingMapper::Take(const MappingStep& step) {
+  path_->Take(step, nodes_.map_last().value_or(UncertainPose2{}));
+  auto node = nodes_.Take(step);
+  if (!node) return;
+  node->robot = components_ - 1;
+  corrector_.Add(std::move(*node));
+}
+
+// What was seen since the view broke is seen anew, in a frame of its own.
+MappingStep SelfCorrectingMapper::Lose() {
+  ++losses_;
+  const bool was_found = watch_.is_asking_of_found_place();
+  lost_ ? GiveUp() : TakeBack(static_cast<ScanId>(watch_.scans_before()));
+  lost_.emplace(options_);
+  since_lost_.clear();
+  watch_.BeginAnew(lost_->local().map());
+  MappingStep step;
+  const Doubtful doubtful = std::exchange(doubtful_, {});
+  for (const Observation& observation : doubtful.observations) {
+    step = was_found ? FollowLost(observation) : Process(observation);
+  }
+  return step;
+}
+
+// By these scans the robot was found where it is not: it is not looked for by them again.
+MappingStep SelfCorrectingMapper::FollowLost(const Observation& observation) {
+  since_lost_.push_back(observation);
+  MappingStep step = lost_->Follow(observation);
+  step.epoch = static_cast<int>(epochs_.size());
+  lost_steps_.push_back(step);
+  return AsLost(std::move(step), lost_->belief());
+}
+
+// All is as it was before the view broke. @param first scan of the map since then.
+void SelfCorrectingMapper::TakeBack(ScanId first) {
+  mapper_.ForgetSince(first);
+  corrector_.ForgetSince(first);
+  path_->ForgetSince(doubtful_.answers_before, first);
+  for (MapEpoch& epoch : epochs_) {
+    if (epoch.map_node.size() > first) epoch.map_node.resize(first);
+  }
+  nodes_ = {};
+  nodes_.Follow(mapper_.map().scans().back().map_robot);
+}
+
+// A robot that is lost once more before it was found.
+void SelfCorrectingMapper::GiveUp() {
+  lost_steps_.resize(doubtful_.answers_before);
+  TakeUnplaced(*path_);
+  lost_steps_.clear();
+}
+
+// They keep their place beside the last node.
+void SelfCorrectingMapper::TakeUnplaced(AnchoredPath& path) const {
+  const UncertainPose2 map_last = nodes_.map_last().value_or(UncertainPose2{});
+  for (const MappingStep& step : lost_steps_) {
+    MappingStep unplaced = AsLost(step, lost_->belief());
+    unplaced.map_robot = map_last * step.map_robot;
+    path.Take(unplaced, map_last);
+  }
+}
+
+MappingStep SelfCorrectingMapper::Search(const Observation& observation) {
+  MappingStep step = lost_->Follow(observation);
+  lost_->LookFor(mapper_.map(), observation.scan, step);
+  step.epoch = static_cast<int>(epochs_.size());
+  const PlaceDoubt doubt = watch_.Look(lost_->local().map(), observation.scan, step);
+  Note(observation, lost_steps_.size());
+  if (doubt == PlaceDoubt::kLost) return Lose();
+  since_lost_.push_back(observation);
+  if (lost_->is_found()) return Find(observation);
+  lost_steps_.push_back(step);
+  return AsLost(std::move(step), lost_->belief());
+}
+
+// The place was found by a few points of the scan; all of them tell it better.
+MappingStep SelfCorrectingMapper::Find(const Observation& observation) {
+  const LostRobot lost = *std::exchange(lost_, std::nullopt);
+  const MatchResult match = ScanLocator(options_.locator)
+                                .Locate(mapper_.map(), ToPoints(observation.scan), lost.map_found());
+  const UncertainPose2 map_robot{.T_a_b = match.T_ref_cur, .covariance = match.covariance};
+  const std::size_t scans_before = mapper_.map().scans().size();
+  doubtful_ = {.answers_before = path_->size(),
+               .observations = std::exchange(since_lost_, {})};
+  Join(lost.FrameFor(map_robot));
+  mapper_.PlaceAt(map_robot);
+  MappingStep step = mapper_.Process(observation);
+  step.epoch = static_cast<int>(epochs_.size());
+  Take(step);
+  step.reason = "found again";
+  watch_.AskOfFoundPlace(mapper_.map(), scans_before);
+  return step;
+}
+
+void SelfCorrectingMapper::Join(const UncertainPose2& map_local) {
+  ++components_;
+  bool begins = true;
+  for (MappingStep& step : std::exchange(lost_steps_, {})) {
+    step.map_robot = map_local * step.map_robot;
+    step.map_relevant = map_local * step.map_relevant;
+    step.closed_loop = step.closed_loop || std::exchange(begins, false);
+    if (step.relevant) mapper_.Extend(step.relevant_scan, step.map_relevant);
+    Take(step);
+  }
 }
 
 // The robot keeps its place beside its last relevant scan.
@@ -35,12 +163,15 @@ void SelfCorrectingMapper::GoOnIn(CorrectedMap corrected, Timestamp stamp) {
   mapper_.GoOnIn(std::move(corrected.map),
                  map_last * Since(*nodes_.map_last(), mapper_.map_robot()));
   nodes_.Follow(map_last);
+  watch_.FollowCorrection();
   epochs_.push_back({.stamp = stamp, .map_node = std::move(corrected.map_node)});
 }
 
 Correction SelfCorrectingMapper::Correct() {
   Correction correction = corrector_.Correct();
-  correction.map_robot = path_->At(correction.map_node);
+  AnchoredPath path = *path_;
+  if (lost_) TakeUnplaced(path);
+  correction.map_robot = path.At(correction.map_node);
   return correction;
 }
 

@@ -5,14 +5,6 @@
 #include <utility>
 
 namespace qwsm {
-namespace {
-
-MapperOptions Extending(MapperOptions options) {
-  options.extend_map = true;
-  return options;
-}
-
-}  // namespace
 
 Localizer::Localizer(const MapperOptions& options,
                      ScanMap map,
@@ -20,13 +12,12 @@ Localizer::Localizer(const MapperOptions& options,
     : options_(options),
       map_(std::move(map)),
       tracker_(options),
-      finder_(options),
       watch_(options.free_space) {
   start ? tracker_.PlaceAt(*start) : Lose();
 }
 
 MappingStep Localizer::Process(const Observation& observation) {
-  if (local_) return Search(observation, ToPoints(observation.scan));
+  if (lost_) return Search(observation);
   const Observation still = slip_.Mended(observation);
   const std::vector<ScanPoint> points = ToPoints(still.scan);
   const MappingStep step = tracker_.Track(map_, still, points);
@@ -36,25 +27,21 @@ MappingStep Localizer::Process(const Observation& observation) {
   return step;
 }
 
-MappingStep Localizer::Search(const Observation& observation, std::span<const ScanPoint> points) {
-  MappingStep step = local_->Process(observation);
-  const PlaceBelief& belief = finder_.Look(map_, points, step.map_robot.T_a_b);
-  if (belief.verdict == PlaceVerdict::kFound) return Found(observation, points);
-  step.status = StepStatus::kLost;
-  step.reason = Name(belief.verdict);
-  step.relevant = false;
-  return step;
+MappingStep Localizer::Search(const Observation& observation) {
+  MappingStep step = lost_->Follow(observation);
+  lost_->LookFor(map_, observation.scan, step);
+  if (lost_->is_found()) return Found(observation);
+  return AsLost(std::move(step), lost_->belief());
 }
 
-// Where the robot drove while it was lost it was as sure of its way as ever, only not of the begin.
-MappingStep Localizer::Found(const Observation& observation, std::span<const ScanPoint> points) {
-  const Mapper local = std::move(*local_);
-  local_.reset();
+MappingStep Localizer::Found(const Observation& observation) {
+  const LostRobot lost = *std::exchange(lost_, std::nullopt);
+  found_ = lost.belief();
   watch_.BeginAnew();
-  tracker_.PlaceAt(finder_.belief().places.front().map_robot);
-  const MappingStep step = tracker_.Track(map_, observation, points);
-  map_local_ = step.map_robot * UncertainPose2{.T_a_b = local.map_robot().T_a_b.Inverse()};
-  if (options_.extend_map) Join(local.map());
+  tracker_.PlaceAt(lost.map_found());
+  const MappingStep step = tracker_.Track(map_, observation, ToPoints(observation.scan));
+  map_local_ = lost.FrameFor(step.map_robot);
+  if (options_.extend_map) Join(lost.local().map());
   Extend(step);
   return step;
 }
@@ -71,9 +58,8 @@ void Localizer::Join(const ScanMap& local) {
 }
 
 void Localizer::Lose() {
-  local_.emplace(Extending(options_));
+  lost_.emplace(options_);
   slip_.Interrupt();
-  finder_ = PlaceFinder(options_);
 }
 
 }  // namespace qwsm

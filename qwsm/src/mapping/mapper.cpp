@@ -35,6 +35,21 @@ void Mapper::GoOnIn(ScanMap corrected, const UncertainPose2& map_robot) {
   slip_.Interrupt();
 }
 
+void Mapper::PlaceAt(const UncertainPose2& map_robot) {
+  tracker_.PlaceAt(map_robot);
+  slip_.Interrupt();
+}
+
+void Mapper::Extend(const LaserScan& scan, const UncertainPose2& map_robot) {
+  map_.Insert(scan, ToPoints(scan), map_robot);
+}
+
+// Points that were kept out as others were there already are to be inserted: all begins anew.
+void Mapper::ForgetSince(ScanId first) {
+  const ScanMap before = std::exchange(map_, ScanMap(map_.options()));
+  for (const RelevantScan& scan : before.scans().first(first)) Extend(scan.scan, scan.map_robot);
+}
+
 MappingStep Mapper::Process(const Observation& observation) {
   const Observation still = slip_.Mended(observation);
   const std::vector<ScanPoint> points = ToPoints(still.scan);

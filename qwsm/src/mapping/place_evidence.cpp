@@ -14,6 +14,8 @@ constexpr double kSeenFrom_m = 10.0;        // Scans farther off see little of w
 constexpr double kForgotten_m = 20.0;       // Of a robot that goes on, scans farther off.
 constexpr double kPointsThatTellOne = 3.0;  // As in matching.
 
+constexpr double kOneSurface_m = 0.15;  // Points so near to each other are of one surface.
+
 // How a point of a scan fares at the right place and at the best wrong one: medians of single scans
 // of intel, aces and mit-csail in a map of the other half of each (docs/experiments.md).
 struct Fate {
@@ -25,6 +27,38 @@ constexpr Fate kExplained{.if_right = 0.90, .if_wrong = 0.65};
 constexpr Fate kUnexplained{.if_right = 0.06, .if_wrong = 0.20};
 constexpr Fate kNotContradicted{.if_right = 0.96, .if_wrong = 0.85};
 constexpr Fate kSeenThrough{.if_right = 0.04, .if_wrong = 0.15};
+
+double Share(std::ptrdiff_t count, std::size_t of) {
+  return of == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(of);
+}
+
+// Whether a scan before has put a point on the surface there.
+bool IsStored(const SurfaceMap& surfaces, const Eigen::Vector2d& p_map_m, ScanId before) {
+  const PointQuadtree& stored = surfaces.quadtree();
+  bool is_stored = false;
+  stored.ForEachInRadius(p_map_m, kOneSurface_m, [&](PointId id, const Eigen::Vector2d&) {
+    is_stored = is_stored || stored.Scan(id) < before;
+  });
+  return is_stored;
+}
+
+// What scans before have stored around the robot, in its frame.
+std::vector<ScanPoint> StoredAround(const SurfaceMap& surfaces,
+                                    const Pose2& T_map_robot,
+                                    ScanId before) {
+  const Eigen::Vector2d here_m = T_map_robot.translation_m();
+  const Eigen::Vector2d reach_m = Eigen::Vector2d::Constant(kSeenFrom_m);
+  const RigidTransform2 T_robot_map(T_map_robot.Inverse());
+  const PointQuadtree& stored = surfaces.quadtree();
+  std::vector<ScanPoint> around;
+  stored.ForEachInBox({here_m - reach_m, here_m + reach_m},
+                      [&](PointId id, const Eigen::Vector2d& p_map_m) {
+                        if (stored.Scan(id) >= before) return;
+                        around.push_back({.p_robot_m = T_robot_map * p_map_m,
+                                          .beam_robot = Eigen::Vector2d::Zero()});
+                      });
+  return ThinOut(around, kOneSurface_m);
+}
 
 }  // namespace
 
@@ -57,6 +91,45 @@ PlaceFit PlaceEvidence::Weigh(const ScanMap& map,
           .seen_through = ShareSeenThrough(map, points, match.T_ref_cur, counts)};
 }
 
+MutualFit PlaceEvidence::WeighBothWays(const ScanMap& map,
+                                       const ScanAtPlace& placed,
+                                       ScanId before) {
+  const std::vector<ScanPoint> points = ToPoints(placed.scan);
+  const std::vector<ScanPoint> thinned = ThinOut(points, kOneSurface_m);
+  const RigidTransform2 to_map(placed.T_map_robot);
+  const auto explained = std::ranges::count_if(thinned, [&](const ScanPoint& point) {
+    return IsStored(map.surfaces(), to_map * point.p_robot_m, before);
+  });
+  const auto counts = [before](ScanId scan) { return scan < before; };
+  PlaceFit of_scan{.told = Told(thinned), .explained = Share(explained, thinned.size())};
+  // From afar a map that drifted sees through its own walls, too.
+  of_scan.seen_through = std::min(ShareSeenThrough(map, thinned, placed.T_map_robot, counts),
+                                  1.0 - of_scan.explained);
+  PlaceFit of_map =
+      FitOfMap(StoredAround(map.surfaces(), placed.T_map_robot, before), placed, points);
+  // Where a beam ends on a surface of the map and passes another one, the map contradicts itself.
+  of_map.seen_through = std::min(of_map.seen_through, 1.0 - of_scan.explained);
+  return {.of_scan = of_scan, .of_map = of_map};
+}
+
+PlaceFit PlaceEvidence::FitOfMap(std::span<const ScanPoint> stored,
+                                 const ScanAtPlace& placed,
+                                 std::span<const ScanPoint> points) const {
+  std::vector<std::uint8_t> marks(stored.size(), 0);
+  FreeRangeImage(placed.scan, placed.T_map_robot, options_)
+      .MarkSeenThrough(stored, placed.T_map_robot, marks);
+  std::ptrdiff_t explained = 0;
+  for (std::size_t i = 0; i < stored.size(); ++i) {
+    const auto is_there = [&](const ScanPoint& point) {
+      return (point.p_robot_m - stored[i].p_robot_m).squaredNorm() < kOneSurface_m * kOneSurface_m;
+    };
+    if (marks[i] == 0 && std::ranges::any_of(points, is_there)) ++explained;
+  }
+  return {.told = Told(stored),
+          .explained = Share(explained, stored.size()),
+          .seen_through = Share(std::ranges::count(marks, 1), stored.size())};
+}
+
 void PlaceEvidence::ForgetFarFrom(const ScanMap& map, const Pose2& T_map_robot) {
   std::erase_if(images_, [&](const auto& image) {
     const Pose2& T_map_scan = map.scans()[image.first].map_robot.T_a_b;
@@ -77,7 +150,7 @@ double PlaceEvidence::ShareSeenThrough(const ScanMap& map,
     const auto image = images_.try_emplace(scan.id, scan.scan, T_map_scan, options_).first;
     image->second.MarkSeenThrough(points, T_map_robot, marks);
   }
-  return static_cast<double>(std::ranges::count(marks, 1)) / static_cast<double>(points.size());
+  return Share(std::ranges::count(marks, 1), points.size());
 }
 
 }  // namespace qwsm

@@ -3,18 +3,12 @@
 #include "qwsm/mapping/place_watch.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace qwsm {
 namespace {
 
 constexpr double kWeighSpacing_m = 0.15;
 constexpr double kBetweenWeighings_m = 0.5;
-// Between two scans that show nearly the same.
-constexpr double kSameView_m = 0.25;
-constexpr double kSameView_rad = 0.25;
-// A wrong pose explains by chance about half of what the right one does: half way between them.
-constexpr double kStillExplained = 0.75;
 // As convincing as a place has to be to be told from one that looks alike: a chance of 1 in 100.
 constexpr double kDoubtedNats = -4.6;
 // One in ten thousand millions: a robot in doubt is tracked.
@@ -26,7 +20,7 @@ PlaceDoubt PlaceWatch::Look(const ScanMap& map,
                             std::span<const ScanPoint> points,
                             const MappingStep& step,
                             const PlaceEvidence::Counts& counts) {
-  NoteFall(step);
+  NoteBreak(step);
   const Pose2& T_map_robot = step.map_robot.T_a_b;
   if (!IsDue(T_map_robot)) return Doubt();
   T_map_looked_ = T_map_robot;
@@ -40,7 +34,7 @@ PlaceDoubt PlaceWatch::Look(const ScanMap& map,
 
 void PlaceWatch::BeginAnew() {
   nats_ = 0.0;
-  T_map_last_.reset();
+  view_.Forget();
   explained_before_.reset();
 }
 
@@ -50,24 +44,15 @@ void PlaceWatch::BeginInAnotherMap() {
   T_map_looked_.reset();
 }
 
-void PlaceWatch::NoteFall(const MappingStep& step) {
-  const bool is_matched =
-      step.status == StepStatus::kMatched || step.status == StepStatus::kExtended;
-  const double explained = is_matched ? step.match.overlap : 0.0;
-  const Pose2& T_map_robot = step.map_robot.T_a_b;
+void PlaceWatch::NoteBreak(const MappingStep& step) {
+  const double before = view_.explained();
+  const bool breaks = view_.Take(step);
   if (explained_before_) {
-    if (explained >= kStillExplained * *explained_before_) explained_before_.reset();
-  } else if (T_map_last_ && explained < kStillExplained * explained_) {
-    const Pose2 moved = T_map_last_->Inverse() * T_map_robot;
-    const bool sees_the_same =
-        moved.translation_m().norm() < kSameView_m && std::abs(moved.theta_rad) < kSameView_rad;
-    if (sees_the_same) {
-      explained_before_ = explained_;
-      T_map_looked_.reset();
-    }
+    if (ViewBreak::IsAsBefore(view_.explained(), *explained_before_)) explained_before_.reset();
+  } else if (breaks) {
+    explained_before_ = before;
+    T_map_looked_.reset();
   }
-  T_map_last_ = T_map_robot;
-  explained_ = explained;
 }
 
 bool PlaceWatch::IsDue(const Pose2& T_map_robot) const {

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <set>
@@ -20,6 +21,12 @@ using WorkBeside = std::function<std::function<void()>(std::function<void()> wor
 /// Does the work at once.
 std::function<void()> WorkAtOnce(std::function<void()> work);
 
+/// Whose the chains of scans are that a map is made of.
+enum class ChainsOf : std::uint8_t {
+  kOneRobot,  ///< Of one that was lost and found: its scans come in one order, whatever threads do.
+  kTeam,      ///< Of as many robots, which drive side by side.
+};
+
 /// A map whose scans were put where they belong.
 struct CorrectedMap {
   std::vector<UncertainPose2> map_node;  ///< Poses of all nodes so far.
@@ -32,7 +39,9 @@ struct CorrectedMap {
 /// order of scans is fixed anyway: there nobody waits for a look that takes longer.
 class BackgroundCorrector {
  public:
-  explicit BackgroundCorrector(const MapperOptions& options = {}, WorkBeside beside = WorkAtOnce);
+  explicit BackgroundCorrector(const MapperOptions& options = {},
+                               WorkBeside beside = WorkAtOnce,
+                               ChainsOf chains_of = ChainsOf::kTeam);
   BackgroundCorrector(const BackgroundCorrector&) = delete;
   BackgroundCorrector& operator=(const BackgroundCorrector&) = delete;
   ~BackgroundCorrector();
@@ -51,6 +60,9 @@ class BackgroundCorrector {
   /// Takes over the poses that somebody else found, without waiting: what a look under way finds is
   /// given up when it ends. @param map_node of all nodes so far.
   void Adopt(std::span<const UncertainPose2> map_node);
+
+  /// Forgets the last scans, and what a look under way finds. @param first of them.
+  void ForgetSince(std::size_t first);
 
   /// Corrects all that was added once more, in the end: loops are looked for from where others have
   /// moved the scans, too.
@@ -71,6 +83,7 @@ class BackgroundCorrector {
   std::size_t LookedAtBeside(const ScanNode& node) const;
 
   WorkBeside beside_;
+  ChainsOf chains_of_;
   MapCorrector corrector_;            // Belongs to the look while there is one.
   std::vector<ScanNode> under_look_;  // Likewise.
   std::optional<Proposal> proposal_;  // Likewise.

@@ -42,6 +42,8 @@ class MapCorrector {
   std::optional<std::vector<UncertainPose2>> Propose();
   /// From now on the map is drawn there. @param map_node of the nodes so far, or the first of them.
   void Adopt(std::span<const UncertainPose2> map_node);
+  /// Forgets the last nodes, as if they had never been added. @param first of them.
+  void ForgetSince(NodeId first);
   /// The nodes' scans inserted at these poses, in the order they were taken.
   ScanMap MapAt(std::span<const UncertainPose2> map_node) const;
 

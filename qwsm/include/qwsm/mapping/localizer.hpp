@@ -4,9 +4,9 @@
 
 #include <optional>
 
-#include "qwsm/mapping/mapper.hpp"
-#include "qwsm/mapping/place_finder.hpp"
+#include "qwsm/mapping/lost_robot.hpp"
 #include "qwsm/mapping/place_watch.hpp"
+#include "qwsm/mapping/robot_tracker.hpp"
 #include "qwsm/mapping/slip_estimator.hpp"
 
 namespace qwsm {
@@ -28,15 +28,15 @@ class Localizer {
   MappingStep Process(const Observation& observation);
 
   const ScanMap& map() const { return map_; }
-  bool is_lost() const { return local_.has_value(); }
+  bool is_lost() const { return lost_.has_value(); }
   /// What is known of the place of the robot while it is lost.
-  const PlaceBelief& belief() const { return finder_.belief(); }
+  const PlaceBelief& belief() const { return lost_ ? lost_->belief() : found_; }
   /// The frame of the robot's own in which it was lost last, once it is found.
   const UncertainPose2& map_local() const { return map_local_; }
 
  private:
-  MappingStep Search(const Observation& observation, std::span<const ScanPoint> points);
-  MappingStep Found(const Observation& observation, std::span<const ScanPoint> points);
+  MappingStep Search(const Observation& observation);
+  MappingStep Found(const Observation& observation);
   void Extend(const MappingStep& step);
   void Join(const ScanMap& local);
   void Lose();
@@ -45,8 +45,8 @@ class Localizer {
   ScanMap map_;
   RobotTracker tracker_;
   SlipEstimator slip_;
-  std::optional<Mapper> local_;  // Maps where the robot is lost.
-  PlaceFinder finder_;
+  std::optional<LostRobot> lost_;
+  PlaceBelief found_;  // By which it was found last.
   PlaceWatch watch_;
   UncertainPose2 map_local_;
 };

@@ -26,6 +26,13 @@ class Mapper {
   /// @param map_robot pose at the last scan in the corrected map.
   void GoOnIn(ScanMap corrected, const UncertainPose2& map_robot);
 
+  /// Places the robot anew: the next scan is taken there.
+  void PlaceAt(const UncertainPose2& map_robot);
+  /// Extends the map with a scan that was answered by somebody else.
+  void Extend(const LaserScan& scan, const UncertainPose2& map_robot);
+  /// Takes scans out of the map, as if they had never been inserted. @param first of them.
+  void ForgetSince(ScanId first);
+
   /// Forgets the points of the map, which are most of its memory, but not its scans: for when no
   /// scan follows.
   void ForgetPoints() { map_.ForgetPoints(); }

@@ -6,6 +6,7 @@
 #include <map>
 #include <span>
 
+#include "qwsm/geometry/pose2.hpp"
 #include "qwsm/mapping/free_space.hpp"
 #include "qwsm/mapping/scan_map.hpp"
 #include "qwsm/matching/match_result.hpp"
@@ -32,6 +33,21 @@ struct PlaceFit {
   double NatsInOwnMap() const;
 };
 
+/// How a scan fares in a map, and the map in what the scan saw.
+struct MutualFit {
+  PlaceFit of_scan;
+  PlaceFit of_map;
+
+  /// Evidence for the place from what both looked at.
+  double Nats() const { return of_scan.NatsWithinMap() + of_map.NatsWithinMap(); }
+};
+
+/// A scan at a place of a map.
+struct ScanAtPlace {
+  const LaserScan& scan;
+  Pose2 T_map_robot;
+};
+
 /// Weighs what a scan tells for and against having been taken at a place of a map.
 class PlaceEvidence {
  public:
@@ -51,6 +67,9 @@ class PlaceEvidence {
                  const MatchResult& match,
                  const Counts& counts = {});
 
+  /// Weighs a scan by what the map had before one of its scans, and that by what the scan saw.
+  MutualFit WeighBothWays(const ScanMap& map, const ScanAtPlace& placed, ScanId before);
+
   /// Gives back what was kept of scans of the map far from a robot that is followed.
   void ForgetFarFrom(const ScanMap& map, const Pose2& T_map_robot);
   /// Gives back all that was kept: the map is another one, or was moved.
@@ -61,6 +80,9 @@ class PlaceEvidence {
                           std::span<const ScanPoint> points,
                           const Pose2& T_map_robot,
                           const Counts& counts);
+  PlaceFit FitOfMap(std::span<const ScanPoint> stored,
+                    const ScanAtPlace& placed,
+                    std::span<const ScanPoint> points) const;
 
   FreeSpaceOptions options_;
   std::map<ScanId, FreeRangeImage> images_;  // Of the map's scans that were asked for so far.

@@ -10,6 +10,7 @@
 #include "qwsm/mapping/mapping_step.hpp"
 #include "qwsm/mapping/place_evidence.hpp"
 #include "qwsm/mapping/scan_map.hpp"
+#include "qwsm/mapping/view_break.hpp"
 
 namespace qwsm {
 
@@ -49,7 +50,7 @@ class PlaceWatch {
   void BeginInAnotherMap();
 
  private:
-  void NoteFall(const MappingStep& step);
+  void NoteBreak(const MappingStep& step);
   bool IsDue(const Pose2& T_map_robot) const;
   double NatsOf(const PlaceFit& fit) const;
   PlaceDoubt Doubt() const;
@@ -58,8 +59,7 @@ class PlaceWatch {
   PlaceEvidence evidence_;
   double nats_ = 0.0;                       // For the place where the robot is tracked, 0 at most.
   std::optional<Pose2> T_map_looked_;       // Where a scan was weighed last.
-  std::optional<Pose2> T_map_last_;         // Where the last scan was taken.
-  double explained_ = 0.0;                  // Share of that scan.
+  ViewBreak view_;
   std::optional<double> explained_before_;  // That the map explained a moment ago, and not since.
 };
 

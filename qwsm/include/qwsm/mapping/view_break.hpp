@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "qwsm/mapping/mapping_step.hpp"
+
+namespace qwsm {
+
+/// Notices that a map does not explain any more what it explained a moment ago, or explains it
+/// elsewhere, though the robot has hardly moved since: no robot leaves a map from one scan to the
+/// next.
+class ViewBreak {
+ public:
+  /// Takes the answer to the next scan. @return whether the view breaks with it.
+  bool Take(const MappingStep& step);
+  /// What was seen before was seen elsewhere.
+  void Forget() { *this = {}; }
+
+  /// Share of the last scan that the map explained.
+  double explained() const { return explained_; }
+  /// Whether two scans with this motion between them show nearly the same.
+  static bool IsSameView(const Pose2& moved);
+  /// Whether so much of a scan is as good as what was explained before the view broke.
+  static bool IsAsBefore(double explained, double before);
+
+ private:
+  double explained_ = 0.0;
+  std::optional<Pose2> T_map_last_;
+};
+
+}  // namespace qwsm

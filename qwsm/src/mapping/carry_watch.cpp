@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "qwsm/mapping/carry_watch.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace qwsm {
+namespace {
+
+constexpr double kBetweenQuestions_m = 0.5;
+// From farther away little is seen of what was seen when the view broke.
+constexpr int kMostLooks = 10;
+// Corridors are alike for longer; but from farther than this a map that drifted contradicts itself.
+constexpr int kMostLooksOfFoundPlace = 20;
+constexpr double kCarriedNats = -23.0;  // As for PlaceWatch.
+// No look suffices, not for a doubt either: somebody may step into the way.
+constexpr double kLeastOfALook = 0.5 * kCarriedNats;
+
+}  // namespace
+
+PlaceDoubt CarryWatch::Look(const ScanMap& map, const LaserScan& scan, const MappingStep& step) {
+  if (!IsAsked(map, step)) return PlaceDoubt::kNone;
+  const Pose2& T_map_robot = step.map_robot.T_a_b;
+  const MutualFit fit = evidence_.WeighBothWays(
+      map, {scan, T_map_robot}, static_cast<ScanId>(question_->scans_before));
+  if (IsAnswered(fit.of_scan, T_map_robot)) {
+    Close();
+    return PlaceDoubt::kNone;
+  }
+  if (IsDue(T_map_robot)) {
+    question_->T_map_looked = T_map_robot;
+    ++question_->looks;
+    question_->nats = std::min(0.0, question_->nats + std::max(kLeastOfALook, fit.Nats()));
+  }
+  if (question_->nats < kCarriedNats) return PlaceDoubt::kLost;
+  const bool is_in_doubt = question_->nats < kLeastOfALook;
+  const int most_looks = question_->is_of_found_place ? kMostLooksOfFoundPlace : kMostLooks;
+  if (question_->looks > most_looks) Close();
+  return is_in_doubt ? PlaceDoubt::kInDoubt : PlaceDoubt::kNone;
+}
+
+// Whether the view has broken, now or some scans ago.
+bool CarryWatch::IsAsked(const ScanMap& map, const MappingStep& step) {
+  const std::size_t scans_before = std::exchange(scans_, map.scans().size());
+  const Pose2 T_map_before = std::exchange(T_map_last_, step.map_robot.T_a_b);
+  const double explained_before = view_.explained();
+  if (view_.Take(step) && !question_) {
+    question_ = {.scans_before = scans_before,
+                 .explained_before = explained_before,
+                 .T_map_reckoned = T_map_before};
+  }
+  if (!question_) return false;
+  question_->T_map_reckoned = question_->T_map_reckoned * step.odometry_motion.T_a_b;
+  return true;
+}
+
+// The robot sees again what it saw before, from where its wheels have brought it.
+bool CarryWatch::IsAnswered(const PlaceFit& of_scan, const Pose2& T_map_robot) const {
+  if (question_->is_of_found_place) return false;
+  return ViewBreak::IsAsBefore(of_scan.explained, question_->explained_before) &&
+         ViewBreak::IsSameView(question_->T_map_reckoned.Inverse() * T_map_robot);
+}
+
+void CarryWatch::BeginAnew(const ScanMap& map) {
+  Close();
+  view_.Forget();
+  scans_ = map.scans().size();
+}
+
+void CarryWatch::AskOfFoundPlace(const ScanMap& map, std::size_t scans_before) {
+  BeginAnew(map);
+  question_ = {.scans_before = scans_before, .is_of_found_place = true};
+}
+
+bool CarryWatch::IsDue(const Pose2& T_map_robot) const {
+  const std::optional<Pose2>& T_map_looked = question_->T_map_looked;
+  return !T_map_looked ||
+         (T_map_looked->Inverse() * T_map_robot).translation_m().norm() >= kBetweenQuestions_m;
+}
+
+void CarryWatch::Close() {
+  question_.reset();
+  evidence_.Forget();
+}
+
+}  // namespace qwsm
