@@ -22,13 +22,13 @@ constexpr double kLeastOfALook = 0.5 * kCarriedNats;
 PlaceDoubt CarryWatch::Look(const ScanMap& map, const LaserScan& scan, const MappingStep& step) {
   if (!IsAsked(map, step)) return PlaceDoubt::kNone;
   const Pose2& T_map_robot = step.map_robot.T_a_b;
-  const MutualFit fit = evidence_.WeighBothWays(
-      map, {scan, T_map_robot}, static_cast<ScanId>(question_->scans_before));
-  if (IsAnswered(fit.of_scan, T_map_robot)) {
+  if (IsAnswered(map, {scan, T_map_robot})) {
     Close();
     return PlaceDoubt::kNone;
   }
   if (IsDue(T_map_robot)) {
+    const MutualFit fit = evidence_.WeighBothWays(
+        map, {scan, T_map_robot}, static_cast<ScanId>(question_->scans_before));
     question_->T_map_looked = T_map_robot;
     ++question_->looks;
     question_->nats = std::min(0.0, question_->nats + std::max(kLeastOfALook, fit.Nats()));
@@ -56,10 +56,13 @@ bool CarryWatch::IsAsked(const ScanMap& map, const MappingStep& step) {
 }
 
 // The robot sees again what it saw before, from where its wheels have brought it.
-bool CarryWatch::IsAnswered(const PlaceFit& of_scan, const Pose2& T_map_robot) const {
-  if (question_->is_of_found_place) return false;
-  return ViewBreak::IsAsBefore(of_scan.explained, question_->explained_before) &&
-         ViewBreak::IsSameView(question_->T_map_reckoned.Inverse() * T_map_robot);
+bool CarryWatch::IsAnswered(const ScanMap& map, const ScanAtPlace& placed) const {
+  const Question& asked = *question_;
+  if (asked.is_of_found_place) return false;
+  if (!ViewBreak::IsSameView(asked.T_map_reckoned.Inverse() * placed.T_map_robot)) return false;
+  const auto before = static_cast<ScanId>(asked.scans_before);
+  return ViewBreak::IsAsBefore(PlaceEvidence::ExplainedBefore(map, placed, before),
+                               asked.explained_before);
 }
 
 void CarryWatch::BeginAnew(const ScanMap& map) {

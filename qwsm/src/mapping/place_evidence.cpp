@@ -42,6 +42,19 @@ bool IsStored(const SurfaceMap& surfaces, const Eigen::Vector2d& p_map_m, ScanId
   return is_stored;
 }
 
+// Share of points of a scan that scans before have stored.
+double ShareStored(const SurfaceMap& surfaces,
+                   std::span<const ScanPoint> points,
+                   const Pose2& T_map_robot,
+                   ScanId before) {
+  const RigidTransform2 to_map(T_map_robot);
+  return Share(std::ranges::count_if(points,
+                                     [&](const ScanPoint& point) {
+                                       return IsStored(surfaces, to_map * point.p_robot_m, before);
+                                     }),
+               points.size());
+}
+
 // What scans before have stored around the robot, in its frame.
 std::vector<ScanPoint> StoredAround(const SurfaceMap& surfaces,
                                     const Pose2& T_map_robot,
@@ -91,17 +104,21 @@ PlaceFit PlaceEvidence::Weigh(const ScanMap& map,
           .seen_through = ShareSeenThrough(map, points, match.T_ref_cur, counts)};
 }
 
+double PlaceEvidence::ExplainedBefore(const ScanMap& map,
+                                      const ScanAtPlace& placed,
+                                      ScanId before) {
+  const std::vector<ScanPoint> thinned = ThinOut(ToPoints(placed.scan), kOneSurface_m);
+  return ShareStored(map.surfaces(), thinned, placed.T_map_robot, before);
+}
+
 MutualFit PlaceEvidence::WeighBothWays(const ScanMap& map,
                                        const ScanAtPlace& placed,
                                        ScanId before) {
   const std::vector<ScanPoint> points = ToPoints(placed.scan);
   const std::vector<ScanPoint> thinned = ThinOut(points, kOneSurface_m);
-  const RigidTransform2 to_map(placed.T_map_robot);
-  const auto explained = std::ranges::count_if(thinned, [&](const ScanPoint& point) {
-    return IsStored(map.surfaces(), to_map * point.p_robot_m, before);
-  });
   const auto counts = [before](ScanId scan) { return scan < before; };
-  PlaceFit of_scan{.told = Told(thinned), .explained = Share(explained, thinned.size())};
+  PlaceFit of_scan{.told = Told(thinned),
+                   .explained = ShareStored(map.surfaces(), thinned, placed.T_map_robot, before)};
   // From afar a map that drifted sees through its own walls, too.
   of_scan.seen_through = std::min(ShareSeenThrough(map, thinned, placed.T_map_robot, counts),
                                   1.0 - of_scan.explained);

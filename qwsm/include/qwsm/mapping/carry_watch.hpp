@@ -56,7 +56,7 @@ class CarryWatch {
   };
 
   bool IsAsked(const ScanMap& map, const MappingStep& step);
-  bool IsAnswered(const PlaceFit& of_scan, const Pose2& T_map_robot) const;
+  bool IsAnswered(const ScanMap& map, const ScanAtPlace& placed) const;
   bool IsDue(const Pose2& T_map_robot) const;
   void Close();
 

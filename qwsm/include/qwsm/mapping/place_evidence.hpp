@@ -67,6 +67,9 @@ class PlaceEvidence {
                  const MatchResult& match,
                  const Counts& counts = {});
 
+  /// Share of a scan that is explained by what the map had before one of its scans.
+  static double ExplainedBefore(const ScanMap& map, const ScanAtPlace& placed, ScanId before);
+
   /// Weighs a scan by what the map had before one of its scans, and that by what the scan saw.
   MutualFit WeighBothWays(const ScanMap& map, const ScanAtPlace& placed, ScanId before);
 
