@@ -99,9 +99,21 @@ TEST_F(RearrangedMapsTest, OnlyWhatMovesIsOfAnotherVersion) {
   RearrangedMaps moved;
   moved.Follow(maps_, corrected);
   ASSERT_EQ(moved.maps().size(), 1U);
-  EXPECT_NE(moved.maps().at("")->version(), maps_.Named("").map->version());
+  const MapVersion before = maps_.Named("").map->version();
+  EXPECT_EQ(moved.maps().at("")->version(),
+            (MapVersion{.map = before.map, .epoch = before.epoch + 1}));
   EXPECT_EQ(moved.maps().at("")->Scans().back().map_robot.T_a_b.y_m,
             maps_.Named("").map->Scans().back().map_robot.T_a_b.y_m + 0.1);
+}
+
+// What is known of scans by their ids holds in the next version of a map; where some arrive while
+// others move, those that came meanwhile are behind them.
+TEST_F(RearrangedMapsTest, AreOtherMapsWhereScansAreRenumbered) {
+  Rearrangement both = Joined();
+  both.wanted.at("").back().map_robot.T_a_b.y_m += 0.1;
+  RearrangedMaps made;
+  made.Follow(maps_, both);
+  EXPECT_NE(made.maps().at("")->version().map, maps_.Named("").map->version().map);
 }
 
 TEST_F(RearrangedMapsTest, HoldAllScansOfALargeMap) {

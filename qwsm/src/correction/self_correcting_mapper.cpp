@@ -163,7 +163,6 @@ void SelfCorrectingMapper::GoOnIn(CorrectedMap corrected, Timestamp stamp) {
   mapper_.GoOnIn(std::move(corrected.map),
                  map_last * Since(*nodes_.map_last(), mapper_.map_robot()));
   nodes_.Follow(map_last);
-  watch_.FollowCorrection();
   epochs_.push_back({.stamp = stamp, .map_node = std::move(corrected.map_node)});
 }
 

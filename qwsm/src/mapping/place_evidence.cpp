@@ -164,8 +164,8 @@ double PlaceEvidence::ShareSeenThrough(const ScanMap& map,
     const Pose2& T_map_scan = scan.map_robot.T_a_b;
     const double apart_m = (T_map_scan.translation_m() - T_map_robot.translation_m()).norm();
     if (apart_m > kSeenFrom_m || (counts && !counts(scan.id))) continue;
-    const auto image = images_.try_emplace(scan.id, scan.scan, T_map_scan, options_).first;
-    image->second.MarkSeenThrough(points, T_map_robot, marks);
+    const auto image = images_.try_emplace(scan.id, scan.scan, Pose2{}, options_).first;
+    image->second.MarkSeenThrough(points, T_map_scan.Inverse() * T_map_robot, marks);
   }
   return Share(std::ranges::count(marks, 1), points.size());
 }

@@ -38,10 +38,14 @@ void PlaceWatch::BeginAnew() {
   explained_before_.reset();
 }
 
-void PlaceWatch::BeginInAnotherMap() {
+void PlaceWatch::FollowCorrection() {
   BeginAnew();
-  evidence_.Forget();
   T_map_looked_.reset();
+}
+
+void PlaceWatch::BeginInAnotherMap() {
+  FollowCorrection();
+  evidence_.Forget();
 }
 
 void PlaceWatch::NoteBreak(const MappingStep& step) {

@@ -70,6 +70,11 @@ std::map<std::string, std::shared_ptr<TeamMap>> RearrangedMaps::maps() const {
 RearrangedMaps::Fates RearrangedMaps::FatesOf(const TeamMaps& maps,
                                               const Rearrangement& rearrangement) {
   Fates fates;
+  const auto note = [&fates](const std::string& component, Fate fate) {
+    Fate& known = fates.try_emplace(component, fate).first->second;
+    // Where some arrive while others move, those that came meanwhile would get other ids.
+    known = known == fate ? fate : Fate::kIsMadeAnew;
+  };
   for (const MapComponent& component : maps.All()) {
     const auto wanted = rearrangement.wanted.find(component.name);
     if (wanted == rearrangement.wanted.end()) continue;
@@ -79,9 +84,12 @@ RearrangedMaps::Fates RearrangedMaps::FatesOf(const TeamMaps& maps,
       const Placement now{.component = component.name,
                           .map_robot = contents->map.scans()[id].map_robot};
       if (IsSame(place, now)) continue;
-      fates[component.name] = Fate::kIsMadeAnew;
-      fates.try_emplace(place.component,
-                        maps.Has(place.component) ? Fate::kGrows : Fate::kIsMadeAnew);
+      if (place.component == component.name) {
+        note(component.name, Fate::kIsCorrected);
+      } else {
+        note(component.name, Fate::kIsMadeAnew);
+        note(place.component, maps.Has(place.component) ? Fate::kGrows : Fate::kIsMadeAnew);
+      }
     }
   }
   return fates;
@@ -92,8 +100,12 @@ void RearrangedMaps::Begin(const TeamMaps& maps, Fates fates) {
   made_.clear();
   for (const MapComponent& component : maps.All()) {
     const auto fate = fates.find(component.name);
-    if (fate == fates.end() || fate->second != Fate::kGrows) continue;
-    made_[component.name] = std::make_shared<TeamMap>(*component.map);
+    if (fate == fates.end()) continue;
+    if (fate->second == Fate::kGrows) {
+      made_[component.name] = std::make_shared<TeamMap>(*component.map);
+    } else if (fate->second == Fate::kIsCorrected) {
+      made_[component.name] = component.map->EmptyNextVersion();
+    }
   }
   for (const auto& [name, fate] : fates) {
     if (fate == Fate::kIsMadeAnew) made_[name] = maps.Make();

@@ -14,7 +14,8 @@ namespace qwsm::team {
 
 /// The maps of a team as a rearrangement wants them, made while robots are answered in the old ones
 /// and extend these. A component that nothing happens to keeps its map, one that only gets scans
-/// goes on in a copy, with these behind its own, and any other is made anew.
+/// goes on in a copy, with these behind its own, one whose scans only move goes on in the map's
+/// next version, and any other is made anew.
 class RearrangedMaps {
  public:
   /// Puts scans where they are wanted: all of them the first time, and then what came since.
@@ -26,7 +27,7 @@ class RearrangedMaps {
   std::map<std::string, std::shared_ptr<TeamMap>> maps() const;
 
  private:
-  enum class Fate { kGrows, kIsMadeAnew };
+  enum class Fate { kGrows, kIsCorrected, kIsMadeAnew };
   using Fates = std::map<std::string, Fate>;  // By component, but for those that stay as they are.
 
   static Fates FatesOf(const TeamMaps& maps, const Rearrangement& rearrangement);

@@ -26,7 +26,10 @@ std::uint64_t NextNumber() {
 }  // namespace
 
 TeamMap::TeamMap(const ScanMapOptions& options)
-    : number_(NextNumber()), state_({.map = ScanMap(options), .epoch = 0}, &Apply) {}
+    : TeamMap(options, {.map = NextNumber(), .epoch = 0}) {}
+
+TeamMap::TeamMap(const ScanMapOptions& options, const MapVersion& version)
+    : number_(version.map), state_({.map = ScanMap(options), .epoch = version.epoch}, &Apply) {}
 
 TeamMap::TeamMap(const TeamMap& other) : TeamMap(other, Lock(other.insertion_, other.register_)) {}
 
@@ -38,6 +41,12 @@ TeamMap::TeamMap(const TeamMap& other, const Lock&)
       heads_(other.heads_),
       last_by_robot_(other.last_by_robot_),
       last_sequence_(other.last_sequence_) {}
+
+std::shared_ptr<TeamMap> TeamMap::EmptyNextVersion() const {
+  const State::View contents = Read();
+  return std::shared_ptr<TeamMap>(
+      new TeamMap(contents->map.options(), {.map = number_, .epoch = contents->epoch + 1}));
+}
 
 std::optional<TeamMap::Insertion> TeamMap::Insert(const TeamScan& scan,
                                                   std::span<const ScanPoint> points) {

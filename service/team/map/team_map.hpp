@@ -27,7 +27,8 @@ namespace qwsm::team {
 
 class TeamMap;
 
-/// Which map it was, and how often it was corrected by then.
+/// Which map it was, and how often it was corrected by then. Scans keep their ids where only that
+/// changes.
 struct MapVersion {
   std::uint64_t map = 0;
   std::uint32_t epoch = 0;
@@ -61,6 +62,8 @@ class TeamMap {
   /// The same scans in the same places, of the same version: what is added to one of both changes
   /// neither where anything lies. Nobody is in it.
   TeamMap(const TeamMap& other);
+  /// A map for the same scans in other places, in the same order, as the version after this one.
+  std::shared_ptr<TeamMap> EmptyNextVersion() const;
 
   /// The map as it is now; see TwinState::View.
   State::View Read() const { return state_.Read(); }
@@ -107,6 +110,7 @@ class TeamMap {
  private:
   using Lock = std::scoped_lock<std::mutex, std::mutex>;
 
+  TeamMap(const ScanMapOptions& options, const MapVersion& version);
   TeamMap(const TeamMap& other, const Lock& lock);
 
   bool Register(const TeamScan& scan);

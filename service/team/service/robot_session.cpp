@@ -164,8 +164,9 @@ TeamMap::State::View RobotSession::FollowCorrections() {
   component_ = context_.atlas.maps().Of(name());
   TeamMap::State::View contents = component_.map->Read();
   const MapVersion now = component_.map->VersionOf(*contents);
-  if (std::exchange(version_, now) == now) return contents;
-  watch_.BeginInAnotherMap();
+  const MapVersion before = std::exchange(version_, now);
+  if (before == now) return contents;
+  before.map == now.map ? watch_.FollowCorrection() : watch_.BeginInAnotherMap();
   slip_.Interrupt();
   if (!last_relevant_) return contents;
   const std::optional<ScanId> last = component_.map->Find(*last_relevant_);

@@ -36,8 +36,6 @@ class CarryWatch {
   /// How many scans the map had when the view broke, or the robot was found. @pre is_asking()
   std::size_t scans_before() const { return question_->scans_before; }
 
-  /// Says that the map was moved.
-  void FollowCorrection() { evidence_.Forget(); }
   /// Says that the robot was placed anew, or that the map is another one.
   void BeginAnew(const ScanMap& map);
   /// Says that the robot was found. @param scans_before that the map had before what was seen by the

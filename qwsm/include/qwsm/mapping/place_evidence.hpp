@@ -75,7 +75,7 @@ class PlaceEvidence {
 
   /// Gives back what was kept of scans of the map far from a robot that is followed.
   void ForgetFarFrom(const ScanMap& map, const Pose2& T_map_robot);
-  /// Gives back all that was kept: the map is another one, or was moved.
+  /// Gives back all that was kept: the map is another one, of other scans.
   void Forget() { images_.clear(); }
 
  private:
@@ -88,7 +88,8 @@ class PlaceEvidence {
                     std::span<const ScanPoint> points) const;
 
   FreeSpaceOptions options_;
-  std::map<ScanId, FreeRangeImage> images_;  // Of the map's scans that were asked for so far.
+  // Of the scans that were asked for so far, each in its robot's frame: wherever these are put.
+  std::map<ScanId, FreeRangeImage> images_;
 };
 
 }  // namespace qwsm

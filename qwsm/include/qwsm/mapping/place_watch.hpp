@@ -46,7 +46,9 @@ class PlaceWatch {
 
   /// Says that the robot was placed anew in the same map.
   void BeginAnew();
-  /// Says that the map is another one, or was moved.
+  /// Says that the map was corrected: its scans are elsewhere now.
+  void FollowCorrection();
+  /// Says that the map is another one, of other scans.
   void BeginInAnotherMap();
 
  private:
