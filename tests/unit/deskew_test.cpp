@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <random>
 
@@ -16,6 +18,7 @@ namespace qwsm {
 namespace {
 
 constexpr std::size_t kBeams = 361;
+constexpr std::chrono::milliseconds kSweep(100);
 
 /// A room of 8 x 6 m with a box in a corner.
 test::World Room() {
@@ -52,7 +55,8 @@ LaserScan MeasureMoving(const Pose2& T_world_first,
                         std::mt19937_64& random) {
   std::normal_distribution<double> range_noise_m(0.0, 0.01);
   std::normal_distribution<double> bearing_noise_rad(0.0, 0.002);
-  LaserScan scan{.stamp = {}, .geometry = {}, .ranges_m = std::vector<float>(kBeams)};
+  LaserScan scan{
+      .stamp = {}, .geometry = {}, .ranges_m = std::vector<float>(kBeams), .sweep = kSweep};
   scan.geometry.first_bearing_rad = -1.5707964F;
   scan.geometry.bearing_step_rad = 0.008726646F;
   scan.geometry.range_max_m = 30.0F;
@@ -104,7 +108,7 @@ TEST(Deskewed, WidensTheAngleBetweenBeamsByTheTurn) {
 
 // Of a wall along the way every reading is far from the next one.
 TEST(Deskewed, KeepsAWallStraightThatIsSeenAtAGrazingAngle) {
-  LaserScan scan{.stamp = {}, .geometry = {}, .ranges_m = std::vector<float>(21)};
+  LaserScan scan{.stamp = {}, .geometry = {}, .ranges_m = std::vector<float>(21), .sweep = kSweep};
   scan.geometry.first_bearing_rad = 0.1F;
   scan.geometry.bearing_step_rad = 0.0087F;
   scan.geometry.range_max_m = 30.0F;
@@ -132,6 +136,37 @@ TEST(Deskewed, KeepsMissesWithTheirBeams) {
   const LaserScan still = Deskewed(scan, {0.0, 0.0, 0.1});
   EXPECT_EQ(still.ranges_m[1], 30.0F);
   EXPECT_EQ(still.ranges_m[2], 0.0F);
+}
+
+// The odometry that began anew within a scan, too, and a turn that undoes that of the mirror, by
+// which all beams would lie on one.
+TEST(Deskewed, IsTheScanItselfWhereNoRobotMovesSo) {
+  std::mt19937_64 random(1);
+  const LaserScan scan = MeasureMoving({}, {}, random);
+  for (const Pose2& motion : {Pose2{30.0, 0.0, 0.0}, Pose2{0.0, 0.0, -std::numbers::pi}}) {
+    const LaserScan still = Deskewed(scan, motion);
+    EXPECT_EQ(still.ranges_m, scan.ranges_m);
+    EXPECT_EQ(still.geometry, scan.geometry);
+  }
+}
+
+// Right before a laser that moves on, neighbouring beams come to lie anywhere.
+TEST(Deskewed, TakesNoLongerWhereSurfacesAreNear) {
+  LaserScan scan{
+      .stamp = {}, .geometry = {}, .ranges_m = std::vector<float>(100'000), .sweep = kSweep};
+  scan.geometry.first_bearing_rad = -std::numbers::pi_v<float>;
+  scan.geometry.bearing_step_rad = 2e-5F * std::numbers::pi_v<float>;
+  scan.geometry.range_max_m = 30.0F;
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<float> range_m(0.01F, 0.05F);
+  for (float& reading_m : scan.ranges_m) reading_m = range_m(random);
+  const auto time = [&scan](const Pose2& T_first_last) {
+    const auto begun = std::chrono::steady_clock::now();
+    EXPECT_EQ(Deskewed(scan, T_first_last).size(), scan.size());
+    return std::chrono::steady_clock::now() - begun;
+  };
+  const auto turning = time({0.0, 0.0, 0.1});
+  EXPECT_LT(time({0.2, 0.0, 0.1}), 100 * turning);
 }
 
 // 2 rad/s and 1 m/s with 10 scans per second whose beams take all the time.

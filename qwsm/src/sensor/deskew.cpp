@@ -3,6 +3,7 @@
 #include "qwsm/sensor/deskew.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -15,6 +16,10 @@ namespace {
 constexpr double kGapBetweenSurfaces_m = 0.15;
 // Unless they go straight on: tangent of pi/8, by which a sparsely sampled wall may seem to turn.
 constexpr double kTanOfStraight = std::numbers::sqrt2 - 1.0;
+// What so many beams came to lie between was not seen as one surface by the two that hit it.
+constexpr double kWidestGap_beams = 16.0;
+// No robot is faster.
+constexpr double kFastest_mps = 20.0;
 
 /// Where a reading lies, as seen from where the laser was at the first beam.
 struct MovedHit {
@@ -22,6 +27,18 @@ struct MovedHit {
   double range_m = 0.0;
   double beam = 0.0;  ///< Its bearing as a number of beams, of the scan at rest.
 };
+
+// Odometry that began anew within a scan tells of no motion. Nor does any robot turn back half as
+// fast as the mirror of its laser turns on.
+bool IsMotionOfRobot(const LaserScan& scan, const Pose2& T_first_last) {
+  const std::chrono::nanoseconds sweep = std::max(scan.sweep, scan.deskewed_sweep);
+  const double farthest_m = kFastest_mps * std::chrono::duration<double>(sweep).count();
+  const double seen_rad = scan.geometry.Bearing(scan.size() - 1) - scan.geometry.Bearing(0);
+  const double turned_on_rad =
+      std::copysign(T_first_last.theta_rad, T_first_last.theta_rad * seen_rad);
+  return T_first_last.translation_m().norm() <= farthest_m &&
+         turned_on_rad > -0.5 * std::abs(seen_rad);
+}
 
 using MovedHits = std::vector<std::optional<MovedHit>>;
 
@@ -109,6 +126,7 @@ bool IsStraight(const MovedHits& hits, std::size_t middle) {
 /// Whether a hit and the next one lie on one surface.
 bool IsSurfaceBetween(const MovedHits& hits, std::size_t i) {
   if (i + 1 >= hits.size() || !hits[i] || !hits[i + 1]) return false;
+  if (!(std::abs(hits[i]->beam - hits[i + 1]->beam) <= kWidestGap_beams)) return false;
   return std::abs(hits[i]->range_m - hits[i + 1]->range_m) < kGapBetweenSurfaces_m ||
          IsStraight(hits, i) || IsStraight(hits, i + 1);
 }
@@ -126,7 +144,7 @@ void KeepWhatCannotMove(const LaserScan& scan, LaserScan& still) {
 }  // namespace
 
 LaserScan Deskewed(const LaserScan& scan, const Pose2& T_first_last) {
-  if (scan.size() < 2 || T_first_last == Pose2{}) {
+  if (scan.size() < 2 || T_first_last == Pose2{} || !IsMotionOfRobot(scan, T_first_last)) {
     return {.stamp = scan.stamp,
             .geometry = scan.geometry,
             .ranges_m = scan.ranges_m,

@@ -148,6 +148,7 @@ std::optional<LogRecord> BagReader::NextScan() {
       ScanReading reading = ReadScan(place);
       const std::string_view objection = ObjectionTo(reading.scan);
       if (!objection.empty()) throw MessageError(std::string(objection));
+      BringToOnePlace(reading);
       ++report_.scans;
       return reading;
     } catch (const MessageError& error) {
@@ -217,7 +218,6 @@ ScanReading BagReader::ReadScan(const Place& place) {
   if (options_.range_max_m) geometry.range_max_m = *options_.range_max_m;
   if (options_.T_robot_laser) geometry.T_robot_laser = *options_.T_robot_laser;
   LeaveOutFloorOf(options_.laser_height_m.value_or(laser.height_m), reading.scan);
-  BringToOnePlace(reading);
   return reading;
 }
 
