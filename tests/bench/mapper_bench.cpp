@@ -61,8 +61,7 @@ double TimeOfScan_ms(const Building& building,
   const Observation observation{.scan = ScanFrom(standpoint, kBeams, random),
                                 .T_odom_robot = T_odom_robot};
   const double before_ms = Now_ms();
-  const std::vector<ScanPoint> points = ToPoints(observation.scan);
-  const MappingStep step = tracker.Track(map, observation, points);
+  const MappingStep step = tracker.Track(map, observation).step;
   if (step.relevant)
     map.Insert(step.relevant_scan, ToPoints(step.relevant_scan), step.map_relevant);
   return Now_ms() - before_ms;

@@ -88,12 +88,11 @@ void BM_MatchWhileInserting(benchmark::State& state) {
     RobotTracker tracker;
     tracker.PlaceAt({.T_a_b = test::PoseInRoom(at)});
     const Observation observation = test::ObservationInRoom(at);
-    const std::vector<ScanPoint> points = ToPoints(observation.scan);
     at = (at + 7) % kScans;
     const auto asked = steady_clock::now();
     const auto view = map.Read();
     const auto begun = steady_clock::now();
-    benchmark::DoNotOptimize(tracker.Track(view->map, observation, points));
+    benchmark::DoNotOptimize(tracker.Track(view->map, observation));
     waiting.Add(begun - asked);
     matching.Add(steady_clock::now() - begun);
   }

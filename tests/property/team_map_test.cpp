@@ -128,8 +128,7 @@ TEST(TeamMap, IsMatchedAgainstInParallelWhileItIsExtended) {
         RobotTracker tracker;
         tracker.PlaceAt({.T_a_b = test::PoseInRoom(at)});
         const Observation observation = test::ObservationInRoom(at);
-        const MappingStep step =
-            tracker.Track(map.Read()->map, observation, ToPoints(observation.scan));
+        const MappingStep step = tracker.Track(map.Read()->map, observation).step;
         const Pose2 error = test::PoseInRoom(at).Inverse() * step.map_robot.T_a_b;
         if (error.translation_m().norm() > 0.2) ++bad_matches;
         at = (at + 7) % 120;

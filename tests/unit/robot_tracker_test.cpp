@@ -46,7 +46,7 @@ TEST(RobotTracker, HasTheStatusOfTheLoopClosureThatReplacesABadMatch) {
   tracker.PlaceAt(UncertainPose2::WithSigmas(drifted, 0.4, 0.02));
 
   const LaserScan scan = ScanFrom(kStart, Room(), 4);
-  const MappingStep step = tracker.Track(map, {.scan = scan, .T_odom_robot = {}}, ToPoints(scan));
+  const MappingStep step = tracker.Track(map, {.scan = scan}).step;
   EXPECT_EQ(step.reason, "loop closed");
   EXPECT_EQ(step.status, StepStatus::kMatched);
   EXPECT_EQ(step.match.status, MatchStatus::kConverged);
@@ -68,8 +68,7 @@ TEST(RobotTracker, FindsAScanRelevantByMotionAloneHoweverLittleOfItAgreesWithThe
     SCOPED_TRACE(i);
     const Pose2 T_start_robot{0.1 * i, 0.0, 0.0};
     const LaserScan scan = ScanFrom(kStart * T_start_robot, rearranged);
-    const MappingStep step =
-        tracker.Track(map, {.scan = scan, .T_odom_robot = T_start_robot}, ToPoints(scan));
+    const MappingStep step = tracker.Track(map, {.scan = scan, .T_odom_robot = T_start_robot}).step;
     EXPECT_EQ(step.status, StepStatus::kExtended);
     const Pose2 moved = T_map_relevant.Inverse() * step.map_robot.T_a_b;
     EXPECT_EQ(step.relevant, i == 0 || moved.translation_m().norm() > 0.5);

@@ -35,7 +35,8 @@ class Circling {
                             T_map_found.y_m + kMatch_m * normal_(random_),
                             T_map_found.theta_rad + kMatch_rad * normal_(random_)};
     step.local_covariance = UncertainPose2::WithSigmas({}, kMatch_m, kMatch_rad).covariance;
-    slip_.Learn(Told(), step);
+    const Observation told = Told();
+    slip_.Learn(told, slip_.Mended(told).velocity, step);
   }
 
   /// Odometry begins anew elsewhere.

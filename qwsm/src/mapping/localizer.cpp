@@ -18,10 +18,7 @@ Localizer::Localizer(const MapperOptions& options,
 
 MappingStep Localizer::Process(const Observation& observation) {
   if (lost_) return Search(observation);
-  const Observation still = slip_.Mended(observation);
-  const std::vector<ScanPoint> points = ToPoints(still.scan);
-  const MappingStep step = tracker_.Track(map_, still, points);
-  slip_.Learn(still, step);
+  const auto [step, points] = tracker_.Track(map_, observation);
   Extend(step);
   if (watch_.Look(map_, points, step) == PlaceDoubt::kLost) Lose();
   return step;
@@ -39,7 +36,7 @@ MappingStep Localizer::Found(const Observation& observation) {
   found_ = lost.belief();
   watch_.BeginAnew();
   tracker_.PlaceAt(lost.map_found());
-  const MappingStep step = tracker_.Track(map_, observation, ToPoints(observation.scan));
+  const MappingStep step = tracker_.Track(map_, observation).step;
   map_local_ = lost.FrameFor(step.map_robot);
   if (options_.extend_map) Join(lost.local().map());
   Extend(step);
@@ -57,9 +54,6 @@ void Localizer::Join(const ScanMap& local) {
   }
 }
 
-void Localizer::Lose() {
-  lost_.emplace(options_);
-  slip_.Interrupt();
-}
+void Localizer::Lose() { lost_.emplace(options_); }
 
 }  // namespace qwsm

@@ -22,14 +22,6 @@ ScanLocatorOptions LocatorOptions(const MapperOptions& options) {
   return locator;
 }
 
-// No motion, and next to no error: the initial pose is that of the next scan.
-PosePrediction Unmoved() {
-  constexpr double kSigma = 0.001;  // m, rad.
-  const UncertainPose2 there{.T_a_b = {},
-                             .covariance = kSigma * kSigma * Eigen::Matrix3d::Identity()};
-  return {.conservative = there, .adapted = there};
-}
-
 // A pose beside odometry has to explain a scan so much better: a chance of 1 in 100.
 constexpr double kConvincingNats = 4.6;
 
@@ -68,22 +60,6 @@ UncertainPose2 PoseOf(const MatchResult& match) {
 
 }  // namespace
 
-std::string_view Name(StepStatus status) {
-  switch (status) {
-    case StepStatus::kFirst:
-      return "first";
-    case StepStatus::kMatched:
-      return "matched";
-    case StepStatus::kExtended:
-      return "extended";
-    case StepStatus::kDeadReckoned:
-      return "dead-reckoned";
-    case StepStatus::kLost:
-      return "lost";
-  }
-  return "unknown";
-}
-
 RobotTracker::RobotTracker(const MapperOptions& options)
     : options_(options),
       motion_(options.motion),
@@ -97,6 +73,7 @@ void RobotTracker::PlaceAt(const UncertainPose2& map_robot,
                            const std::optional<Pose2>& T_odom_robot) {
   motion_.Remember({}, T_odom_robot);
   gyro_.Restart(T_odom_robot);
+  slip_.Interrupt();
   submap_.Clear();
   seen_free_.Clear();
   dead_reckoning_.Clear();
@@ -119,66 +96,83 @@ void RobotTracker::FollowCorrection(const UncertainPose2& map_robot) {
   submap_.Move(T_new_old);
   seen_free_.Move(T_new_old);
   dead_reckoning_.Move(T_new_old);
+  slip_.Interrupt();
 }
 
-MappingStep RobotTracker::Track(const ScanMap& map,
-                                const Observation& observation,
-                                std::span<const ScanPoint> points) {
+TrackedScan RobotTracker::Track(const ScanMap& map, const Observation& observation) {
   const std::optional<Pose2> T_odom_robot = gyro_.Follow(observation);
   motion_.SetHeadingByGyro(gyro_.leads());
-  if (T_odom_robot == observation.T_odom_robot) return TrackBy(map, observation, points);
-  Observation with_gyro = observation;
-  with_gyro.T_odom_robot = T_odom_robot;
-  return TrackBy(map, with_gyro, points);
-}
-
-MappingStep RobotTracker::TrackBy(const ScanMap& map,
-                                  const Observation& observation,
-                                  std::span<const ScanPoint> points) {
-  MappingStep step{.stamp = observation.scan.stamp};
-  if (map.empty()) {
-    Begin(observation, points, step);
-  } else {
-    Locate(map, observation, points, step);
-  }
+  Sighting sighting = LookTwice(map, observation, T_odom_robot);
+  MappingStep& step = sighting.step;
+  const Observation& still = sighting.observation;
+  LearnMotion(sighting);
   // A scan whose pose is dead-reckoned extends the map like any other once the robot has moved on:
   // beyond the surfaces mapped so far no scan can be matched, and the map would end there for good.
   // The covariance of the pose goes with its points.
-  const bool has_moved_on = HasMovedOn(observation.scan, points, step);
+  const bool has_moved_on = HasMovedOn(still.scan, sighting.points, step);
   const bool extends = has_moved_on && (options_.extend_map || step.status == StepStatus::kFirst);
-  if (extends) CloseLoop(map, observation.scan, points, step);
-  Remember(observation, step, has_moved_on);
-  Extend(extends, observation, points, step);
-  if (has_moved_on) seen_free_.Add(observation.scan, step.map_robot.T_a_b);
-  return step;
+  if (extends) CloseLoop(map, still.scan, sighting.points, step);
+  slip_.Learn(observation, sighting.velocity, step);
+  Remember(still, step, has_moved_on);
+  Extend(extends, still, sighting.points, step);
+  if (has_moved_on) seen_free_.Add(still.scan, step.map_robot.T_a_b);
+  return {.step = std::move(step), .points = std::move(sighting.points)};
+}
+
+// How the robot moved while the scan was taken the scan itself tells best: where it is found to be
+// taken is learned as if for good, and by that its beams are moved anew.
+RobotTracker::Sighting RobotTracker::LookTwice(const ScanMap& map,
+                                               const Observation& observation,
+                                               const std::optional<Pose2>& T_odom_robot) const {
+  Sighting first = Look(map, slip_, observation, T_odom_robot);
+  if (!first.velocity) return first;
+  SlipEstimator slip = slip_;
+  slip.Learn(observation, first.velocity, first.step);
+  return Look(map, slip, observation, T_odom_robot);
+}
+
+RobotTracker::Sighting RobotTracker::Look(const ScanMap& map,
+                                          const SlipEstimator& slip,
+                                          const Observation& observation,
+                                          const std::optional<Pose2>& T_odom_robot) const {
+  StillScan still = slip.Mended(observation);
+  Sighting sighting{.observation = {.scan = std::move(still.scan),
+                                    .T_odom_robot = T_odom_robot,
+                                    .gyro_rad = observation.gyro_rad},
+                    .velocity = still.velocity};
+  sighting.points = ToPoints(sighting.observation.scan);
+  sighting.step.stamp = observation.scan.stamp;
+  map.empty() ? Begin(sighting) : Locate(map, sighting);
+  return sighting;
 }
 
 // The map that the first scan begins has the same error as its pose.
-void RobotTracker::Begin(const Observation& observation,
-                         std::span<const ScanPoint> points,
-                         MappingStep& step) const {
+void RobotTracker::Begin(Sighting& sighting) const {
+  MappingStep& step = sighting.step;
   // Without an initial pose the first one is the odometry's, so that both frames begin together.
+  const Pose2 T_odom_robot = sighting.observation.T_odom_robot.value_or(Pose2{});
   step.reason = "first scan";
-  step.map_robot = has_initial_pose_
-                       ? map_last_
-                       : UncertainPose2{.T_a_b = observation.T_odom_robot.value_or(Pose2{})};
+  step.map_robot = has_initial_pose_ ? map_last_ : UncertainPose2{.T_a_b = T_odom_robot};
   step.match.T_ref_cur = step.map_robot.T_a_b;
-  if (points.empty()) step.local_covariance = step.map_robot.covariance;
+  if (sighting.points.empty()) step.local_covariance = step.map_robot.covariance;
 }
 
-void RobotTracker::Locate(const ScanMap& map,
-                          const Observation& observation,
-                          std::span<const ScanPoint> points,
-                          MappingStep& step) {
+void RobotTracker::Locate(const ScanMap& map, Sighting& sighting) const {
+  const Observation& observation = sighting.observation;
+  const std::span<const ScanPoint> points = sighting.points;
+  MappingStep& step = sighting.step;
   const double share = lasers_.ShareOfPeriod(observation.scan);
-  PosePrediction last_robot =
-      stands_at_initial_pose_ ? Unmoved() : motion_.Predict(observation.T_odom_robot, share);
+  PosePrediction last_robot = stands_at_initial_pose_
+                                  ? PosePrediction::Unmoved()
+                                  : motion_.Predict(observation.T_odom_robot, share);
   // No robot drives out of all maps: its odometry has failed.
-  if (!IsPosition((map_last_ * last_robot.conservative).T_a_b)) last_robot = Unmoved();
+  if (!IsPosition((map_last_ * last_robot.conservative).T_a_b))
+    last_robot = PosePrediction::Unmoved();
   const UncertainPose2 predicted = local_last_ * last_robot.conservative;
   step.match = LocateNear(map, observation, points, predicted);
-  if (DropFailedOdometry(map, observation, points, last_robot, step)) dead_reckoning_.Clear();
-  const bool was_held_back = CatchUpWithOdometry(map, points, last_robot.adapted, step);
+  sighting.dropped_odometry = DropFailedOdometry(map, observation, points, last_robot, step);
+  const bool was_held_back =
+      !sighting.dropped_odometry && CatchUpWithOdometry(map, points, last_robot.adapted, step);
   step.odometry_motion = last_robot.adapted;
   step.map_robot = map_last_ * last_robot.conservative;
   step.local_covariance = (local_last_ * last_robot.conservative).covariance;
@@ -186,11 +180,27 @@ void RobotTracker::Locate(const ScanMap& map,
   Judge(map, points, (last_in_map * last_robot.conservative).covariance, step);
   if (was_held_back) {
     step.reason = "held back before: where odometry has it";
-    LeavePath(step);
-  } else if (step.status == StepStatus::kMatched) {
-    motion_.Adapt(local_last_ * last_robot.adapted, step.match, observation.T_odom_robot, share);
+    step.closed_loop = true;
   }
-  dead_reckoning_.Follow(last_robot.adapted,
+  sighting.last_robot = last_robot;
+}
+
+// What a scan tells of the motion before it. The first one tells nothing.
+void RobotTracker::LearnMotion(const Sighting& sighting) {
+  if (!sighting.last_robot) return;
+  const MappingStep& step = sighting.step;
+  const UncertainPose2& last_robot = sighting.last_robot->adapted;
+  const Observation& observation = sighting.observation;
+  if (sighting.dropped_odometry) dead_reckoning_.Clear();
+  if (step.closed_loop) {
+    LeavePath();
+  } else if (step.status == StepStatus::kMatched) {
+    motion_.Adapt(local_last_ * last_robot,
+                  step.match,
+                  observation.T_odom_robot,
+                  lasers_.ShareOfPeriod(observation.scan));
+  }
+  dead_reckoning_.Follow(last_robot,
                          {.T_a_b = step.map_robot.T_a_b, .covariance = step.local_covariance});
 }
 
@@ -317,12 +327,12 @@ void RobotTracker::CloseLoop(const ScanMap& map,
   step.map_robot.T_a_b = closed->T_ref_cur;
   step.map_robot.covariance = closed->covariance;
   step.local_covariance = closed->covariance;
-  LeavePath(step);
+  step.closed_loop = true;
+  LeavePath();
 }
 
 // What was seen before was seen from another path.
-void RobotTracker::LeavePath(MappingStep& step) {
-  step.closed_loop = true;
+void RobotTracker::LeavePath() {
   submap_.Clear();
   seen_free_.Clear();
   dead_reckoning_.Clear();

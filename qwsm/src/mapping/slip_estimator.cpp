@@ -25,6 +25,10 @@ Pose2 MotionIn(std::chrono::nanoseconds time, const Eigen::Vector3d& velocity) {
   return {moved.x(), moved.y(), moved.z()};
 }
 
+std::chrono::nanoseconds SweepOf(const LaserScan& scan) {
+  return std::max(scan.sweep, scan.deskewed_sweep);
+}
+
 // A pose as seen from another one, by its numbers.
 Eigen::Vector3d Missed(const Pose2& found, const Pose2& told) {
   return {
@@ -33,41 +37,40 @@ Eigen::Vector3d Missed(const Pose2& found, const Pose2& told) {
 
 }  // namespace
 
-Observation SlipEstimator::Mended(Observation observation) const {
-  LaserScan& scan = observation.scan;
-  const bool is_skewed = scan.sweep.count() > 0 && !observation.T_odom_robot;
-  if (!is_skewed && scan.deskewed_sweep.count() <= 0) return observation;
-  const std::chrono::nanoseconds sweep = is_skewed ? scan.sweep : scan.deskewed_sweep;
-  scan = Deskewed(scan, MotionIn(sweep, UntoldOf(observation).mean));
-  return observation;
+StillScan SlipEstimator::Mended(const Observation& observation) const {
+  const LaserScan& scan = observation.scan;
+  const bool could_be_still = scan.sweep.count() <= 0 || observation.T_odom_robot;
+  if (scan.deskewed_sweep.count() <= 0 && could_be_still) return {.scan = scan};
+  const Eigen::Vector3d velocity = UntoldOf(observation).mean;
+  return {.scan = Deskewed(scan, MotionIn(SweepOf(scan), velocity)), .velocity = velocity};
 }
 
 // A scan fits the map as it was taken in the middle of its sweep, whatever its beams were moved by:
 // the pose at the first beam follows by the velocity that was believed, which is not to confirm
-// itself. What is believed beside odometry is too small to matter.
+// itself.
 std::optional<SlipEstimator::Look> SlipEstimator::LookOf(const Observation& observation,
-                                                         const MappingStep& step) const {
+                                                         const Eigen::Vector3d& velocity,
+                                                         const MappingStep& step) {
   const bool is_matched =
       step.status == StepStatus::kMatched || step.status == StepStatus::kExtended;
   if (!is_matched) return std::nullopt;
-  Pose2 T_map_robot = step.map_robot.T_a_b;
+  const Pose2 T_map_robot = step.map_robot.T_a_b;
   Eigen::Matrix3d R_robot_map = Eigen::Matrix3d::Identity();
   R_robot_map.topLeftCorner<2, 2>() = T_map_robot.Rotation().transpose();
-  if (!observation.T_odom_robot) {
-    T_map_robot = T_map_robot * MotionIn(observation.scan.deskewed_sweep / 2, velocity_.mean);
-  }
   return Look{
       .stamp = observation.scan.stamp,
-      .T_map_robot = T_map_robot,
+      .T_map_robot = T_map_robot * MotionIn(SweepOf(observation.scan) / 2, velocity),
       .T_odom_robot = observation.T_odom_robot,
       .gyro_rad = observation.gyro_rad,
       .variances = (R_robot_map * step.local_covariance * R_robot_map.transpose()).diagonal()};
 }
 
-void SlipEstimator::Learn(const Observation& observation, const MappingStep& step) {
-  if (observation.scan.deskewed_sweep.count() <= 0) return;
+void SlipEstimator::Learn(const Observation& observation,
+                          const std::optional<Eigen::Vector3d>& velocity,
+                          const MappingStep& step) {
+  if (!velocity) return;
   if (step.closed_loop) Interrupt();
-  const std::optional<Look> before = std::exchange(last_, LookOf(observation, step));
+  const std::optional<Look> before = std::exchange(last_, LookOf(observation, *velocity, step));
   if (!before || !last_) return;
   const double elapsed_s = SecondsIn(last_->stamp - before->stamp);
   if (elapsed_s > 0.0 && elapsed_s <= kSteadyFor_s) Learn(*before, *last_, elapsed_s);

@@ -3,6 +3,7 @@
 #include "service/team/service/contested_tracker.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace qwsm::team {
 namespace {
@@ -64,13 +65,11 @@ std::optional<Pose2> ContestedTracker::Mount(LaserScan& scan,
 
 ContestedTracker::Tracked ContestedTracker::Track(const ScanMap& map,
                                                   const Observation& observation,
-                                                  std::span<const ScanPoint> points,
                                                   const std::optional<Pose2>& claimed) {
-  Tracked tracked;
   const bool is_new = Contest(claimed, observation.scan.geometry.T_robot_laser);
-  tracked.step = tracker_.Track(map, observation, points);
-  const Verdict verdict =
-      trial_ ? Hear(map, observation, points, tracked.step) : Verdict::kRivalFails;
+  TrackedScan scan = tracker_.Track(map, observation);
+  Tracked tracked{.step = std::move(scan.step), .points = std::move(scan.points)};
+  const Verdict verdict = trial_ ? Hear(map, observation, tracked.step) : Verdict::kRivalFails;
   const bool is_place_open = trial_ && !claimed_ && verdict == Verdict::kOpen;
   if (is_place_open) tracked.step.relevant = false;
   if (trial_ && verdict != Verdict::kOpen) {
@@ -98,18 +97,18 @@ bool ContestedTracker::Contest(const std::optional<Pose2>& claimed, const Pose2&
 
 TrackingTrial::Verdict ContestedTracker::Hear(const ScanMap& map,
                                               const Observation& observation,
-                                              std::span<const ScanPoint> points,
                                               const MappingStep& step) {
   const bool is_contested = claimed_ && observation.scan.geometry.T_robot_laser == T_robot_laser_;
-  if (!is_contested) return trial_->Hear(map, {observation, points}, step);
+  if (!is_contested) return trial_->Hear(map, observation, step);
   Observation as_claimed = observation;
   as_claimed.scan.geometry.T_robot_laser = *claimed_;
-  return trial_->Hear(map, {as_claimed, ToPoints(as_claimed.scan)}, step);
+  return trial_->Hear(map, as_claimed, step);
 }
 
 ContestedTracker::News ContestedTracker::Settle(bool is_rival_right, Tracked& tracked) {
   if (is_rival_right) {
-    tracked.step = trial_->rival_step();
+    tracked.step = trial_->of_rival().step;
+    tracked.points = trial_->of_rival().points;
     tracked.relevant = trial_->held_by_rival();
     tracker_ = trial_->rival();
   } else if (claimed_) {

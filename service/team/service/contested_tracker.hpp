@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "service/team/service/tracking_trial.hpp"
@@ -29,7 +28,8 @@ class ContestedTracker {
 
   struct Tracked {
     MappingStep step;
-    std::vector<TeamScan> relevant;  ///< Scans to extend the map with; they have no keys yet.
+    std::vector<ScanPoint> points;     ///< Of the scan, as RobotTracker gives them.
+    std::vector<TeamScan> relevant{};  ///< Scans to extend the map with; they have no keys yet.
     News news = News::kNone;
   };
 
@@ -51,7 +51,6 @@ class ContestedTracker {
   /// Finds where the robot is. @param claimed what Mount() returned.
   Tracked Track(const ScanMap& map,
                 const Observation& observation,
-                std::span<const ScanPoint> points,
                 const std::optional<Pose2>& claimed);
 
   const UncertainPose2& map_robot() const { return tracker_.map_robot(); }
@@ -69,7 +68,6 @@ class ContestedTracker {
   bool Contest(const std::optional<Pose2>& claimed, const Pose2& T_robot_laser);
   TrackingTrial::Verdict Hear(const ScanMap& map,
                               const Observation& observation,
-                              std::span<const ScanPoint> points,
                               const MappingStep& step);
   News Settle(bool is_rival_right, Tracked& tracked);
 

@@ -57,27 +57,18 @@ void RobotSession::RunOne() {
   const std::optional<Pose2> claimed =
       tracker_.Mount(work->scan, work->T_robot_sensor_claimed, is_placed_);
   HideTeammates(*work);
-  work->scan = slip_
-                   .Mended({.scan = std::move(work->scan),
-                            .T_odom_robot = work->T_odom_robot,
-                            .gyro_rad = work->gyro_rad})
-                   .scan;
-  const std::vector<ScanPoint> points = ToPoints(work->scan);
-  Answer(*work, points, claimed);
+  Answer(*work, claimed);
 }
 
-void RobotSession::Answer(Work& work,
-                          std::span<const ScanPoint> points,
-                          const std::optional<Pose2>& claimed_mounting) {
+void RobotSession::Answer(Work& work, const std::optional<Pose2>& claimed_mounting) {
   const auto begun = steady_clock::now();
   const Observation observation{
       .scan = std::move(work.scan), .T_odom_robot = work.T_odom_robot, .gyro_rad = work.gyro_rad};
   work.scan.stamp = observation.scan.stamp;
   is_placed_ = is_placed_ && !work.was_elsewhere;
-  ContestedTracker::Tracked tracked = Track(work, observation, points, claimed_mounting);
+  ContestedTracker::Tracked tracked = Track(work, observation, claimed_mounting);
   const auto answered = steady_clock::now();
   const MappingStep& step = tracked.step;
-  slip_.Learn(observation, step);
   TellNews(tracked.news);
   const SessionCounts counts = Note(work, tracked, answered - begun);
   component_.map->robots().Report(name(), step.map_robot.T_a_b.translation_m(), answered);
@@ -91,14 +82,13 @@ void RobotSession::Answer(Work& work,
                            .scans = counts.scans,
                            .dropped = counts.dropped};
   context_.sinks.Tell(&TeamSink::TakeAnswer, answer);
-  TellWhatIsSeen(step, points);
+  TellWhatIsSeen(step, tracked.points);
   Extend(tracked);
   context_.report(answer);
 }
 
 ContestedTracker::Tracked RobotSession::Track(const Work& work,
                                               const Observation& observation,
-                                              std::span<const ScanPoint> points,
                                               const std::optional<Pose2>& claimed_mounting) {
   {
     TeamMap::State::View contents = FollowCorrections();
@@ -109,21 +99,19 @@ ContestedTracker::Tracked RobotSession::Track(const Work& work,
     const bool may_be_new = work.odometry_goes_on && work.is_interrupted;
     if (work.odometry_jumped || may_be_new) tracker_.SuspectOdometryReset();
     ContestedTracker::Tracked tracked =
-        tracker_.Track(contents->map, observation, points, claimed_mounting);
-    if (!IsLost(contents->map, points, tracked)) return tracked;
+        tracker_.Track(contents->map, observation, claimed_mounting);
+    if (!IsLost(contents->map, tracked)) return tracked;
   }
   LoseIt();
-  return tracker_.Track(component_.map->Read()->map, observation, points, claimed_mounting);
+  return tracker_.Track(component_.map->Read()->map, observation, claimed_mounting);
 }
 
 // What is seen in doubt does not extend the map: it would speak for the place that is in doubt, and
 // stay there. Nor is it told as a match.
-bool RobotSession::IsLost(const ScanMap& map,
-                          std::span<const ScanPoint> points,
-                          ContestedTracker::Tracked& tracked) {
+bool RobotSession::IsLost(const ScanMap& map, ContestedTracker::Tracked& tracked) {
   if (tracker_.is_place_contested() || !IsWatched(map)) return false;
   const PlaceDoubt doubt =
-      watch_.Look(map, points, tracked.step, [this](ScanId scan) { return Counts(scan); });
+      watch_.Look(map, tracked.points, tracked.step, [this](ScanId scan) { return Counts(scan); });
   if (doubt == PlaceDoubt::kNone) return false;
   if (tracked.step.status == StepStatus::kMatched) tracked.step.status = StepStatus::kExtended;
   tracked.step.reason = "the map contradicts it";
@@ -167,7 +155,6 @@ TeamMap::State::View RobotSession::FollowCorrections() {
   const MapVersion before = std::exchange(version_, now);
   if (before == now) return contents;
   before.map == now.map ? watch_.FollowCorrection() : watch_.BeginInAnotherMap();
-  slip_.Interrupt();
   if (!last_relevant_) return contents;
   const std::optional<ScanId> last = component_.map->Find(*last_relevant_);
   if (!last) {  // Another service has answered the robot since, elsewhere.
@@ -255,7 +242,6 @@ void RobotSession::Place() {
   if (initial_pose || !is_placed_) {
     easing_.Forget();
     watch_.BeginAnew();
-    slip_.Interrupt();
   }
   if (initial_pose) {
     TakeUp(*initial_pose);
@@ -309,7 +295,6 @@ void RobotSession::LoseIt() {
 
 void RobotSession::BeginAnewAt(const UncertainPose2& map_robot) {
   watch_.BeginInAnotherMap();
-  slip_.Interrupt();
   version_ = component_.map->version();
   last_relevant_.reset();
   nodes_ = {};

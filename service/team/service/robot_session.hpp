@@ -11,7 +11,6 @@
 
 #include "qwsm/correction/node_maker.hpp"
 #include "qwsm/mapping/place_watch.hpp"
-#include "qwsm/mapping/slip_estimator.hpp"
 #include "service/team/atlas/map_merger.hpp"
 #include "service/team/atlas/team_atlas.hpp"
 #include "service/team/map/moving_bodies.hpp"
@@ -70,15 +69,10 @@ class RobotSession final : public Lane {
 
   ContestedTracker::Tracked Track(const Work& work,
                                   const Observation& observation,
-                                  std::span<const ScanPoint> points,
                                   const std::optional<Pose2>& claimed_mounting);
-  void Answer(Work& work,
-              std::span<const ScanPoint> points,
-              const std::optional<Pose2>& claimed_mounting);
+  void Answer(Work& work, const std::optional<Pose2>& claimed_mounting);
   TeamMap::State::View FollowCorrections();
-  bool IsLost(const ScanMap& map,
-              std::span<const ScanPoint> points,
-              ContestedTracker::Tracked& tracked);
+  bool IsLost(const ScanMap& map, ContestedTracker::Tracked& tracked);
   bool IsWatched(const ScanMap& map) const;
   bool Counts(ScanId scan) const;
   MappingStep AsTold(MappingStep step) const;
@@ -110,7 +104,6 @@ class RobotSession final : public Lane {
   ContestedTracker tracker_;
   PlaceWatch watch_;
   MovingBodies bodies_;
-  SlipEstimator slip_;
   NodeMaker nodes_;
   CorrectionEasing easing_;
   MapComponent component_;  // That the tracker's poses are in.

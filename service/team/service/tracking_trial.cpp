@@ -45,12 +45,12 @@ void TrackingTrial::FollowCorrection(const Pose2& T_new_old) {
 }
 
 TrackingTrial::Verdict TrackingTrial::Hear(const ScanMap& map,
-                                           const Account& of_rival,
+                                           const Observation& observation,
                                            const MappingStep& step) {
-  rival_step_ = rival_.Track(map, of_rival.observation, of_rival.points);
+  of_rival_ = rival_.Track(map, observation);
   AddRelevant(step, held_);
-  AddRelevant(rival_step_, held_by_rival_);
-  evidence_points_ += EvidenceOf(of_rival.points.size(), step);
+  AddRelevant(of_rival_.step, held_by_rival_);
+  evidence_points_ += EvidenceOf(step);
   const double whole_scan = rival_.options().locator.search.independent_points;
   if (evidence_points_ > whole_scan) return Verdict::kRivalTakesOver;
   const bool is_decided = evidence_points_ < -whole_scan || IsSamePlace(step) ||
@@ -58,10 +58,10 @@ TrackingTrial::Verdict TrackingTrial::Hear(const ScanMap& map,
   return is_decided ? Verdict::kRivalFails : Verdict::kOpen;
 }
 
-double TrackingTrial::EvidenceOf(std::size_t points, const MappingStep& step) const {
+double TrackingTrial::EvidenceOf(const MappingStep& step) const {
   const auto most = static_cast<std::size_t>(rival_.options().locator.search.independent_points);
-  const auto independent = static_cast<double>(std::min(points, most));
-  const double by_rival = ExplainedShare(rival_step_);
+  const auto independent = static_cast<double>(std::min(of_rival_.points.size(), most));
+  const double by_rival = ExplainedShare(of_rival_.step);
   if (by_rival < kStillExplained * overlap_) return -independent * (overlap_ - by_rival);
   const double more = by_rival - ExplainedShare(step);
   return independent * std::max(std::min(more, 0.0), more - kFlattery * by_rival);
@@ -69,9 +69,9 @@ double TrackingTrial::EvidenceOf(std::size_t points, const MappingStep& step) co
 
 // To within what a search is sure of, for the robot and for what is a metre away from it.
 bool TrackingTrial::IsSamePlace(const MappingStep& step) const {
-  if (ExplainedShare(step) == 0.0 || ExplainedShare(rival_step_) == 0.0) return false;
+  if (ExplainedShare(step) == 0.0 || ExplainedShare(of_rival_.step) == 0.0) return false;
   const double sure_m = 3.0 * rival_.options().locator.search_error_m;
-  const Pose2 apart = step.map_robot.T_a_b.Inverse() * rival_step_.map_robot.T_a_b;
+  const Pose2 apart = step.map_robot.T_a_b.Inverse() * of_rival_.step.map_robot.T_a_b;
   return apart.translation_m().norm() < sure_m && std::abs(apart.theta_rad) < sure_m;
 }
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -22,12 +21,6 @@ class TrackingTrial {
  public:
   enum class Verdict { kOpen, kRivalFails, kRivalTakesOver };
 
-  /// A scan and what a tracker makes of it.
-  struct Account {
-    const Observation& observation;
-    std::span<const ScanPoint> points;
-  };
-
   /// Begins a trial of a rival.
   /// @param overlap of the robot's last match, before anything was said.
   TrackingTrial(RobotTracker rival, double overlap) : rival_(std::move(rival)), overlap_(overlap) {}
@@ -41,13 +34,13 @@ class TrackingTrial {
   void BeginAnew();
 
   /// Weighs the next scan.
-  /// @param of_rival the scan as the rival sees it.
+  /// @param observation as the rival sees it.
   /// @param step what the other tracker made of it.
-  Verdict Hear(const ScanMap& map, const Account& of_rival, const MappingStep& step);
+  Verdict Hear(const ScanMap& map, const Observation& observation, const MappingStep& step);
 
   const RobotTracker& rival() const { return rival_; }
   /// What the rival made of the last scan.
-  const MappingStep& rival_step() const { return rival_step_; }
+  const TrackedScan& of_rival() const { return of_rival_; }
 
   /// The relevant scans since the trial began, by which the map is to be extended after it; they
   /// have no keys yet.
@@ -55,12 +48,12 @@ class TrackingTrial {
   const std::vector<TeamScan>& held_by_rival() const { return held_by_rival_; }
 
  private:
-  double EvidenceOf(std::size_t points, const MappingStep& step) const;
+  double EvidenceOf(const MappingStep& step) const;
   bool IsSamePlace(const MappingStep& step) const;
 
   RobotTracker rival_;
   double overlap_;
-  MappingStep rival_step_;
+  TrackedScan of_rival_;
   // Evidence for the rival, in points; negative: for the other tracker.
   double evidence_points_ = 0.0;
   std::vector<TeamScan> held_;

@@ -7,7 +7,6 @@
 #include "qwsm/mapping/lost_robot.hpp"
 #include "qwsm/mapping/place_watch.hpp"
 #include "qwsm/mapping/robot_tracker.hpp"
-#include "qwsm/mapping/slip_estimator.hpp"
 
 namespace qwsm {
 
@@ -44,7 +43,6 @@ class Localizer {
   MapperOptions options_;
   ScanMap map_;
   RobotTracker tracker_;
-  SlipEstimator slip_;
   std::optional<LostRobot> lost_;
   PlaceBelief found_;  // By which it was found last.
   PlaceWatch watch_;

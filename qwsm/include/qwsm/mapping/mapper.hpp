@@ -7,7 +7,6 @@
 #include "qwsm/mapping/observation.hpp"
 #include "qwsm/mapping/robot_tracker.hpp"
 #include "qwsm/mapping/scan_map.hpp"
-#include "qwsm/mapping/slip_estimator.hpp"
 
 namespace qwsm {
 
@@ -45,7 +44,6 @@ class Mapper {
  private:
   RobotTracker tracker_;
   ScanMap map_;
-  SlipEstimator slip_;
 };
 
 }  // namespace qwsm

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "qwsm/mapping/dead_reckoning.hpp"
 #include "qwsm/mapping/free_space.hpp"
@@ -17,8 +18,15 @@
 #include "qwsm/mapping/observation.hpp"
 #include "qwsm/mapping/scan_locator.hpp"
 #include "qwsm/mapping/scan_map.hpp"
+#include "qwsm/mapping/slip_estimator.hpp"
 
 namespace qwsm {
+
+/// A scan, and where it was found to be taken.
+struct TrackedScan {
+  MappingStep step;
+  std::vector<ScanPoint> points;  ///< Of the scan as if the robot had stood while it was taken.
+};
 
 /// Follows one robot through a map that it does not own: several robots may share it, each with a
 /// tracker of its own. The map is only read, so that trackers may work in parallel; to extend it
@@ -26,6 +34,9 @@ namespace qwsm {
 ///
 /// Of a robot with several lasers, each scan is one more look at where it is, from where its laser
 /// sits and at its own time; each laser extends the map with what it sees.
+///
+/// A scan whose beams have times is matched twice: the first match tells how the robot moved while
+/// it was taken beside what odometry tells, and by that its beams are moved to one place anew.
 class RobotTracker {
  public:
   explicit RobotTracker(const MapperOptions& options = {});
@@ -43,27 +54,33 @@ class RobotTracker {
   /// @param map_robot pose at the last scan in the corrected map.
   void FollowCorrection(const UncertainPose2& map_robot);
 
-  /// Finds where the robot is. If the step is relevant, the map ought to be extended with the scan.
-  /// @param points the scan's points, as ToPoints() gives them.
-  MappingStep Track(const ScanMap& map,
-                    const Observation& observation,
-                    std::span<const ScanPoint> points);
+  /// Finds where the robot is. If the step is relevant, the map ought to be extended with its scan.
+  TrackedScan Track(const ScanMap& map, const Observation& observation);
 
   /// The pose at the last scan, or the one given since.
   const UncertainPose2& map_robot() const { return map_last_; }
   const MapperOptions& options() const { return options_; }
 
  private:
-  MappingStep TrackBy(const ScanMap& map,
-                      const Observation& observation,
-                      std::span<const ScanPoint> points);
-  void Begin(const Observation& observation,
-             std::span<const ScanPoint> points,
-             MappingStep& step) const;
-  void Locate(const ScanMap& map,
-              const Observation& observation,
-              std::span<const ScanPoint> points,
-              MappingStep& step);
+  /// What a scan tells of where it was taken, before anything is learned from it.
+  struct Sighting {
+    Observation observation;                    // With the scan as if the robot had stood.
+    std::optional<Eigen::Vector3d> velocity{};  // By which its beams were moved for that.
+    std::vector<ScanPoint> points{};
+    MappingStep step{};
+    std::optional<PosePrediction> last_robot{};  // Motion since the last scan, if there was one.
+    bool dropped_odometry = false;
+  };
+
+  Sighting LookTwice(const ScanMap& map,
+                     const Observation& observation,
+                     const std::optional<Pose2>& T_odom_robot) const;
+  Sighting Look(const ScanMap& map,
+                const SlipEstimator& slip,
+                const Observation& observation,
+                const std::optional<Pose2>& T_odom_robot) const;
+  void Begin(Sighting& sighting) const;
+  void Locate(const ScanMap& map, Sighting& sighting) const;
   MatchResult LocateNear(const ScanMap& map,
                          const Observation& observation,
                          std::span<const ScanPoint> points,
@@ -89,7 +106,8 @@ class RobotTracker {
                  const LaserScan& scan,
                  std::span<const ScanPoint> points,
                  MappingStep& step);
-  void LeavePath(MappingStep& step);
+  void LearnMotion(const Sighting& sighting);
+  void LeavePath();
   void Remember(const Observation& observation, const MappingStep& step, bool has_moved_on);
   void LearnTurn(const MappingStep& step);
   void Extend(bool extends,
@@ -107,6 +125,7 @@ class RobotTracker {
 
   MapperOptions options_;
   GyroOdometry gyro_;
+  SlipEstimator slip_;
   MotionModel motion_;
   ScanLocator locator_;
   DeadReckoning dead_reckoning_;

@@ -10,6 +10,14 @@
 
 namespace qwsm {
 
+/// A scan as if the robot had stood where it was at the first beam.
+struct StillScan {
+  LaserScan scan;
+  /// By which its beams were moved, in the frame of the robot: m/s, m/s, rad/s. Nothing where they
+  /// have no times, or odometry could have brought them to one place and has not.
+  std::optional<Eigen::Vector3d> velocity{};
+};
+
 /// How the robot moves while its laser scans, beside what odometry tells: wheels slip along and
 /// across their way, and tell turns badly. Scans whose beams odometry has brought to one place are
 /// mended by it; those of a robot without odometry are brought to one place by it alone.
@@ -18,13 +26,14 @@ namespace qwsm {
 /// Kalman filter for each of its three parts: it changes as a random walk.
 class SlipEstimator {
  public:
-  /// The observation with its scan as if the robot had stood where it was at the first beam. Scans
-  /// whose beams have no times, and those that odometry could have brought to one place and has
-  /// not, are left as they are.
-  Observation Mended(Observation observation) const;
+  /// Moves the beams of a scan to one place by what is known.
+  StillScan Mended(const Observation& observation) const;
 
-  /// Takes where a mended observation was found to be taken, the next one after the last.
-  void Learn(const Observation& observation, const MappingStep& step);
+  /// Takes where a scan was found to be taken, the next one after the last.
+  /// @param velocity by which its beams were moved to one place before.
+  void Learn(const Observation& observation,
+             const std::optional<Eigen::Vector3d>& velocity,
+             const MappingStep& step);
 
   /// The next pose does not go on from the last one: the map was corrected, or the robot moved.
   void Interrupt() { last_.reset(); }
@@ -38,7 +47,7 @@ class SlipEstimator {
   /// Where a scan was taken, as matched and as told.
   struct Look {
     Timestamp stamp{};
-    Pose2 T_map_robot;  // Without odometry, in the middle of the sweep.
+    Pose2 T_map_robot;  // Where it was in the middle of the sweep, but for what odometry tells.
     std::optional<Pose2> T_odom_robot;
     std::optional<double> gyro_rad;
     Eigen::Vector3d variances;  // Of the match, along the axes of the robot.
@@ -56,7 +65,9 @@ class SlipEstimator {
   const Velocity& UntoldOf(const Observation& observation) const {
     return observation.T_odom_robot ? slip_ : velocity_;
   }
-  std::optional<Look> LookOf(const Observation& observation, const MappingStep& step) const;
+  static std::optional<Look> LookOf(const Observation& observation,
+                                    const Eigen::Vector3d& velocity,
+                                    const MappingStep& step);
   void Learn(const Look& before, const Look& now, double elapsed_s);
 
   std::optional<Look> last_;  // Of the last scan, if that was matched.
