@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 namespace qwsm {
 namespace {
@@ -49,6 +50,69 @@ TEST(LikelihoodPyramid, IsTheGreatestLikelihoodOfAllPoints) {
   }
 }
 
+/// What the points give the cells of level 0, one exponential for each.
+double LikelihoodOf(const std::vector<Eigen::Vector2d>& points_m,
+                    const LikelihoodPyramid& pyramid,
+                    const LikelihoodPyramidOptions& options,
+                    GridCell cell) {
+  const int reach = static_cast<int>(std::ceil(2.5 * options.sigma_m / options.cell_size_m));
+  double greatest = 0.0;
+  for (const Eigen::Vector2d& p_m : points_m) {
+    const GridCell of_point = pyramid.CellAt(p_m);
+    if (std::abs(cell.x - of_point.x) > reach || std::abs(cell.y - of_point.y) > reach) continue;
+    const Eigen::Vector2d middle_m =
+        options.cell_size_m * Eigen::Vector2d(cell.x + 0.5, cell.y + 0.5);
+    const double sigmas2 = (middle_m - p_m).squaredNorm() / (options.sigma_m * options.sigma_m);
+    greatest = std::max(greatest, 255.0 * std::exp(-0.5 * sigmas2));
+  }
+  return greatest;
+}
+
+TEST(LikelihoodPyramid, IsTheGaussianOfTheNearestPointWhateverTheCellsAndSigmas) {
+  unsigned seed = 0;
+  for (const double cell_size_m : {0.01, 0.064, 0.5, 1.0}) {
+    for (const double sigma_m : {0.005, 0.08, 0.3}) {
+      SCOPED_TRACE(testing::Message() << ++seed << ": " << cell_size_m << " " << sigma_m);
+      std::mt19937_64 random(seed);
+      const LikelihoodPyramidOptions options{.cell_size_m = cell_size_m, .sigma_m = sigma_m};
+      LikelihoodPyramid pyramid(options);
+      std::uniform_real_distribution<double> any_cell(-20.0, 20.0);
+      std::vector<Eigen::Vector2d> points_m;
+      for (int i = 0; i < 6; ++i) {
+        points_m.emplace_back(cell_size_m * any_cell(random), cell_size_m * any_cell(random));
+        pyramid.Insert(points_m.back(), 0.01);
+      }
+      for (int x = -60; x < 60; ++x) {
+        for (int y = -60; y < 60; ++y) {
+          const double expected = LikelihoodOf(points_m, pyramid, options, {x, y});
+          EXPECT_LE(pyramid.LikelihoodAt(0, x, y), expected + 1e-6);
+          EXPECT_GT(pyramid.LikelihoodAt(0, x, y), expected - 1.0 - 1e-6);
+        }
+      }
+    }
+  }
+}
+
+TEST(LikelihoodPyramid, HigherLevelsHoldTheGreatestOfTheirCellsAndNoMore) {
+  std::mt19937_64 random(5);
+  std::vector<Eigen::Vector2d> points_m;
+  const LikelihoodPyramid pyramid = AnyPyramid(random, points_m);
+  for (int level = 1; level < LikelihoodPyramid::kLevels; ++level) {
+    const int side = 1 << LikelihoodTile::ShiftOf(level);
+    for (int x = -8 * side; x < 8 * side; x += side) {
+      for (int y = -8 * side; y < 8 * side; y += side) {
+        std::uint8_t greatest = 0;
+        for (int dx = 0; dx < 2 * side - 1; ++dx) {
+          for (int dy = 0; dy < 2 * side - 1; ++dy) {
+            greatest = std::max(greatest, pyramid.LikelihoodAt(0, x + dx, y + dy));
+          }
+        }
+        EXPECT_EQ(pyramid.LikelihoodAt(level, x, y), greatest) << level << " " << x << " " << y;
+      }
+    }
+  }
+}
+
 TEST(LikelihoodPyramid, HigherLevelsBoundWhatABeamMovedWithinThemMeets) {
   for (unsigned seed = 0; seed < 4; ++seed) {
     SCOPED_TRACE(seed);
@@ -81,6 +145,35 @@ TEST(LikelihoodPyramid, HoldsTheSmallestDrift) {
   for (int level = 0; level < LikelihoodPyramid::kLevels; ++level) {
     EXPECT_EQ(pyramid.DriftCodeAt(level, cell, pyramid.CellIndex(1.0)),
               LikelihoodPyramid::DriftCode(0.01));
+  }
+}
+
+TEST(LikelihoodPyramid, TellsTheSmallestDriftAroundACell) {
+  std::mt19937_64 random(6);
+  std::vector<Eigen::Vector2d> points_m;
+  const LikelihoodPyramid pyramid = AnyPyramid(random, points_m);
+  std::uniform_int_distribution<int> any_cell(-110, 110);
+  for (int trial = 0; trial < 300; ++trial) {
+    const GridCell center{any_cell(random), any_cell(random)};
+    for (int level = 0; level < LikelihoodPyramid::kLevels; ++level) {
+      const int side = 1 << LikelihoodTile::DriftShiftOf(level);
+      const int reach = trial % 4;
+      std::uint8_t smallest = LikelihoodPyramid::kUnmapped;
+      for (int dx = -reach; dx <= reach; ++dx) {
+        for (int dy = -reach; dy <= reach; ++dy) {
+          smallest = std::min(
+              smallest, pyramid.DriftCodeAt(level, center.x + dx * side, center.y + dy * side));
+        }
+      }
+      EXPECT_EQ(pyramid.SmallestDriftCode(level, center, reach), smallest);
+    }
+  }
+}
+
+TEST(LikelihoodPyramid, DriftCodesAreTheLogarithmRounded) {
+  for (double drift_m2 = 1e-6; drift_m2 < 1e6; drift_m2 *= 1.0037) {
+    const double steps = 5.0 * std::log2(drift_m2 / 1e-6);
+    EXPECT_EQ(LikelihoodPyramid::DriftCode(drift_m2), std::lround(steps)) << drift_m2;
   }
 }
 

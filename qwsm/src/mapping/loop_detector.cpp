@@ -3,6 +3,7 @@
 #include "qwsm/mapping/loop_detector.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -50,23 +51,42 @@ struct Revisit {
   double mean_drift_m2 = 0.0;  // Of these surfaces.
 };
 
-// The smallest drift of what is mapped within reach of a position.
-std::uint8_t SmallestDriftAround(const LikelihoodPyramid& map,
-                                 const Eigen::Vector2d& p_map,
-                                 double reach_m) {
-  constexpr int kLevel = LikelihoodPyramid::kLevels - 1;
-  constexpr int kStride = 1 << LikelihoodTile::DriftShiftOf(kLevel);
-  const double cells = reach_m / (kStride * map.cell_size_m());
-  const int reach = kStride * std::max(1, static_cast<int>(std::lround(cells)));
-  const GridCell center = map.CellAt(p_map);
-  std::uint8_t smallest = LikelihoodPyramid::kUnmapped;
-  for (int dy = -reach; dy <= reach; dy += kStride) {
-    for (int dx = -reach; dx <= reach; dx += kStride) {
-      smallest = std::min(smallest, map.DriftCodeAt(kLevel, center.x + dx, center.y + dy));
-    }
+// The smallest drift of what is mapped within reach of positions. Many of them lie in one cell: what
+// was found for it is kept.
+class DriftAround {
+ public:
+  DriftAround(const LikelihoodPyramid& map, double reach_m) : map_(map) {
+    const double cells = reach_m / ((1 << kShift) * map.cell_size_m());
+    reach_ = std::max(1, static_cast<int>(std::lround(cells)));
   }
-  return smallest;
-}
+
+  std::uint8_t Smallest(const Eigen::Vector2d& p_map) {
+    const GridCell finest = map_.CellAt(p_map);
+    const GridCell cell{finest.x >> kShift, finest.y >> kShift};
+    const int place = (cell.y & kMask) * (kMask + 1) + (cell.x & kMask);
+    Known& known = known_[static_cast<std::size_t>(place)];
+    if (!known.is_known || known.cell != cell) {
+      known = {.cell = cell,
+               .is_known = true,
+               .code = map_.SmallestDriftCode(kLevel, finest, reach_)};
+    }
+    return known.code;
+  }
+
+ private:
+  static constexpr int kLevel = LikelihoodPyramid::kLevels - 1;
+  static constexpr int kShift = LikelihoodTile::DriftShiftOf(kLevel);
+  static constexpr int kMask = 7;
+  struct Known {
+    GridCell cell;
+    bool is_known = false;
+    std::uint8_t code = 0;
+  };
+
+  const LikelihoodPyramid& map_;
+  int reach_;
+  std::array<Known, (kMask + 1) * (kMask + 1)> known_{};
+};
 
 // @param reach_m how far the points may be off.
 // @param max_drift_m2 surfaces that drifted more do not count.
@@ -77,10 +97,11 @@ Revisit RevisitOf(const LikelihoodPyramid& map,
                   double max_drift_m2) {
   const std::uint8_t max_code = LikelihoodPyramid::DriftCode(max_drift_m2);
   const RigidTransform2 to_map(T_map_robot);
+  DriftAround drift(map, reach_m);
   Revisit revisit;
   int count = 0;
   for (const ScanPoint& point : submap) {
-    const std::uint8_t code = SmallestDriftAround(map, to_map * point.p_robot_m, reach_m);
+    const std::uint8_t code = drift.Smallest(to_map * point.p_robot_m);
     if (code > max_code) continue;
     ++count;
     revisit.mean_drift_m2 += LikelihoodPyramid::DriftOf(code);

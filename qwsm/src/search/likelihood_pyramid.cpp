@@ -3,18 +3,25 @@
 #include "qwsm/search/likelihood_pyramid.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
-#include <span>
+#include <cstring>
 
 namespace qwsm {
 namespace {
 
 using Tile = LikelihoodTile;
 
-constexpr double kReachSigmas = 2.5;   // Beyond, the likelihood is not worth storing.
-constexpr std::uint8_t kOnPoint = 60;  // A cell counts as mapped by a point from here on.
 constexpr double kSmallestDrift_m2 = 1e-6;
-constexpr double kDriftStepsPerOctave = 5.0;
+constexpr int kDriftStepsPerOctave = 5;
+constexpr int kMostDriftCode = LikelihoodPyramid::kUnmapped - 1;
+// Of an octave, where the code rises: 2^0.1, 2^0.3 ..
+constexpr std::array<double, kDriftStepsPerOctave> kDriftSteps = {1.0717734625362931,
+                                                                  1.2311444133449163,
+                                                                  1.4142135623730951,
+                                                                  1.6245047927124711,
+                                                                  1.8660659830736148};
 
 // Of the cell, 2^shift level-0 cells wide, that holds a level-0 cell.
 int OffsetInTile(int shift, int x, int y) {
@@ -23,116 +30,136 @@ int OffsetInTile(int shift, int x, int y) {
   return row * (Tile::kSide >> shift) + column;
 }
 
-// Smallest drifts along a row of a tile, of cells 2^shift times as wide, and what they are lowered
-// to.
-struct DriftRow {
-  std::uint8_t* codes;
-  int shift;
-  std::uint8_t code;
-};
+// Sixteen bytes side by side; every processor of the last twenty years computes with such groups.
+using Sixteen = std::uint8_t __attribute__((vector_size(16)));
+static_assert(LikelihoodStamp::kPadding == sizeof(Sixteen) && Tile::kSide % sizeof(Sixteen) == 0);
 
-// Raises the likelihoods of a tile's row, from one of its columns on, to those of a point.
-// @param of_columns the point's profile from that column on.
-void RaiseRow(std::span<const double> of_columns,
-              double of_row,
-              int column,
-              std::uint8_t* likelihoods,
-              const DriftRow& drift) {
-  for (const double of_column : of_columns) {
-    const auto likelihood = static_cast<std::uint8_t>(of_row * of_column);
-    likelihoods[column] = std::max(likelihoods[column], likelihood);
-    if (likelihood >= kOnPoint) {
-      std::uint8_t& smallest = drift.codes[column >> drift.shift];
-      smallest = std::min(smallest, drift.code);
-    }
-    ++column;
-  }
+void Raise(std::uint8_t* likelihoods, const std::uint8_t* of_point) {
+  Sixteen raised;
+  Sixteen to;
+  std::memcpy(&raised, likelihoods, sizeof raised);
+  std::memcpy(&to, of_point, sizeof to);
+  raised = raised > to ? raised : to;
+  std::memcpy(likelihoods, &raised, sizeof raised);
 }
 
 }  // namespace
 
 void LikelihoodPyramid::Insert(const Eigen::Vector2d& p_m, double drift_m2) {
-  // A Gaussian is the product of its profiles along both axes, and so is its maximum in a box.
-  Fill(p_m.x(), columns_);
-  Fill(p_m.y(), rows_);
+  LayProfiles(p_m);
+  FindTilesAroundPoint();
   const std::uint8_t drift_code = DriftCode(drift_m2);
+  for (int row = around_.first.y; row <= around_.last.y; ++row) {
+    for (int column = around_.first.x; column <= around_.last.x; ++column) {
+      RaiseFinest({column, row}, drift_code);
+    }
+  }
+  static_assert(kLevels == 3);
+  RaiseCoarse<1>(drift_code);
+  RaiseCoarse<2>(drift_code);
+}
+
+// A Gaussian is the product of its profiles along both axes, and so is its maximum in a box.
+void LikelihoodPyramid::LayProfiles(const Eigen::Vector2d& p_m) {
+  columns_[0].CenterAt(p_m.x(), CellIndex(p_m.x()), fall_);
+  rows_[0].CenterAt(p_m.y(), CellIndex(p_m.y()), fall_);
+  stamp_.Make(columns_[0], rows_[0]);
+  for (int level = 1; level < kLevels; ++level) {
+    const auto i = static_cast<std::size_t>(level);
+    columns_[i].Coarsen(columns_[0], Tile::ShiftOf(level));
+    rows_[i].Coarsen(rows_[0], Tile::ShiftOf(level));
+  }
+}
+
+// Finds all tiles that hold cells to be raised, and makes those that are not there.
+void LikelihoodPyramid::FindTilesAroundPoint() {
   // In bits, so many of the coarsest cells, which reach farthest, are in a tile.
   constexpr int kBits = Tile::kBits - Tile::ShiftOf(kLevels - 1);
-  const Profile& columns = columns_.back();
-  const Profile& rows = rows_.back();
-  for (int row = rows.first >> kBits; row <= rows.last() >> kBits; ++row) {
-    for (int column = columns.first >> kBits; column <= columns.last() >> kBits; ++column) {
-      Tile& tile = TileAt(column, row);
-      for (int level = 0; level < kLevels; ++level) {
-        const int side = Tile::kSide >> Tile::ShiftOf(level);
-        Raise(tile, level, {column * side, row * side}, drift_code);
-      }
+  const GridCell first{columns_.back().first() >> kBits, rows_.back().first() >> kBits};
+  const GridCell last{columns_.back().last() >> kBits, rows_.back().last() >> kBits};
+  if (!around_.tiles.empty() && first == around_.first && last == around_.last) return;
+  around_.first = first;
+  around_.last = last;
+  around_.tiles.clear();
+  for (int row = first.y; row <= last.y; ++row) {
+    for (int column = first.x; column <= last.x; ++column) {
+      around_.tiles.push_back(TileAt(column, row));
     }
   }
 }
 
-// The profiles of a point along one axis, at all levels.
-void LikelihoodPyramid::Fill(double center_m, Profiles& profiles) const {
-  const int reach =
-      static_cast<int>(std::ceil(kReachSigmas * options_.sigma_m / options_.cell_size_m));
-  Profile& finest = profiles.front();
-  finest.first = CellIndex(center_m) - reach;
-  finest.values.clear();
-  for (int cell = finest.first; cell <= finest.first + 2 * reach; ++cell) {
-    const double sigmas = (options_.cell_size_m * (cell + 0.5) - center_m) / options_.sigma_m;
-    finest.values.push_back(std::exp(-0.5 * sigmas * sigmas));
+// Raises the finest cells of a tile to those of the point.
+void LikelihoodPyramid::RaiseFinest(GridCell at, std::uint8_t drift_code) {
+  const GridCell first{at.x * Tile::kSide, at.y * Tile::kSide};
+  const LikelihoodProfile& columns = columns_[0];
+  const int first_row = std::max(first.y, rows_[0].first());
+  const int last_row = std::min(first.y + Tile::kSide - 1, rows_[0].last());
+  const bool is_reached = first.x <= columns.last() && first.x + Tile::kSide > columns.first();
+  if (!is_reached || last_row < first_row) return;
+  Tile& tile = TileAround(at.x, at.y);
+  for (int x = first.x; x < first.x + Tile::kSide; x += LikelihoodStamp::kPadding) {
+    if (x > columns.last() || x + LikelihoodStamp::kPadding <= columns.first()) continue;
+    std::uint8_t* likelihoods =
+        tile.likelihoods(0) + (first_row - first.y) * Tile::kSide + (x - first.x);
+    for (int row = first_row; row <= last_row; ++row, likelihoods += Tile::kSide) {
+      Raise(likelihoods, stamp_.Row(row) + (x - columns.first()));
+    }
   }
-  for (int level = 1; level < kLevels; ++level) {
-    const auto i = static_cast<std::size_t>(level);
-    profiles[i].Coarsen(profiles[i - 1], Tile::ShiftOf(level) - Tile::ShiftOf(level - 1));
+  LowerFinestDrift(tile, first, drift_code);
+}
+
+// Lowers the drift of the finest cells of a tile that count as mapped by the point.
+// @param first the tile's first cell.
+void LikelihoodPyramid::LowerFinestDrift(Tile& tile,
+                                         GridCell first,
+                                         std::uint8_t drift_code) const {
+  constexpr int kShift = Tile::DriftShiftOf(0);
+  const int last_row = std::min(first.y + Tile::kSide - 1, stamp_.last_mapped());
+  for (int row = std::max(first.y, stamp_.first_mapped()); row <= last_row; ++row) {
+    const LikelihoodStamp::Columns mapped = stamp_.MappedOf(row);
+    std::uint8_t* codes =
+        tile.drift_codes(0) + ((row - first.y) >> kShift) * (Tile::kSide >> kShift);
+    const int last_column = std::min(mapped.last - first.x, Tile::kSide - 1) >> kShift;
+    for (int column = std::max(mapped.first - first.x, 0) >> kShift; column <= last_column;
+         ++column) {
+      codes[column] = std::min(codes[column], drift_code);
+    }
   }
 }
 
-// From the cells of a level to those of the next, s = 2^shift times as wide: c holds the maximum
-// over s c .. s c + 2 (s - 1).
-void LikelihoodPyramid::Profile::Coarsen(const Profile& fine, int shift) {
-  const int wide = 1 << shift;
-  const int reach = 2 * (wide - 1);
-  first = (fine.first - (wide - 1)) >> shift;
-  values.clear();
-  for (int c = first; c <= fine.last() >> shift; ++c) {
-    const int from = std::max(fine.first, c << shift);
-    const int to = std::min(fine.last(), (c << shift) + reach);
-    values.push_back(*std::max_element(fine.At(from), fine.At(to) + 1));
+// Raises the cells of a coarser level, of which each has a drift of its own.
+template <int kLevel>
+void LikelihoodPyramid::RaiseCoarse(std::uint8_t drift_code) {
+  constexpr int kBits = Tile::kBits - Tile::ShiftOf(kLevel);  // So many cells are in a tile.
+  constexpr int kMask = (1 << kBits) - 1;
+  static_assert(Tile::DriftShiftOf(kLevel) == Tile::ShiftOf(kLevel));
+  const LikelihoodProfile& columns = columns_[kLevel];
+  const LikelihoodProfile& rows = rows_[kLevel];
+  for (int row = rows.first(); row <= rows.last(); ++row) {
+    const double of_row = 255.0 * *rows.At(row);
+    for (int column = columns.first(); column <= columns.last(); ++column) {
+      Tile& tile = TileAround(column >> kBits, row >> kBits);
+      const int cell = ((row & kMask) << kBits) + (column & kMask);
+      const auto likelihood = static_cast<std::uint8_t>(of_row * *columns.At(column));
+      std::uint8_t& greatest = tile.likelihoods(kLevel)[cell];
+      std::uint8_t& smallest_drift = tile.drift_codes(kLevel)[cell];
+      greatest = std::max(greatest, likelihood);
+      if (likelihood >= Tile::kMapped) smallest_drift = std::min(smallest_drift, drift_code);
+    }
   }
 }
 
-// Raises the cells of a tile that the profiles cover.
-// @param first the tile's first cell of that level.
-void LikelihoodPyramid::Raise(Tile& tile,
-                              int level,
-                              GridCell first,
-                              std::uint8_t drift_code) const {
-  const int side = Tile::kSide >> Tile::ShiftOf(level);
-  const int drift_shift = Tile::DriftShiftOf(level) - Tile::ShiftOf(level);
-  const Profile& columns = columns_[static_cast<std::size_t>(level)];
-  const Profile& rows = rows_[static_cast<std::size_t>(level)];
-  const int first_x = std::max(first.x, columns.first);
-  const int last_x = std::min(first.x + side - 1, columns.last());
-  if (last_x < first_x) return;
-  const std::span<const double> of_columns(columns.At(first_x), columns.At(last_x) + 1);
-  const int last_y = std::min(first.y + side - 1, rows.last());
-  for (int y = std::max(first.y, rows.first); y <= last_y; ++y) {
-    const int row = y - first.y;
-    RaiseRow(of_columns,
-             255.0 * *rows.At(y),
-             first_x - first.x,
-             tile.likelihoods(level) + row * side,
-             {.codes = tile.drift_codes(level) + (row >> drift_shift) * (side >> drift_shift),
-              .shift = drift_shift,
-              .code = drift_code});
-  }
+// One of the tiles around the point.
+LikelihoodTile& LikelihoodPyramid::TileAround(int column, int row) {
+  const int width = around_.last.x - around_.first.x + 1;
+  const int i = (row - around_.first.y) * width + (column - around_.first.x);
+  return tiles_[around_.tiles[static_cast<std::size_t>(i)]];
 }
 
-LikelihoodTile& LikelihoodPyramid::TileAt(int column, int row) {
+std::uint32_t LikelihoodPyramid::TileAt(int column, int row) {
   std::uint32_t& tile = directory_[Key(column, row)].At(column, row);
   if (tile == Block::kNone) tile = tiles_.Add({});
-  return tiles_[tile];
+  return tile;
 }
 
 const LikelihoodTile* LikelihoodPyramid::FindTile(int column, int row) const {
@@ -176,13 +203,49 @@ std::uint8_t LikelihoodPyramid::DriftCodeAt(int level, int x, int y) const {
   return tile->drift_codes(level)[OffsetInTile(Tile::DriftShiftOf(level), x, y)];
 }
 
+std::uint8_t LikelihoodPyramid::SmallestDriftCode(int level, GridCell center, int reach) const {
+  const int shift = Tile::DriftShiftOf(level);
+  const int bits = Tile::kBits - shift;  // So many cells are in a tile.
+  const int mask = (1 << bits) - 1;
+  const GridCell low{(center.x >> shift) - reach, (center.y >> shift) - reach};
+  const GridCell high{low.x + 2 * reach, low.y + 2 * reach};
+  std::uint8_t smallest = kUnmapped;
+  for (int row = low.y >> bits; row <= high.y >> bits; ++row) {
+    for (int column = low.x >> bits; column <= high.x >> bits; ++column) {
+      const Tile* tile = FindTile(column, row);
+      if (tile == nullptr) continue;
+      const std::uint8_t* codes = tile->drift_codes(level);
+      const int first_x = std::max(low.x - (column << bits), 0);
+      const int last_x = std::min(high.x - (column << bits), mask);
+      const int last_y = std::min(high.y - (row << bits), mask);
+      for (int y = std::max(low.y - (row << bits), 0); y <= last_y; ++y) {
+        for (int x = first_x; x <= last_x; ++x) {
+          smallest = std::min(smallest, codes[(y << bits) + x]);
+        }
+      }
+    }
+  }
+  return smallest;
+}
+
+// The logarithm needs no more than the exponent of the number, and between which of the steps of an
+// octave the rest of it lies.
 std::uint8_t LikelihoodPyramid::DriftCode(double drift_m2) {
-  const double octaves = std::log2(std::max(drift_m2, kSmallestDrift_m2) / kSmallestDrift_m2);
-  return static_cast<std::uint8_t>(std::min(254.0, std::round(kDriftStepsPerOctave * octaves)));
+  constexpr int kMantissaBits = 52;
+  constexpr int kBias = 1023;
+  const double ratio = std::max(drift_m2, kSmallestDrift_m2) / kSmallestDrift_m2;  // At least 1.
+  const auto bits = std::bit_cast<std::uint64_t>(ratio);
+  const int octaves = static_cast<int>(bits >> kMantissaBits) - kBias;  // Of a NaN very many.
+  const std::uint64_t rest = bits & ((std::uint64_t{1} << kMantissaBits) - 1);
+  const double mantissa =
+      std::bit_cast<double>(rest | std::uint64_t{kBias} << kMantissaBits);  // 1 .. 2
+  int code = kDriftStepsPerOctave * octaves;
+  for (const double step : kDriftSteps) code += mantissa >= step ? 1 : 0;
+  return static_cast<std::uint8_t>(std::min(code, kMostDriftCode));
 }
 
 double LikelihoodPyramid::DriftOf(std::uint8_t drift_code) {
-  return kSmallestDrift_m2 * std::exp2(drift_code / kDriftStepsPerOctave);
+  return kSmallestDrift_m2 * std::exp2(static_cast<double>(drift_code) / kDriftStepsPerOctave);
 }
 
 std::size_t LikelihoodPyramid::bytes() const {

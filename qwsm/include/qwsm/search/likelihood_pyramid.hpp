@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "qwsm/geometry/position.hpp"
+#include "qwsm/search/detail/likelihood_stamp.hpp"
 #include "qwsm/search/detail/likelihood_tile.hpp"
 #include "qwsm/search/detail/paged_pool.hpp"
 
@@ -40,6 +41,8 @@ void Describe(Visitor& visit, LikelihoodPyramidOptions& o) {
 struct GridCell {
   int x = 0;
   int y = 0;
+
+  friend bool operator==(const GridCell&, const GridCell&) = default;
 };
 
 /// How likely a beam ends in each cell, at the levels a coarse-to-fine search visits.
@@ -59,7 +62,9 @@ class LikelihoodPyramid {
   static constexpr std::uint8_t kUnmapped = Tile::kUnmapped;
 
   explicit LikelihoodPyramid(const LikelihoodPyramidOptions& options = {})
-      : options_(options), cells_per_metre_(1.0 / options.cell_size_m) {}
+      : options_(options),
+        cells_per_metre_(1.0 / options.cell_size_m),
+        fall_(options.cell_size_m, options.sigma_m) {}
 
   double cell_size_m() const { return options_.cell_size_m; }
   /// Raises the cells around a point. @pre |coordinate| < 2^30 cells, which is farther than
@@ -80,6 +85,9 @@ class LikelihoodPyramid {
   /// Drift code of the cell of `level` around the level-0 cell (x, y); kUnmapped where nothing is
   /// stored.
   std::uint8_t DriftCodeAt(int level, int x, int y) const;
+  /// The smallest drift code of the cells of a level around the one at a level-0 cell.
+  /// @param reach so many cells to each side.
+  std::uint8_t SmallestDriftCode(int level, GridCell center, int reach) const;
   /// The tile of the level-0 cells column * kSide .. column * kSide + kSide - 1, and so for rows;
   /// null where nothing is stored. Valid until the next insertion.
   const Tile* FindTile(int column, int row) const;
@@ -94,18 +102,6 @@ class LikelihoodPyramid {
   std::size_t bytes() const;
 
  private:
-  // Likelihood along one axis of consecutive cells of a level, around a point.
-  struct Profile {
-    int first = 0;
-    std::vector<double> values;
-
-    int last() const { return first + static_cast<int>(values.size()) - 1; }
-    // @pre first <= cell <= last()
-    const double* At(int cell) const { return &values[static_cast<std::size_t>(cell - first)]; }
-    void Coarsen(const Profile& fine, int shift);
-  };
-  using Profiles = std::array<Profile, Tile::kLevels>;  // By level.
-
   // Where the tiles of a square of kSide x kSide tiles are.
   class Block {
    public:
@@ -130,17 +126,33 @@ class LikelihoodPyramid {
     return std::uint64_t{static_cast<std::uint32_t>(column >> Block::kBits)} << 32 |
            static_cast<std::uint32_t>(row >> Block::kBits);
   }
-  void Fill(double center_m, Profiles& profiles) const;
-  Tile& TileAt(int column, int row);
+  // Tiles of columns and rows from the first to the last, row by row.
+  struct TileRange {
+    GridCell first;
+    GridCell last;
+    std::vector<std::uint32_t> tiles;
+  };
+
+  void LayProfiles(const Eigen::Vector2d& p_m);
+  void FindTilesAroundPoint();
+  std::uint32_t TileAt(int column, int row);
   const Tile* TileOf(const Block* block, int column, int row) const;
-  void Raise(Tile& tile, int level, GridCell first, std::uint8_t drift_code) const;
+  void RaiseFinest(GridCell at, std::uint8_t drift_code);
+  void LowerFinestDrift(Tile& tile, GridCell first, std::uint8_t drift_code) const;
+  template <int kLevel>
+  void RaiseCoarse(std::uint8_t drift_code);
+  Tile& TileAround(int column, int row);
 
   LikelihoodPyramidOptions options_;
   double cells_per_metre_;
+  LikelihoodFall fall_;
   std::unordered_map<std::uint64_t, Block> directory_;  // By Key().
   PagedPool<Tile, 4> tiles_;
-  Profiles columns_;  // Of the point being inserted; kept for their memory.
-  Profiles rows_;
+  // Of the point inserted last; kept for their memory.
+  std::array<LikelihoodProfile, kLevels> columns_;  // By level.
+  std::array<LikelihoodProfile, kLevels> rows_;
+  LikelihoodStamp stamp_;
+  TileRange around_;  // The next point is mostly near.
 };
 
 }  // namespace qwsm

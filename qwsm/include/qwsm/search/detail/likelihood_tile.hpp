@@ -14,6 +14,7 @@ class LikelihoodTile {
  public:
   static constexpr int kLevels = 3;
   static constexpr std::uint8_t kUnmapped = std::numeric_limits<std::uint8_t>::max();
+  static constexpr std::uint8_t kMapped = 60;  ///< A cell counts as mapped by a point from here on.
   static constexpr int kBits = 5;
   static constexpr int kSide = 1 << kBits;  ///< Side of a tile, in cells of level 0.
   /// A cell of a level is 2^ShiftOf(level) cells of level 0 wide.
