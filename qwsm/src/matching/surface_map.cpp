@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 
 #include "qwsm/geometry/moments.hpp"
 
@@ -43,14 +45,31 @@ SurfaceMap SurfaceMap::ForMatching(const SurfaceMapOptions& options) {
   return surfaces;
 }
 
-void SurfaceMap::Neighborhood::Add(const Eigen::Vector2d& offset_m) {
-  const Eigen::Vector2f d = offset_m.cast<float>();
-  sum_x += d.x();
-  sum_y += d.y();
-  sum_xx += d.x() * d.x();
-  sum_xy += d.x() * d.y();
-  sum_yy += d.y() * d.y();
+// Four of the sums are added to side by side.
+inline void SurfaceMap::Neighborhood::Add(const Eigen::Vector2f& offset_m) {
+  using FourSums = float __attribute__((vector_size(16)));
+  static_assert(offsetof(Neighborhood, sum_x) == 0 && offsetof(Neighborhood, sum_y) == 4 &&
+                offsetof(Neighborhood, sum_xx) == 8 && offsetof(Neighborhood, sum_xy) == 12);
+  const float x = offset_m.x();
+  const float y = offset_m.y();
+  FourSums sums;
+  std::memcpy(&sums, static_cast<const void*>(this), sizeof sums);
+  sums += FourSums{x, y, x * x, x * y};
+  std::memcpy(static_cast<void*>(this), &sums, sizeof sums);
+  sum_yy += y * y;
   ++count;
+}
+
+template <class Visit>
+void SurfaceMap::ForEachNeighbor(PointId id, Visit visit) {
+  const Eigen::Vector2d p_m = quadtree_.Position(id);
+  const Neighborhood own = neighborhoods_[id];
+  quadtree_.ForEachInRadius(
+      p_m, options_.neighborhood_radius_m, [&](PointId other, const Eigen::Vector2d& other_m) {
+        if (other == id) return;
+        Neighborhood& of_other = neighborhoods_[other];
+        if (!own.IsOpposite(of_other)) visit(of_other, (other_m - p_m).cast<float>());
+      });
 }
 
 bool SurfaceMap::Insert(const MapPoint& point, ScanId scan) {
@@ -63,23 +82,14 @@ bool SurfaceMap::Insert(const MapPoint& point, ScanId scan) {
       .own_normal_y = static_cast<std::int16_t>(std::lround(kNormalScale * point.normal_map.y())),
       .spacing_m = static_cast<float>(point.spacing_m),
       .drift_m2 = static_cast<float>(point.drift_m2)};
-  Neighborhood& own = neighborhoods_[insertion->id];
-  ForEachNeighbor(insertion->id, [&](PointId other, const Eigen::Vector2d& offset_m) {
+  Neighborhood own = neighborhoods_[insertion->id];
+  ForEachNeighbor(insertion->id, [&own](Neighborhood& other, const Eigen::Vector2f& offset_m) {
     own.Add(offset_m);
-    neighborhoods_[other].Add(-offset_m);
+    other.Add(-offset_m);
   });
+  neighborhoods_[insertion->id] = own;
   if (likelihood_) likelihood_->Insert(point.p_map_m, point.drift_m2);
   return true;
-}
-
-template <class Visit>
-void SurfaceMap::ForEachNeighbor(PointId id, Visit visit) const {
-  const Eigen::Vector2d p_m = quadtree_.Position(id);
-  const Eigen::Vector2d normal = OwnNormal(id);
-  quadtree_.ForEachInRadius(
-      p_m, options_.neighborhood_radius_m, [&](PointId other, const Eigen::Vector2d& other_m) {
-        if (other != id && !IsOnOtherSide(other, normal)) visit(other, other_m - p_m);
-      });
 }
 
 void SurfaceMap::RemoveScan(ScanId scan) {
@@ -91,7 +101,9 @@ void SurfaceMap::RemoveScan(ScanId scan) {
            .own_normal_y = own.own_normal_y,
            .spacing_m = own.spacing_m,
            .drift_m2 = own.drift_m2};
-    ForEachNeighbor(id, [&](PointId, const Eigen::Vector2d& offset_m) { own.Add(offset_m); });
+    ForEachNeighbor(id, [&own](const Neighborhood&, const Eigen::Vector2f& offset_m) {
+      own.Add(offset_m);
+    });
   }
   if (likelihood_) likelihood_ = MakeLikelihood();
 }

@@ -3,6 +3,7 @@
 #include "qwsm/search/detail/cell_quadtree.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 
 namespace qwsm::quadtree {
@@ -19,8 +20,13 @@ constexpr Cell CellOf(const Leaf& leaf, int i) {
 }
 
 int IndexOf(const Leaf& leaf, Cell cell) {
+  const auto x = static_cast<std::int32_t>(cell.x - leaf.corner.x);
+  const auto y = static_cast<std::int32_t>(cell.y - leaf.corner.y);
+  const auto is_at = [&](std::size_t i) {
+    return leaf.x[i] >> kFractionBits == x && leaf.y[i] >> kFractionBits == y;
+  };
   int i = 0;
-  while (i < leaf.count && CellOf(leaf, i) != cell) ++i;
+  while (i < leaf.count && !is_at(static_cast<std::size_t>(i))) ++i;
   return i;
 }
 
@@ -79,7 +85,7 @@ void CellQuadtree::Remove(Cell cell) {
 std::uint32_t CellQuadtree::LeafAt(Cell cell) const {
   if (!root_ || !root_square_.Contains(cell)) return kNoIndex;
   NodeRef node = root_;
-  for (Square at = {cell, root_square_.level}; node && !node.is_leaf(); --at.level) {
+  for (Square at = {cell, root_square_.level}; node.is_inner(); --at.level) {
     node = inner_[node.index()].children[at.QuarterOf(cell)];
   }
   return node ? node.index() : kNoIndex;
@@ -87,11 +93,12 @@ std::uint32_t CellQuadtree::LeafAt(Cell cell) const {
 
 CellQuadtree::Subtree CellQuadtree::SmallestHolding(Cell low, Cell high) const {
   if (!root_ || !root_square_.Contains(low) || !root_square_.Contains(high)) return root();
+  // Squares are aligned to their size, so the bits in which the cells differ tell the level.
+  const int smallest = std::bit_width((low.x ^ high.x) | (low.y ^ high.y));
   NodeRef node = root_;
   Square square{low, root_square_.level};
-  while (node && !node.is_leaf() && square.QuarterOf(low) == square.QuarterOf(high)) {
+  for (; node.is_inner() && square.level > smallest; --square.level) {
     node = inner_[node.index()].children[square.QuarterOf(low)];
-    --square.level;
   }
   return {node, square.AtLevel(square.level)};
 }
@@ -174,14 +181,12 @@ NodeRef CellQuadtree::MakeNode(const Square& square, std::uint32_t parent) {
 /// The leaf whose square holds the cell, made if there is none. @pre the root contains the cell
 std::uint32_t CellQuadtree::LeafFor(Cell cell) {
   NodeRef node = root_;
-  Square square = root_square_;
-  while (!node.is_leaf()) {
+  for (Square at = {cell, root_square_.level}; node.is_inner(); --at.level) {
     const std::uint32_t parent = node.index();
-    const unsigned quarter = square.QuarterOf(cell);
-    square = square.Quarter(quarter);
+    const unsigned quarter = at.QuarterOf(cell);
     node = inner_[parent].children[quarter];
     if (!node) {
-      node = MakeNode(square, parent);
+      node = MakeNode(at.AtLevel(at.level - 1), parent);
       inner_[parent].children[quarter] = node;
     }
   }

@@ -141,12 +141,18 @@ class SurfaceMap {
     float spacing_m = 0.0F;
     float drift_m2 = 0.0F;
 
-    void Add(const Eigen::Vector2d& offset_m);
+    void Add(const Eigen::Vector2f& offset_m);
+    // Whether these lie on opposite sides of a thin wall; see IsOnOtherSide().
+    bool IsOpposite(const Neighborhood& other) const {
+      // Such products of 16-bit numbers are exact.
+      return own_normal_x * other.own_normal_x + own_normal_y * other.own_normal_y <
+             static_cast<int>(kOpposite * kNormalScale * kNormalScale);
+    }
   };
 
-  // Calls visit(PointId, offset_m) for the other points of the same neighbourhood.
+  // Calls visit(Neighborhood&, offset_m) for the other points of the same neighbourhood.
   template <class Visit>
-  void ForEachNeighbor(PointId id, Visit visit) const;
+  void ForEachNeighbor(PointId id, Visit visit);
   double Observations(const Neighborhood& n) const;
 
   SurfaceMapOptions options_;

@@ -86,6 +86,7 @@ class NodeRef {
 
   constexpr explicit operator bool() const { return bits_ != kNone; }
   constexpr bool is_leaf() const { return (bits_ & kLeafBit) != 0; }  ///< @pre not none
+  constexpr bool is_inner() const { return (bits_ & kLeafBit) == 0; }
   constexpr std::uint32_t index() const { return bits_ & ~kLeafBit; }
 
   friend bool operator==(const NodeRef&, const NodeRef&) = default;

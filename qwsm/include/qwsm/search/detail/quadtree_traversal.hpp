@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -96,6 +97,31 @@ class Traversal {
   Ball& ball_;
 };
 
+/// Squared distances of a leaf's points from a place, computed side by side.
+class DistancesInLeaf {
+ public:
+  DistancesInLeaf(const Leaf& leaf, const UnitPoint& center) {
+    // By offsets from the leaf's corner: differences of such numbers are exact.
+    const double x = center.x - leaf.corner.x * kUnitsPerCell;
+    const double y = center.y - leaf.corner.y * kUnitsPerCell;
+    for (std::size_t first = 0; first < leaf.count; first += kAtATime) {
+      for (std::size_t i = first; i < first + kAtATime; ++i) {
+        const double dx = leaf.x[i] - x;
+        const double dy = leaf.y[i] - y;
+        distances2_[i] = dx * dx + dy * dy;
+      }
+    }
+  }
+
+  double operator[](std::size_t slot) const { return distances2_[slot]; }
+
+ private:
+  static constexpr std::size_t kAtATime = 4;
+  static_assert(kBucketSize % kAtATime == 0);
+
+  std::array<double, kBucketSize> distances2_;  // As many as there are points, and a few more.
+};
+
 /// Points not farther than a radius, for Traversal.
 template <class Visitor>
 class Disk {
@@ -107,11 +133,9 @@ class Disk {
 
   void Visit(std::uint32_t leaf_index) const {
     const Leaf& leaf = tree_.leaf(leaf_index);
-    for (int i = 0; i < leaf.count; ++i) {
-      const UnitPoint p = PositionAt(leaf, i);
-      const double dx = p.x - center_.x;
-      const double dy = p.y - center_.y;
-      if (dx * dx + dy * dy <= radius2_) visit_(leaf.id[static_cast<std::size_t>(i)], p);
+    const DistancesInLeaf distances2(leaf, center_);
+    for (std::size_t i = 0; i < leaf.count; ++i) {
+      if (distances2[i] <= radius2_) visit_(leaf.id[i], PositionAt(leaf, static_cast<int>(i)));
     }
   }
 
@@ -132,12 +156,8 @@ class CountingDisk {
 
   void Visit(std::uint32_t leaf_index) {
     const Leaf& leaf = tree_.leaf(leaf_index);
-    for (int i = 0; i < leaf.count; ++i) {
-      const UnitPoint p = PositionAt(leaf, i);
-      const double dx = p.x - center_.x;
-      const double dy = p.y - center_.y;
-      count_ += dx * dx + dy * dy <= radius2_ ? 1 : 0;
-    }
+    const DistancesInLeaf distances2(leaf, center_);
+    for (std::size_t i = 0; i < leaf.count; ++i) count_ += distances2[i] <= radius2_ ? 1 : 0;
   }
 
   int count() const { return std::min(count_, at_most_); }
