@@ -37,46 +37,39 @@ struct SurfaceLimits {
 double Squared(double value) { return value * value; }
 
 // Where points of one surface lie about one of them.
-class PointsAround {
- public:
+struct PointsAround {
+  int count = 1;  // The one itself.
+  Eigen::Vector2d sum_m = Eigen::Vector2d::Zero();
+  Eigen::Vector2d squares_m2 = Eigen::Vector2d::Zero();  // xx, yy
+  double xy_m2 = 0.0;
+
   void Add(const Eigen::Vector2d& offset_m) {
-    ++count_;
-    sum_m_ += offset_m;
-    xx_m2_ += offset_m.x() * offset_m.x();
-    xy_m2_ += offset_m.x() * offset_m.y();
-    yy_m2_ += offset_m.y() * offset_m.y();
+    ++count;
+    sum_m += offset_m;
+    squares_m2 += offset_m.cwiseProduct(offset_m);
+    xy_m2 += offset_m.x() * offset_m.y();
   }
-
-  int count() const { return count_; }
+  Eigen::Vector2d mean_m() const { return sum_m / count; }
   PrincipalAxes axes() const {
-    const double scale = 1.0 / count_;
-    const Eigen::Vector2d mean = scale * sum_m_;
-    return PrincipalAxesOf(scale * xx_m2_ - mean.x() * mean.x(),
-                           scale * xy_m2_ - mean.x() * mean.y(),
-                           scale * yy_m2_ - mean.y() * mean.y());
+    const double scale = 1.0 / count;
+    const Eigen::Vector2d mean = scale * sum_m;
+    return PrincipalAxesOf(scale * squares_m2.x() - mean.x() * mean.x(),
+                           scale * xy_m2 - mean.x() * mean.y(),
+                           scale * squares_m2.y() - mean.y() * mean.y());
   }
-
- private:
-  int count_ = 1;  // The one itself.
-  Eigen::Vector2d sum_m_ = Eigen::Vector2d::Zero();
-  double xx_m2_ = 0.0;
-  double xy_m2_ = 0.0;
-  double yy_m2_ = 0.0;
 };
 
-// Where the mean of points about one of them lies.
-class MeanAround {
- public:
-  void Add(const Eigen::Vector2d& offset_m) {
-    ++count_;
-    sum_m_ += offset_m;
+// The points of a scan, and the gaps from each to the next one.
+struct PointRow {
+  explicit PointRow(std::span<const ScanPoint> points) : p_m(PositionsOf(points)) {
+    gaps_m2.reserve(p_m.size());
+    for (std::size_t i = 1; i < p_m.size(); ++i) {
+      gaps_m2.push_back((p_m[i] - p_m[i - 1]).squaredNorm());
+    }
   }
 
-  Eigen::Vector2d mean_m() const { return sum_m_ / count_; }
-
- private:
-  int count_ = 1;  // The one itself.
-  Eigen::Vector2d sum_m_ = Eigen::Vector2d::Zero();
+  std::vector<Eigen::Vector2d> p_m;
+  std::vector<double> gaps_m2;  // Squared.
 };
 
 // What lies about a point of a scan: its surface, of which the normal is wanted, and what of it
@@ -84,50 +77,54 @@ class MeanAround {
 // behind it must not draw its neighbours' means along.
 class SurfaceAround {
  public:
-  // @param gaps_m2 from each point to the next one, squared.
-  SurfaceAround(std::span<const ScanPoint> points,
-                std::span<const double> gaps_m2,
-                std::size_t center)
-      : p_center_(points[center].p_robot_m),
-        limits_{.reach_m2 =
-                    Squared(std::max(kSurfaceReach_m, kNormalReachSpacings * points[center].arc_m)),
-                .gap_m2 = Squared(std::max(kGap_m, kGapSpacings * points[center].arc_m))},
-        close_limits_{
-            .reach_m2 = Squared(kSurfaceReach_m),
-            .gap_m2 = Squared(std::max(kGapOfMean_m, kGapOfMeanSpacings * points[center].arc_m))} {
-    bool goes_on = true;
-    is_close_ = true;
-    for (std::size_t i = center; goes_on && i > 0; --i) {
-      goes_on = Take(points[i - 1].p_robot_m, gaps_m2[i - 1]);
+  SurfaceAround(const PointRow& row, std::size_t center, double arc_m)
+      : row_(row), center_(static_cast<std::ptrdiff_t>(center)) {
+    const SurfaceLimits limits{
+        .reach_m2 = Squared(std::max(kSurfaceReach_m, kNormalReachSpacings * arc_m)),
+        .gap_m2 = Squared(std::max(kGap_m, kGapSpacings * arc_m))};
+    // Nowhere wider.
+    const SurfaceLimits close_limits{
+        .reach_m2 = Squared(kSurfaceReach_m),
+        .gap_m2 = Squared(std::max(kGapOfMean_m, kGapOfMeanSpacings * arc_m))};
+    const std::ptrdiff_t close_below = Follow<-1>(center_ - 1, close_limits, surface_);
+    close_ = surface_;
+    const std::ptrdiff_t below = Follow<-1>(close_below, limits, surface_);
+    const std::ptrdiff_t close_above = Follow<1>(center_ + 1, close_limits, surface_);
+    if (below == close_below) {
+      close_ = surface_;
+    } else {
+      for (std::ptrdiff_t i = center_ + 1; i < close_above; ++i) close_.Add(OffsetOf(i));
     }
-    goes_on = true;
-    is_close_ = true;
-    for (std::size_t i = center + 1; goes_on && i < points.size(); ++i) {
-      goes_on = Take(points[i].p_robot_m, gaps_m2[i - 1]);
-    }
+    Follow<1>(close_above, limits, surface_);
   }
 
   const PointsAround& surface() const { return surface_; }
-  const MeanAround& close() const { return close_; }
+  const PointsAround& close() const { return close_; }
 
  private:
-  // The next point on the way outwards. @return whether the surface goes on there.
-  bool Take(const Eigen::Vector2d& p, double gap_m2) {
-    const Eigen::Vector2d offset = p - p_center_;
-    const double distance_m2 = offset.squaredNorm();
-    if (!limits_.Hold(distance_m2, gap_m2)) return false;
-    surface_.Add(offset);
-    is_close_ = is_close_ && close_limits_.Hold(distance_m2, gap_m2);
-    if (is_close_) close_.Add(offset);
-    return true;
+  // Adds points on the way outwards as long as the surface goes on. @return the one after the last
+  template <int kStep>
+  std::ptrdiff_t Follow(std::ptrdiff_t from, const SurfaceLimits& limits, PointsAround& to) const {
+    PointsAround around = to;  // In registers.
+    std::ptrdiff_t i = from;
+    for (; i >= 0 && i < std::ssize(row_.p_m); i += kStep) {
+      const Eigen::Vector2d offset = OffsetOf(i);
+      const auto gap = static_cast<std::size_t>(kStep < 0 ? i : i - 1);
+      if (!limits.Hold(offset.squaredNorm(), row_.gaps_m2[gap])) break;
+      around.Add(offset);
+    }
+    to = around;
+    return i;
   }
 
-  Eigen::Vector2d p_center_;
-  SurfaceLimits limits_;
-  SurfaceLimits close_limits_;
-  bool is_close_ = true;  // All the way so far.
+  Eigen::Vector2d OffsetOf(std::ptrdiff_t i) const {
+    return row_.p_m[static_cast<std::size_t>(i)] - row_.p_m[static_cast<std::size_t>(center_)];
+  }
+
+  const PointRow& row_;
+  const std::ptrdiff_t center_;
   PointsAround surface_;
-  MeanAround close_;
+  PointsAround close_;
 };
 
 Eigen::Vector2d NormalOf(const PointsAround& neighbors) {
@@ -140,18 +137,20 @@ Eigen::Vector2d NormalOf(const PointsAround& neighbors) {
 // Distance from points[i] to the next sample of its surface. What stands in front of what its
 // neighbouring beams hit is an object no wider than a beam; the end of a wall that is seen at a
 // grazing angle is not, though its neighbours are as far away.
-double SurfaceSpacing(std::span<const ScanPoint> points, std::size_t i) {
+double SurfaceSpacing(std::span<const ScanPoint> points,
+                      std::span<const double> gaps_m2,
+                      std::size_t i) {
   const ScanPoint& p = points[i];
-  double nearest_m = std::numeric_limits<double>::infinity();
+  double nearest_m2 = std::numeric_limits<double>::infinity();
   bool is_in_front = true;
-  const auto look_at = [&](const ScanPoint& neighbor, std::size_t beams_away) {
+  const auto look_at = [&](const ScanPoint& neighbor, std::size_t beams_away, double gap_m2) {
     if (beams_away > kMaxBeamsAway) return;
-    nearest_m = std::min(nearest_m, (neighbor.p_robot_m - p.p_robot_m).norm());
+    nearest_m2 = std::min(nearest_m2, gap_m2);
     if (neighbor.range_m < p.range_m + kInFront_m) is_in_front = false;
   };
-  if (i > 0) look_at(points[i - 1], p.beam - points[i - 1].beam);
-  if (i + 1 < points.size()) look_at(points[i + 1], points[i + 1].beam - p.beam);
-  return is_in_front ? p.arc_m : std::max(p.arc_m, nearest_m);
+  if (i > 0) look_at(points[i - 1], p.beam - points[i - 1].beam, gaps_m2[i - 1]);
+  if (i + 1 < points.size()) look_at(points[i + 1], points[i + 1].beam - p.beam, gaps_m2[i]);
+  return is_in_front ? p.arc_m : std::max(p.arc_m, std::sqrt(nearest_m2));
 }
 
 // Tangent through the neighbouring beams' points, however far they are, if the surface goes
@@ -171,18 +170,8 @@ Eigen::Vector2d TowardsLaser(const Eigen::Vector2d& normal, const Eigen::Vector2
   return normal.dot(beam) > 0.0 ? Eigen::Vector2d(-normal) : normal;
 }
 
-std::vector<double> GapsBetween(std::span<const ScanPoint> points) {
-  std::vector<double> gaps_m2;
-  gaps_m2.reserve(points.size());
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    gaps_m2.push_back((points[i].p_robot_m - points[i - 1].p_robot_m).squaredNorm());
-  }
-  return gaps_m2;
-}
-
-}  // namespace
-
-std::vector<ScanPoint> ToPoints(const LaserScan& scan) {
+// All hits, as far as they tell without their neighbours.
+std::vector<ScanPoint> HitsOf(const LaserScan& scan) {
   const Pose2& T_robot_laser = scan.geometry.T_robot_laser;
   const double step_rad = static_cast<double>(scan.geometry.bearing_step_rad);
   const double first_rad = T_robot_laser.theta_rad + scan.geometry.Bearing(0);
@@ -202,12 +191,19 @@ std::vector<ScanPoint> ToPoints(const LaserScan& scan) {
                       .spacing_m = 0.0,
                       .beam = beam});
   }
-  const std::vector<double> gaps_m2 = GapsBetween(points);
+  return points;
+}
+
+}  // namespace
+
+std::vector<ScanPoint> ToPoints(const LaserScan& scan) {
+  std::vector<ScanPoint> points = HitsOf(scan);
+  const PointRow row(points);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const SurfaceAround around(points, gaps_m2, i);
-    points[i].spacing_m = SurfaceSpacing(points, i);
+    const SurfaceAround around(row, i, points[i].arc_m);
+    points[i].spacing_m = SurfaceSpacing(points, row.gaps_m2, i);
     points[i].normal_robot = TowardsLaser(
-        around.surface().count() >= 3 ? NormalOf(around.surface()) : NormalOfSparse(points, i),
+        around.surface().count >= 3 ? NormalOf(around.surface()) : NormalOfSparse(points, i),
         points[i].beam_robot);
     points[i].to_mean_robot_m = around.close().mean_m();
   }
@@ -226,13 +222,7 @@ ScanPoint operator*(const RigidTransform2& T_other_robot, const ScanPoint& point
 std::vector<ScanPoint> ThinOut(std::span<const ScanPoint> points, double spacing_m) {
   std::vector<ScanPoint> thinned;
   thinned.reserve(points.size());
-  for (const ScanPoint& point : points) {
-    if (!thinned.empty() &&
-        (point.p_robot_m - thinned.back().p_robot_m).squaredNorm() < spacing_m * spacing_m) {
-      continue;
-    }
-    thinned.push_back(point);
-  }
+  ForEachApart(points, spacing_m, [&](const ScanPoint& point) { thinned.push_back(point); });
   return thinned;
 }
 

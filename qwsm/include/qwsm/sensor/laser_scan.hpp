@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -59,6 +60,11 @@ struct LaserScan {
 inline constexpr float kMissShareOfMaximum = 0.97F;
 
 /// Tells what a reading says, by the range limits of its laser.
-BeamState StateOf(float range_m, const LaserGeometry& geometry);
+inline BeamState StateOf(float range_m, const LaserGeometry& geometry) {
+  if (std::isnan(range_m)) return BeamState::kInvalid;
+  if (range_m <= 0.0F || range_m < geometry.range_min_m) return BeamState::kTooNear;
+  if (range_m >= kMissShareOfMaximum * geometry.range_max_m) return BeamState::kMiss;
+  return BeamState::kHit;
+}
 
 }  // namespace qwsm

@@ -36,8 +36,22 @@ std::vector<ScanPoint> ToPoints(const LaserScan& scan);
 /// Returns the point as another robot pose sees it.
 ScanPoint operator*(const RigidTransform2& T_other_robot, const ScanPoint& point);
 
-/// Returns points at least `spacing_m` apart, walking along the scan: near surfaces, on which beams
-/// are dense, count no more than far ones.
+/// Calls visit(const ScanPoint&) for points at least `spacing_m` apart, walking along the scan: near
+/// surfaces, on which beams are dense, count no more than far ones.
+template <class Visit>
+void ForEachApart(std::span<const ScanPoint> points, double spacing_m, Visit visit) {
+  const ScanPoint* last = nullptr;
+  for (const ScanPoint& point : points) {
+    if (last != nullptr &&
+        (point.p_robot_m - last->p_robot_m).squaredNorm() < spacing_m * spacing_m) {
+      continue;
+    }
+    visit(point);
+    last = &point;
+  }
+}
+
+/// Returns those points.
 std::vector<ScanPoint> ThinOut(std::span<const ScanPoint> points, double spacing_m);
 /// Thins out at wider and wider spacing until no more than so many points are left. @pre most > 0
 std::vector<ScanPoint> ThinOut(std::span<const ScanPoint> points,
