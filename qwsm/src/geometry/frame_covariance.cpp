@@ -35,7 +35,11 @@ Eigen::Matrix3d FrameCovariance::At(const Eigen::Vector2d& p_m) const {
 }
 
 double FrameCovariance::PositionVariance(const Eigen::Vector2d& p_m) const {
-  return 0.5 * At(p_m).topLeftCorner<2, 2>().trace();
+  // The half trace of the first two rows and columns of At(), term by term.
+  const Eigen::Matrix3d& c = about_origin;
+  const double xx = (c(0, 0) - p_m.y() * c(2, 0)) + (c(0, 2) - p_m.y() * c(2, 2)) * -p_m.y();
+  const double yy = (c(1, 1) + p_m.x() * c(2, 1)) + (c(1, 2) + p_m.x() * c(2, 2)) * p_m.x();
+  return 0.5 * (xx + yy);
 }
 
 UncertainPose2 Since(const UncertainPose2& map_earlier, const UncertainPose2& map_robot) {
