@@ -10,6 +10,7 @@
 #include <numbers>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace qwsm::test {
 namespace {
@@ -127,6 +128,29 @@ TEST_F(WhoWalksIn, IsForgottenAfterSoManyScans) {
 TEST_F(WhoWalksIn, IsNoLongerToldFromAWrongPoseWhereAllSeemsToMove) {
   Enter(20, 140);
   EXPECT_EQ(seen_free_.WithoutMoving(ToPoints(scan_), {}).size(), scan_.size());
+}
+
+TEST(FreeSpace, KeepsApartWhatLasersWithOtherBeamsSaw) {
+  const LaserScan ahead = InARoundRoom(-0.5 * pi, 0.5 * pi, 181);
+  LaserScan behind = InARoundRoom(0.5 * pi, 1.5 * pi, 361, {-0.2, 0.0, 0.0});
+  behind.ranges_m.resize(300);
+  FreeSpace seen_free;
+  for (const LaserScan& scan : {ahead, behind, ahead, behind}) seen_free.Add(scan, {});
+  const LaserScan all_around = InARoundRoom(-pi, pi, 100);
+  std::vector<ScanPoint> points = ToPoints(all_around);
+  for (ScanPoint& point : points) {
+    if (point.beam % 5 == 0) point.p_robot_m *= 0.5;
+  }
+  const std::vector<std::uint8_t> moving = seen_free.MovingAmong(points, {});
+  ASSERT_EQ(moving.size(), points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::uint8_t seen_through = 0;
+    for (const LaserScan& scan : {ahead, behind}) {
+      FreeRangeImage(scan, {}, {}).MarkSeenThrough(
+          std::span(&points[i], 1), {}, std::span(&seen_through, 1));
+    }
+    EXPECT_EQ(moving[i], seen_through) << i;
+  }
 }
 
 }  // namespace

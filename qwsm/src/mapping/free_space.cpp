@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace qwsm {
 namespace {
@@ -65,54 +66,92 @@ std::ptrdiff_t NearestBeam(const LaserScan& scan, double bearing_rad) {
 
 }  // namespace
 
-FreeRangeImage::FreeRangeImage(const LaserScan& scan,
-                               const Pose2& T_map_robot,
-                               const FreeSpaceOptions& options) {
+BeamsByDirection::BeamsByDirection(const LaserScan& scan)
+    : first_bearing_rad_(scan.geometry.first_bearing_rad),
+      bearing_step_rad_(scan.geometry.bearing_step_rad),
+      scan_size_(scan.size()) {
   static const std::vector<double> kBearings_rad = BearingsOf(kDirections);
-  const Pose2 T_map_laser = T_map_robot * scan.geometry.T_robot_laser;
-  T_laser_map_ = T_map_laser.Inverse();
-  const std::vector<float> free_m = FreeAlongBeams(scan, options.margin_beams);
   for (std::size_t i = 0; i < kDirections; ++i) {
     const std::ptrdiff_t beam = NearestBeam(scan, kBearings_rad[i]);
-    if (beam < 0 || beam >= std::ssize(free_m)) continue;
-    const float seen_m =
-        free_m[static_cast<std::size_t>(beam)] - static_cast<float>(options.margin_m);
-    if (seen_m > 0.0F) free_m2_[i] = seen_m * seen_m;
+    const bool is_there = beam >= 0 && beam < std::ssize(scan.ranges_m);
+    beams_[i] = static_cast<std::uint32_t>(is_there ? beam : std::ssize(scan.ranges_m));
   }
 }
 
-// A few points at a time, so that the compiler computes them side by side.
+bool BeamsByDirection::Fit(const LaserScan& scan) const {
+  return scan.geometry.first_bearing_rad == first_bearing_rad_ &&
+         scan.geometry.bearing_step_rad == bearing_step_rad_ && scan.size() == scan_size_;
+}
+
+PointColumns::PointColumns(std::span<const ScanPoint> points)
+    : size_(points.size()),
+      x_m_((size_ + kAtATime - 1) / kAtATime * kAtATime),
+      y_m_(x_m_.size()) {
+  for (std::size_t i = 0; i < size_; ++i) {
+    x_m_[i] = static_cast<float>(points[i].p_robot_m.x());
+    y_m_[i] = static_cast<float>(points[i].p_robot_m.y());
+  }
+}
+
+FreeRangeImage::FreeRangeImage(const LaserScan& scan,
+                               const Pose2& T_map_robot,
+                               const FreeSpaceOptions& options,
+                               std::shared_ptr<const BeamsByDirection> beams)
+    : T_laser_map_((T_map_robot * scan.geometry.T_robot_laser).Inverse()),
+      laser_map_(T_laser_map_),
+      beams_(beams ? std::move(beams) : std::make_shared<const BeamsByDirection>(scan)) {
+  std::vector<float> free_m2 = FreeAlongBeams(scan, options.margin_beams);
+  for (float& of_beam : free_m2) {
+    const float seen_m = std::max(0.0F, of_beam - static_cast<float>(options.margin_m));
+    of_beam = seen_m * seen_m;
+  }
+  free_m2.push_back(0.0F);  // Where there is no beam.
+  const std::span<const std::uint32_t, kDirections> beam = beams_->beams();
+  for (std::size_t i = 0; i < kDirections; ++i) free_m2_[i] = free_m2[beam[i]];
+}
+
+void FreeRangeImage::Move(const Pose2& T_new_old) {
+  T_laser_map_ = T_laser_map_ * T_new_old.Inverse();
+  laser_map_ = RigidTransform2(T_laser_map_);
+}
+
 void FreeRangeImage::MarkSeenThrough(std::span<const ScanPoint> points,
                                      const Pose2& T_map_robot,
                                      std::span<std::uint8_t> seen_through) const {
-  constexpr std::size_t kAtATime = 32;
-  const Pose2 T_laser_robot = T_laser_map_ * T_map_robot;
-  const Eigen::Matrix2f R = T_laser_robot.Rotation().cast<float>();
-  const Eigen::Vector2f t = T_laser_robot.translation_m().cast<float>();
-  std::array<float, kAtATime> x{}, y{}, distance_m2;
+  MarkSeenThrough(PointColumns(points), RigidTransform2(T_map_robot), seen_through);
+}
+
+// A few points at a time, so that the compiler computes them side by side.
+void FreeRangeImage::MarkSeenThrough(const PointColumns& points,
+                                     const RigidTransform2& T_map_robot,
+                                     std::span<std::uint8_t> seen_through) const {
+  constexpr std::size_t kAtATime = PointColumns::kAtATime;
+  const Eigen::Matrix2f R = (laser_map_.R_a_b * T_map_robot.R_a_b).cast<float>();
+  const Eigen::Vector2f t = (laser_map_ * T_map_robot.t_a_b_m).cast<float>();
+  std::array<float, kAtATime> distance_m2;
   std::array<std::int32_t, kAtATime> direction;
   for (std::size_t first = 0; first < points.size(); first += kAtATime) {
-    const std::size_t count = std::min(kAtATime, points.size() - first);
-    for (std::size_t i = 0; i < count; ++i) {
-      x[i] = static_cast<float>(points[first + i].p_robot_m.x());
-      y[i] = static_cast<float>(points[first + i].p_robot_m.y());
-    }
+    const float* x = points.x_m() + first;
+    const float* y = points.y_m() + first;
     for (std::size_t i = 0; i < kAtATime; ++i) {
       const float lx = R(0, 0) * x[i] + R(0, 1) * y[i] + t.x();
       const float ly = R(1, 0) * x[i] + R(1, 1) * y[i] + t.y();
       distance_m2[i] = lx * lx + ly * ly;
-      direction[i] = static_cast<std::int32_t>(QuartersTo(lx, ly) * (kDirections / 4));
+      direction[i] = static_cast<std::int32_t>(QuartersTo(lx, ly) * (kDirections / 4)) &
+                     static_cast<std::int32_t>(kDirections - 1);
     }
+    const std::size_t count = std::min(kAtATime, points.size() - first);
+    std::uint8_t* marks = &seen_through[first];
     for (std::size_t i = 0; i < count; ++i) {
-      if (distance_m2[i] < free_m2_[static_cast<std::size_t>(direction[i]) % kDirections])
-        seen_through[first + i] = 1;
+      const float free_m2 = free_m2_[static_cast<std::size_t>(direction[i])];
+      marks[i] |= static_cast<std::uint8_t>(distance_m2[i] < free_m2);
     }
   }
 }
 
 void FreeSpace::Add(const LaserScan& scan, const Pose2& T_map_robot) {
   const Pose2& T_robot_laser = scan.geometry.T_robot_laser;
-  images_.push_back({.T_robot_laser = T_robot_laser, .free = {scan, T_map_robot, options_}});
+  images_.push_back({.T_robot_laser = T_robot_laser, .free = {scan, T_map_robot, options_, BeamsOf(scan)}});
   std::ptrdiff_t of_laser = std::ranges::count(images_, T_robot_laser, &Image::T_robot_laser);
   for (; of_laser > options_.scans; images_.pop_front()) {
     if (images_.front().T_robot_laser == T_robot_laser) --of_laser;
@@ -123,18 +162,34 @@ void FreeSpace::Move(const Pose2& T_new_old) {
   for (Image& image : images_) image.free.Move(T_new_old);
 }
 
+// A laser's beams mostly point where those of the scan before did.
+std::shared_ptr<const BeamsByDirection> FreeSpace::BeamsOf(const LaserScan& scan) const {
+  for (auto image = images_.rbegin(); image != images_.rend(); ++image) {
+    if (image->free.beams()->Fit(scan)) return image->free.beams();
+  }
+  return nullptr;
+}
+
+std::vector<std::uint8_t> FreeSpace::MovingAmong(std::span<const ScanPoint> points,
+                                                 const Pose2& T_map_robot) const {
+  std::vector<std::uint8_t> marks(points.size());
+  const PointColumns columns(points);
+  const RigidTransform2 map_robot(T_map_robot);
+  for (const Image& image : images_) image.free.MarkSeenThrough(columns, map_robot, marks);
+  const auto moving = static_cast<double>(std::ranges::count(marks, 1));
+  const double most = options_.max_moving_share * static_cast<double>(points.size());
+  if (moving == 0.0 || moving > most) marks.clear();
+  return marks;
+}
+
 std::vector<ScanPoint> FreeSpace::WithoutMoving(std::span<const ScanPoint> points,
                                                 const Pose2& T_map_robot) const {
-  std::vector<std::uint8_t> seen_through(points.size());
-  for (const Image& image : images_) image.free.MarkSeenThrough(points, T_map_robot, seen_through);
+  const std::vector<std::uint8_t> moving = MovingAmong(points, T_map_robot);
+  if (moving.empty()) return {points.begin(), points.end()};
   std::vector<ScanPoint> still;
   still.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!seen_through[i]) still.push_back(points[i]);
-  }
-  const auto moving = static_cast<double>(points.size() - still.size());
-  if (moving > options_.max_moving_share * static_cast<double>(points.size())) {
-    still.assign(points.begin(), points.end());
+    if (moving[i] == 0) still.push_back(points[i]);
   }
   return still;
 }
@@ -142,14 +197,14 @@ std::vector<ScanPoint> FreeSpace::WithoutMoving(std::span<const ScanPoint> point
 LaserScan FreeSpace::WithoutMoving(LaserScan scan,
                                    std::span<const ScanPoint> points,
                                    const Pose2& T_map_robot) const {
-  const std::vector<ScanPoint> still = WithoutMoving(points, T_map_robot);
-  auto next = still.begin();
-  for (const ScanPoint& point : points) {
-    if (next != still.end() && next->beam == point.beam) {
-      ++next;
-    } else {
-      scan.ranges_m[point.beam] = std::numeric_limits<float>::quiet_NaN();
-    }
+  return WithoutMarked(std::move(scan), points, MovingAmong(points, T_map_robot));
+}
+
+LaserScan WithoutMarked(LaserScan scan,
+                        std::span<const ScanPoint> points,
+                        std::span<const std::uint8_t> marks) {
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    if (marks[i] != 0) scan.ranges_m[points[i].beam] = std::numeric_limits<float>::quiet_NaN();
   }
   return scan;
 }
