@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "tests/support/simulated_laser.hpp"
 
@@ -73,6 +74,32 @@ TEST(RobotTracker, FindsAScanRelevantByMotionAloneHoweverLittleOfItAgreesWithThe
     const Pose2 moved = T_map_relevant.Inverse() * step.map_robot.T_a_b;
     EXPECT_EQ(step.relevant, i == 0 || moved.translation_m().norm() > 0.5);
     if (step.relevant) T_map_relevant = step.map_robot.T_a_b;
+  }
+}
+
+TEST(RobotTracker, ExtendsByItsPointsWhereNothingMoves) {
+  const ScanMap map = MapFrom(kStart);
+  RobotTracker tracker;
+  tracker.PlaceAt(UncertainPose2::WithSigmas(kStart, 0.01, 0.001), Pose2{});
+  World somebody = Room();
+  somebody.columns.push_back({.center_m = {2.5, 0.5}, .radius_m = 0.2});
+  for (int i = 0; i < 3; ++i) {
+    SCOPED_TRACE(i);
+    const bool somebody_came = i == 2;
+    const Pose2 T_start_robot{0.6 * i, 0.0, 0.0};
+    const LaserScan scan = ScanFrom(kStart * T_start_robot, somebody_came ? somebody : Room());
+    const TrackedScan tracked = tracker.Track(map, {.scan = scan, .T_odom_robot = T_start_robot});
+    ASSERT_TRUE(tracked.step.relevant);
+    EXPECT_EQ(tracked.extends_by_points, !somebody_came);
+    const std::vector<ScanPoint> stored = ToPoints(tracked.step.relevant_scan);
+    EXPECT_EQ(stored.size() == tracked.points.size(), !somebody_came);
+    for (std::size_t k = 0; k < stored.size() && !somebody_came; ++k) {
+      EXPECT_EQ(stored[k].p_robot_m, tracked.points[k].p_robot_m);
+      EXPECT_EQ(stored[k].normal_robot, tracked.points[k].normal_robot);
+    }
+    ASSERT_TRUE(tracked.step.map_under);
+    EXPECT_EQ(tracked.step.map_under->about_origin,
+              map.CovarianceUnder(tracked.points, tracked.step.map_robot.T_a_b).about_origin);
   }
 }
 

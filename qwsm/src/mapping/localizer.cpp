@@ -18,8 +18,12 @@ Localizer::Localizer(const MapperOptions& options,
 
 MappingStep Localizer::Process(const Observation& observation) {
   if (lost_) return Search(observation);
-  const auto [step, points] = tracker_.Track(map_, observation);
-  Extend(step);
+  const auto [step, points, extends_by_points] = tracker_.Track(map_, observation);
+  if (step.relevant && extends_by_points) {
+    map_.Insert(step.relevant_scan, points, step.map_relevant);
+  } else {
+    Extend(step);
+  }
   if (watch_.Look(map_, points, step) == PlaceDoubt::kLost) Lose();
   return step;
 }

@@ -33,13 +33,19 @@ void Mapper::ForgetSince(ScanId first) {
 }
 
 MappingStep Mapper::Process(const Observation& observation) {
-  MappingStep step = tracker_.Track(map_, observation).step;
+  TrackedScan tracked = tracker_.Track(map_, observation);
+  const MappingStep& step = tracked.step;
   if (step.relevant) {
     // The baselines match with the last relevant scan only.
-    if (options().matcher != MatcherKind::kQWsm) map_.ForgetPoints();
-    Extend(step.relevant_scan, step.map_relevant);
+    const bool is_baseline = options().matcher != MatcherKind::kQWsm;
+    if (is_baseline) map_.ForgetPoints();
+    if (tracked.extends_by_points && !is_baseline) {
+      map_.Insert(step.relevant_scan, tracked.points, step.map_relevant, step.map_under);
+    } else {
+      Extend(step.relevant_scan, step.map_relevant);
+    }
   }
-  return step;
+  return std::move(tracked.step);
 }
 
 }  // namespace qwsm

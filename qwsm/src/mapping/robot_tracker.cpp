@@ -114,9 +114,9 @@ TrackedScan RobotTracker::Track(const ScanMap& map, const Observation& observati
   if (extends) CloseLoop(map, still.scan, sighting.points, step);
   slip_.Learn(observation, sighting.velocity, step);
   Remember(still, step, has_moved_on);
-  Extend(extends, still, sighting.points, step);
+  const bool by_points = Extend(extends, still, sighting.points, step);
   if (has_moved_on) seen_free_.Add(still.scan, step.map_robot.T_a_b);
-  return {.step = std::move(step), .points = std::move(sighting.points)};
+  return {std::move(step), std::move(sighting.points), by_points};
 }
 
 // How the robot moved while the scan was taken the scan itself tells best: where it is found to be
@@ -282,9 +282,8 @@ void RobotTracker::Judge(const ScanMap& map,
   step.status = StatusOf(match);
   step.reason =
       step.status == StepStatus::kExtended ? "much of the scan is new" : "agrees with the map";
-
-  const FrameCovariance reference = map.CovarianceUnder(points, match.T_ref_cur);
-  step.map_robot.covariance = FuseWithReference(reference.At(match.T_ref_cur.translation_m()),
+  step.map_under = map.CovarianceUnder(points, match.T_ref_cur);
+  step.map_robot.covariance = FuseWithReference(step.map_under->At(match.T_ref_cur.translation_m()),
                                                 step.map_robot.covariance,
                                                 motion_covariance,
                                                 match.pair_information);
@@ -327,6 +326,7 @@ void RobotTracker::CloseLoop(const ScanMap& map,
   step.map_robot.T_a_b = closed->T_ref_cur;
   step.map_robot.covariance = closed->covariance;
   step.local_covariance = closed->covariance;
+  step.map_under.reset();
   step.closed_loop = true;
   LeavePath();
 }
@@ -340,28 +340,31 @@ void RobotTracker::LeavePath() {
 
 // What extends the map is what was seen, from where it was seen. Of a robot with several lasers the
 // next scan tells more of where that was, so that each waits for the next one.
-void RobotTracker::Extend(bool extends,
+bool RobotTracker::Extend(bool extends,
                           const Observation& observation,
                           std::span<const ScanPoint> points,
                           MappingStep& step) {
   std::optional<HeldScan> held = std::exchange(held_, std::nullopt);
   if (step.closed_loop) held.reset();  // It was seen from a pose that has just been corrected.
   if (held) held->map_robot.T_a_b = lasers_.WithHindsight(held->local, held->observation).T_a_b;
+  bool has_all_points = false;
   if (extends) {
-    held_ = {.observation = {.scan = seen_free_.WithoutMoving(
-                                 observation.scan, points, step.map_robot.T_a_b),
+    const auto moving = seen_free_.MovingAmong(points, step.map_robot.T_a_b);
+    held_ = {.observation = {.scan = WithoutMarked(observation.scan, points, moving),
                              .T_odom_robot = observation.T_odom_robot},
              .map_robot = step.map_robot,
              .local = {.T_a_b = step.map_robot.T_a_b, .covariance = step.local_covariance},
              .T_wheels_robot = gyro_.T_wheels_robot()};
     const bool waits = held || (lasers_.take_turns() && !step.closed_loop);
     if (!waits) held = std::exchange(held_, std::nullopt);
+    has_all_points = !waits && moving.empty();
   }
-  if (!held) return;
+  if (!held) return false;
   step.relevant = true;
   step.relevant_scan = std::move(held->observation.scan);
   step.T_odom_relevant = held->T_wheels_robot;
   step.map_relevant = held->map_robot;
+  return has_all_points;
 }
 
 // By what the scan alone tells: the pose is by the gyro as well.

@@ -58,15 +58,20 @@ ScanMap::ScanMap(const ScanMapOptions& options) : options_(options), surfaces_(o
 
 ScanId ScanMap::Insert(const LaserScan& scan,
                        std::span<const ScanPoint> points,
-                       const UncertainPose2& map_robot) {
-  return Add(Prepare(scan, points, map_robot));
+                       const UncertainPose2& map_robot,
+                       const std::optional<FrameCovariance>& under) {
+  return Add(Prepare(scan, points, map_robot, under));
 }
 
 MapAddition ScanMap::Prepare(const LaserScan& scan,
                              std::span<const ScanPoint> points,
-                             const UncertainPose2& map_robot) const {
+                             const UncertainPose2& map_robot,
+                             const std::optional<FrameCovariance>& under) const {
   MapAddition addition{.scan = scan, .map_robot = map_robot, .points = {}, .own_error = {}};
-  if (!empty()) addition.own_error = OwnError(map_robot, CovarianceUnder(points, map_robot.T_a_b));
+  if (!empty()) {
+    addition.own_error =
+        OwnError(map_robot, under ? *under : CovarianceUnder(points, map_robot.T_a_b));
+  }
   addition.points = PointsToStore(surfaces_, points, map_robot, options_);
   return addition;
 }
@@ -89,12 +94,12 @@ FrameCovariance ScanMap::CovarianceUnder(std::span<const ScanPoint> points,
                                          double max_drift_m2) const {
   const RigidTransform2 to_map(T_map_robot);
   std::vector<ScanId> under;
-  for (const ScanPoint& point : ThinOut(points, kReferenceSpacing_m)) {
+  ForEachApart(points, kReferenceSpacing_m, [&](const ScanPoint& point) {
     const auto nearest = surfaces_.quadtree().Nearest(to_map * point.p_robot_m, kReferenceReach_m);
     if (nearest && surfaces_.Drift_m2(nearest->id) <= max_drift_m2) {
       under.push_back(surfaces_.quadtree().Scan(nearest->id));
     }
-  }
+  });
   if (under.empty() && !empty()) under.push_back(scans_.back().id);
   std::ranges::sort(under);
   FrameCovariance mean;

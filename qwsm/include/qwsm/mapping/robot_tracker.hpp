@@ -26,6 +26,8 @@ namespace qwsm {
 struct TrackedScan {
   MappingStep step;
   std::vector<ScanPoint> points;  ///< Of the scan as if the robot had stood while it was taken.
+  /// The step's relevant scan is this one, and has all these points.
+  bool extends_by_points = false;
 };
 
 /// Follows one robot through a map that it does not own: several robots may share it, each with a
@@ -110,7 +112,8 @@ class RobotTracker {
   void LeavePath();
   void Remember(const Observation& observation, const MappingStep& step, bool has_moved_on);
   void LearnTurn(const MappingStep& step);
-  void Extend(bool extends,
+  /// @return whether the step's relevant scan has all these points.
+  bool Extend(bool extends,
               const Observation& observation,
               std::span<const ScanPoint> points,
               MappingStep& step);
