@@ -25,10 +25,6 @@ Pose2 MotionIn(std::chrono::nanoseconds time, const Eigen::Vector3d& velocity) {
   return {moved.x(), moved.y(), moved.z()};
 }
 
-std::chrono::nanoseconds SweepOf(const LaserScan& scan) {
-  return std::max(scan.sweep, scan.deskewed_sweep);
-}
-
 // A pose as seen from another one, by its numbers.
 Eigen::Vector3d Missed(const Pose2& found, const Pose2& told) {
   return {

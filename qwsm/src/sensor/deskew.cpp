@@ -31,8 +31,7 @@ struct MovedHit {
 // Odometry that began anew within a scan tells of no motion. Nor does any robot turn back half as
 // fast as the mirror of its laser turns on.
 bool IsMotionOfRobot(const LaserScan& scan, const Pose2& T_first_last) {
-  const std::chrono::nanoseconds sweep = std::max(scan.sweep, scan.deskewed_sweep);
-  const double farthest_m = kFastest_mps * std::chrono::duration<double>(sweep).count();
+  const double farthest_m = kFastest_mps * std::chrono::duration<double>(SweepOf(scan)).count();
   const double seen_rad = scan.geometry.Bearing(scan.size() - 1) - scan.geometry.Bearing(0);
   const double turned_on_rad =
       std::copysign(T_first_last.theta_rad, T_first_last.theta_rad * seen_rad);
@@ -144,19 +143,13 @@ void KeepWhatCannotMove(const LaserScan& scan, LaserScan& still) {
 }  // namespace
 
 LaserScan Deskewed(const LaserScan& scan, const Pose2& T_first_last) {
+  LaserScan still = scan;
+  still.sweep = {};
+  still.deskewed_sweep = SweepOf(scan);
   if (scan.size() < 2 || T_first_last == Pose2{} || !IsMotionOfRobot(scan, T_first_last)) {
-    return {.stamp = scan.stamp,
-            .geometry = scan.geometry,
-            .ranges_m = scan.ranges_m,
-            .deskewed_sweep = std::max(scan.sweep, scan.deskewed_sweep),
-            .height_m = scan.height_m};
+    return still;
   }
-  constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
-  LaserScan still{.stamp = scan.stamp,
-                  .geometry = scan.geometry,
-                  .ranges_m = std::vector<float>(scan.size(), kNothing),
-                  .deskewed_sweep = std::max(scan.sweep, scan.deskewed_sweep),
-                  .height_m = scan.height_m};
+  std::ranges::fill(still.ranges_m, std::numeric_limits<float>::quiet_NaN());
   still.geometry.bearing_step_rad +=
       static_cast<float>(T_first_last.theta_rad / static_cast<double>(scan.size() - 1));
   const MovedHits hits = MovedHitsOf(scan, T_first_last, still.geometry);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -54,6 +55,11 @@ struct LaserScan {
 
   std::size_t size() const { return ranges_m.size(); }
 };
+
+/// Time from the first beam to the last, whether or not odometry has brought them to one place.
+inline std::chrono::nanoseconds SweepOf(const LaserScan& scan) {
+  return std::max(scan.sweep, scan.deskewed_sweep);
+}
 
 /// A reading at this share of the maximum range or above is a miss: scanners report "no echo" as a
 /// value near their maximum, not as the maximum itself.
