@@ -24,7 +24,7 @@ constexpr double kTurn_rad_s = 2.0;
 constexpr double kSweep_s = 0.1;
 constexpr double kMostOfAtOnce = 1.2;  // Times the error of scans that are taken at once.
 // It begins to slip, from one scan to the next, as it sets off.
-constexpr double kMostSlipping = 1.35;
+constexpr double kMostSlipping = 1.3;
 constexpr double kMostWithoutOdometry = 1.6;
 constexpr int kDrivesInMotion = 5;
 

@@ -18,14 +18,10 @@ Localizer::Localizer(const MapperOptions& options,
 
 MappingStep Localizer::Process(const Observation& observation) {
   if (lost_) return Search(observation);
-  const auto [step, points, extends_by_points] = tracker_.Track(map_, observation);
-  if (step.relevant && extends_by_points) {
-    map_.Insert(step.relevant_scan, points, step.map_relevant);
-  } else {
-    Extend(step);
-  }
-  if (watch_.Look(map_, points, step) == PlaceDoubt::kLost) Lose();
-  return step;
+  TrackedScan tracked = tracker_.Track(map_, observation);
+  Extend(tracked);
+  if (watch_.Look(map_, tracked.points, tracked.step) == PlaceDoubt::kLost) Lose();
+  return std::move(tracked.step);
 }
 
 MappingStep Localizer::Search(const Observation& observation) {
@@ -40,16 +36,17 @@ MappingStep Localizer::Found(const Observation& observation) {
   found_ = lost.belief();
   watch_.BeginAnew();
   tracker_.PlaceAt(lost.map_found());
-  const MappingStep step = tracker_.Track(map_, observation).step;
-  map_local_ = lost.FrameFor(step.map_robot);
+  TrackedScan tracked = tracker_.Track(map_, observation);
+  map_local_ = lost.FrameFor(tracked.step.map_robot);
   if (options_.extend_map) Join(lost.local().map());
-  Extend(step);
-  return step;
+  Extend(tracked);
+  return std::move(tracked.step);
 }
 
-void Localizer::Extend(const MappingStep& step) {
+void Localizer::Extend(const TrackedScan& tracked) {
+  const MappingStep& step = tracked.step;
   if (!step.relevant) return;
-  map_.Insert(step.relevant_scan, ToPoints(step.relevant_scan), step.map_relevant);
+  map_.Insert(step.relevant_scan, tracked.RelevantPoints(), step.map_relevant);
 }
 
 void Localizer::Join(const ScanMap& local) {

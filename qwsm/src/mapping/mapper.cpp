@@ -37,13 +37,8 @@ MappingStep Mapper::Process(const Observation& observation) {
   const MappingStep& step = tracked.step;
   if (step.relevant) {
     // The baselines match with the last relevant scan only.
-    const bool is_baseline = options().matcher != MatcherKind::kQWsm;
-    if (is_baseline) map_.ForgetPoints();
-    if (tracked.extends_by_points && !is_baseline) {
-      map_.Insert(step.relevant_scan, tracked.points, step.map_relevant, step.map_under);
-    } else {
-      Extend(step.relevant_scan, step.map_relevant);
-    }
+    if (options().matcher != MatcherKind::kQWsm) map_.ForgetPoints();
+    map_.Insert(step.relevant_scan, tracked.RelevantPoints(), step.map_relevant);
   }
   return std::move(tracked.step);
 }

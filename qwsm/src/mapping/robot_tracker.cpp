@@ -114,9 +114,11 @@ TrackedScan RobotTracker::Track(const ScanMap& map, const Observation& observati
   if (extends) CloseLoop(map, still.scan, sighting.points, step);
   slip_.Learn(observation, sighting.velocity, step);
   Remember(still, step, has_moved_on);
-  const bool by_points = Extend(extends, still, sighting.points, step);
+  Extend(extends, still, sighting.points, step);
   if (has_moved_on) seen_free_.Add(still.scan, step.map_robot.T_a_b);
-  return {std::move(step), std::move(sighting.points), by_points};
+  return {.step = std::move(step),
+          .scan = std::move(sighting.observation.scan),
+          .points = std::move(sighting.points)};
 }
 
 // How the robot moved while the scan was taken the scan itself tells best: where it is found to be
@@ -124,24 +126,25 @@ TrackedScan RobotTracker::Track(const ScanMap& map, const Observation& observati
 RobotTracker::Sighting RobotTracker::LookTwice(const ScanMap& map,
                                                const Observation& observation,
                                                const std::optional<Pose2>& T_odom_robot) const {
-  Sighting first = Look(map, slip_, observation, T_odom_robot);
+  Sighting first = Look(map, slip_.Mended(observation), T_odom_robot, observation.gyro_rad);
   if (!first.velocity) return first;
   SlipEstimator slip = slip_;
   slip.Learn(observation, first.velocity, first.step);
-  return Look(map, slip, observation, T_odom_robot);
+  StillScan still = slip.Mended(observation);
+  const bool has_learned = still.velocity != first.velocity;
+  return has_learned ? Look(map, std::move(still), T_odom_robot, observation.gyro_rad) : first;
 }
 
 RobotTracker::Sighting RobotTracker::Look(const ScanMap& map,
-                                          const SlipEstimator& slip,
-                                          const Observation& observation,
-                                          const std::optional<Pose2>& T_odom_robot) const {
-  StillScan still = slip.Mended(observation);
+                                          StillScan still,
+                                          const std::optional<Pose2>& T_odom_robot,
+                                          const std::optional<double>& gyro_rad) const {
   Sighting sighting{.observation = {.scan = std::move(still.scan),
                                     .T_odom_robot = T_odom_robot,
-                                    .gyro_rad = observation.gyro_rad},
+                                    .gyro_rad = gyro_rad},
                     .velocity = still.velocity};
   sighting.points = ToPoints(sighting.observation.scan);
-  sighting.step.stamp = observation.scan.stamp;
+  sighting.step.stamp = sighting.observation.scan.stamp;
   map.empty() ? Begin(sighting) : Locate(map, sighting);
   return sighting;
 }
@@ -166,10 +169,10 @@ void RobotTracker::Locate(const ScanMap& map, Sighting& sighting) const {
                                   ? PosePrediction::Unmoved()
                                   : motion_.Predict(observation.T_odom_robot, share);
   // No robot drives out of all maps: its odometry has failed.
-  if (!IsPosition((map_last_ * last_robot.conservative).T_a_b))
+  if (!IsPosition((map_last_ * last_robot.conservative).T_a_b)) {
     last_robot = PosePrediction::Unmoved();
-  const UncertainPose2 predicted = local_last_ * last_robot.conservative;
-  step.match = LocateNear(map, observation, points, predicted);
+  }
+  step.match = LocateNear(map, observation, points, local_last_ * last_robot.conservative);
   sighting.dropped_odometry = DropFailedOdometry(map, observation, points, last_robot, step);
   const bool was_held_back =
       !sighting.dropped_odometry && CatchUpWithOdometry(map, points, last_robot.adapted, step);
@@ -282,8 +285,9 @@ void RobotTracker::Judge(const ScanMap& map,
   step.status = StatusOf(match);
   step.reason =
       step.status == StepStatus::kExtended ? "much of the scan is new" : "agrees with the map";
-  step.map_under = map.CovarianceUnder(points, match.T_ref_cur);
-  step.map_robot.covariance = FuseWithReference(step.map_under->At(match.T_ref_cur.translation_m()),
+
+  const FrameCovariance reference = map.CovarianceUnder(points, match.T_ref_cur);
+  step.map_robot.covariance = FuseWithReference(reference.At(match.T_ref_cur.translation_m()),
                                                 step.map_robot.covariance,
                                                 motion_covariance,
                                                 match.pair_information);
@@ -326,7 +330,6 @@ void RobotTracker::CloseLoop(const ScanMap& map,
   step.map_robot.T_a_b = closed->T_ref_cur;
   step.map_robot.covariance = closed->covariance;
   step.local_covariance = closed->covariance;
-  step.map_under.reset();
   step.closed_loop = true;
   LeavePath();
 }
@@ -340,14 +343,13 @@ void RobotTracker::LeavePath() {
 
 // What extends the map is what was seen, from where it was seen. Of a robot with several lasers the
 // next scan tells more of where that was, so that each waits for the next one.
-bool RobotTracker::Extend(bool extends,
+void RobotTracker::Extend(bool extends,
                           const Observation& observation,
                           std::span<const ScanPoint> points,
                           MappingStep& step) {
   std::optional<HeldScan> held = std::exchange(held_, std::nullopt);
   if (step.closed_loop) held.reset();  // It was seen from a pose that has just been corrected.
   if (held) held->map_robot.T_a_b = lasers_.WithHindsight(held->local, held->observation).T_a_b;
-  bool has_all_points = false;
   if (extends) {
     const auto moving = seen_free_.MovingAmong(points, step.map_robot.T_a_b);
     held_ = {.observation = {.scan = WithoutMarked(observation.scan, points, moving),
@@ -357,14 +359,12 @@ bool RobotTracker::Extend(bool extends,
              .T_wheels_robot = gyro_.T_wheels_robot()};
     const bool waits = held || (lasers_.take_turns() && !step.closed_loop);
     if (!waits) held = std::exchange(held_, std::nullopt);
-    has_all_points = !waits && moving.empty();
   }
-  if (!held) return false;
+  if (!held) return;
   step.relevant = true;
   step.relevant_scan = std::move(held->observation.scan);
   step.T_odom_relevant = held->T_wheels_robot;
   step.map_relevant = held->map_robot;
-  return has_all_points;
 }
 
 // By what the scan alone tells: the pose is by the gyro as well.

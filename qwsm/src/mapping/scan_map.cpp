@@ -58,20 +58,15 @@ ScanMap::ScanMap(const ScanMapOptions& options) : options_(options), surfaces_(o
 
 ScanId ScanMap::Insert(const LaserScan& scan,
                        std::span<const ScanPoint> points,
-                       const UncertainPose2& map_robot,
-                       const std::optional<FrameCovariance>& under) {
-  return Add(Prepare(scan, points, map_robot, under));
+                       const UncertainPose2& map_robot) {
+  return Add(Prepare(scan, points, map_robot));
 }
 
 MapAddition ScanMap::Prepare(const LaserScan& scan,
                              std::span<const ScanPoint> points,
-                             const UncertainPose2& map_robot,
-                             const std::optional<FrameCovariance>& under) const {
+                             const UncertainPose2& map_robot) const {
   MapAddition addition{.scan = scan, .map_robot = map_robot, .points = {}, .own_error = {}};
-  if (!empty()) {
-    addition.own_error =
-        OwnError(map_robot, under ? *under : CovarianceUnder(points, map_robot.T_a_b));
-  }
+  if (!empty()) addition.own_error = OwnError(map_robot, CovarianceUnder(points, map_robot.T_a_b));
   addition.points = PointsToStore(surfaces_, points, map_robot, options_);
   return addition;
 }

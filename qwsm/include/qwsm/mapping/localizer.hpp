@@ -36,7 +36,7 @@ class Localizer {
  private:
   MappingStep Search(const Observation& observation);
   MappingStep Found(const Observation& observation);
-  void Extend(const MappingStep& step);
+  void Extend(const TrackedScan& tracked);
   void Join(const ScanMap& local);
   void Lose();
 

@@ -5,7 +5,6 @@
 #include <optional>
 #include <string_view>
 
-#include "qwsm/geometry/frame_covariance.hpp"
 #include "qwsm/geometry/pose2.hpp"
 #include "qwsm/matching/match_result.hpp"
 #include "qwsm/sensor/laser_scan.hpp"
@@ -34,8 +33,6 @@ struct MappingStep {
   StepStatus status = StepStatus::kFirst;
   std::string_view reason{};  ///< Why that status, in words.
   MatchResult match{};        ///< The match that gave the pose, or the bad one that did not.
-  /// Covariance of the part of the map that the scan lies on, if that part gave the pose.
-  std::optional<FrameCovariance> map_under{};
   bool closed_loop = false;   ///< The pose does not continue the one before.
   int epoch = 0;              ///< How often the map was corrected before this scan.
   bool relevant = false;      ///< Whether the map is to be extended with `relevant_scan`.

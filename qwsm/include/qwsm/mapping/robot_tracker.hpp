@@ -19,16 +19,9 @@
 #include "qwsm/mapping/scan_locator.hpp"
 #include "qwsm/mapping/scan_map.hpp"
 #include "qwsm/mapping/slip_estimator.hpp"
+#include "qwsm/mapping/tracked_scan.hpp"
 
 namespace qwsm {
-
-/// A scan, and where it was found to be taken.
-struct TrackedScan {
-  MappingStep step;
-  std::vector<ScanPoint> points;  ///< Of the scan as if the robot had stood while it was taken.
-  /// The step's relevant scan is this one, and has all these points.
-  bool extends_by_points = false;
-};
 
 /// Follows one robot through a map that it does not own: several robots may share it, each with a
 /// tracker of its own. The map is only read, so that trackers may work in parallel; to extend it
@@ -78,9 +71,9 @@ class RobotTracker {
                      const Observation& observation,
                      const std::optional<Pose2>& T_odom_robot) const;
   Sighting Look(const ScanMap& map,
-                const SlipEstimator& slip,
-                const Observation& observation,
-                const std::optional<Pose2>& T_odom_robot) const;
+                StillScan still,
+                const std::optional<Pose2>& T_odom_robot,
+                const std::optional<double>& gyro_rad) const;
   void Begin(Sighting& sighting) const;
   void Locate(const ScanMap& map, Sighting& sighting) const;
   MatchResult LocateNear(const ScanMap& map,
@@ -112,8 +105,7 @@ class RobotTracker {
   void LeavePath();
   void Remember(const Observation& observation, const MappingStep& step, bool has_moved_on);
   void LearnTurn(const MappingStep& step);
-  /// @return whether the step's relevant scan has all these points.
-  bool Extend(bool extends,
+  void Extend(bool extends,
               const Observation& observation,
               std::span<const ScanPoint> points,
               MappingStep& step);

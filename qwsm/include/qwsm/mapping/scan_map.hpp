@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <limits>
-#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -83,16 +82,13 @@ class ScanMap {
   const ScanMapOptions& options() const { return options_; }
 
   /// Adds a relevant scan. @param points the scan's points, as ToPoints() gives them.
-  /// @param under CovarianceUnder() these points, if it is known already.
   ScanId Insert(const LaserScan& scan,
                 std::span<const ScanPoint> points,
-                const UncertainPose2& map_robot,
-                const std::optional<FrameCovariance>& under = {});
+                const UncertainPose2& map_robot);
   /// Prepares what Insert() would add to the map as it is now.
   MapAddition Prepare(const LaserScan& scan,
                       std::span<const ScanPoint> points,
-                      const UncertainPose2& map_robot,
-                      const std::optional<FrameCovariance>& under = {}) const;
+                      const UncertainPose2& map_robot) const;
   /// Adds what was prepared.
   ScanId Add(MapAddition addition);
   /// Forgets all points, but not the scans: what follows is matched to what is inserted next.
