@@ -101,17 +101,20 @@ NormalEquations Pairing::Linearize(const Pose2& T_map_cur, const AnnealedError& 
 void Pairing::FindNearest(const Pose2& T_map_cur, const AnnealedError& start_error) {
   const PointQuadtree& quadtree = map_.quadtree();
   const Eigen::Matrix2d R = T_map_cur.Rotation();
+  const SearchCursor none;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     Pair& pair = pairs_[i];
     pair.arm = R * points_[i].p_robot_m;
     pair.p_map = pair.arm + T_map_cur.translation_m();
     pair.inflation_m2 = start_error.Variance_m2(points_[i].range_m);
-    if (pair.cursor.revision == 0) pair.cursor = quadtree.CursorAt(pair.p_map);
+    if (pair.cursor.revision == 0) {
+      // The neighbouring beam ended near here.
+      const SearchCursor& beside = i > 0 ? pairs_[i - 1].cursor : none;
+      pair.cursor = quadtree.CursorAt(pair.p_map, beside);
+    }
   }
   for (std::size_t i = 0; i < points_.size(); ++i) {
     Pair& pair = pairs_[i];
-    // The neighbouring beam ended near here.
-    if (i > 0 && pair.cursor.leaf == quadtree::kNoIndex) pair.cursor = pairs_[i - 1].cursor;
     pair.nearest = quadtree.Nearest(pair.p_map, Reach(pair.inflation_m2), pair.cursor);
     if (pair.nearest) map_.Prefetch(pair.nearest->id);
   }

@@ -84,8 +84,22 @@ void CellQuadtree::Remove(Cell cell) {
 
 std::uint32_t CellQuadtree::LeafAt(Cell cell) const {
   if (!root_ || !root_square_.Contains(cell)) return kNoIndex;
-  NodeRef node = root_;
-  for (Square at = {cell, root_square_.level}; node.is_inner(); --at.level) {
+  return LeafBelow(root(), cell);
+}
+
+std::uint32_t CellQuadtree::LeafAt(Cell cell, std::uint32_t near) const {
+  if (near == kNoIndex) return LeafAt(cell);
+  const Square square = leaves_[near].square();
+  if (square.Contains(cell)) return near;
+  const std::uint32_t differing = (cell.x ^ square.corner.x) | (cell.y ^ square.corner.y);
+  const Subtree around = Ancestor(near, std::bit_width(differing));
+  return around.square.Contains(cell) ? LeafBelow(around, cell) : kNoIndex;
+}
+
+// @pre the cell is in the square of that part.
+std::uint32_t CellQuadtree::LeafBelow(const Subtree& part, Cell cell) const {
+  NodeRef node = part.node;
+  for (Square at = {cell, part.square.level}; node.is_inner(); --at.level) {
     node = inner_[node.index()].children[at.QuarterOf(cell)];
   }
   return node ? node.index() : kNoIndex;

@@ -331,12 +331,8 @@ std::optional<Neighbor> PointQuadtree::Nearest(const Eigen::Vector2d& query_m,
     }
   }
   NearestBall ball(tree_, query, max_distance);
-  std::uint32_t start = cursor.leaf;
-  if (start == kNoIndex || !tree_.leaf(start).square().Contains(CellAt(query))) {
-    const std::uint32_t at = tree_.LeafAt(CellAt(query));
-    if (at != kNoIndex) start = at;
-  }
-  SearchUpFrom(tree_, start, ball);
+  const std::uint32_t at = tree_.LeafAt(CellAt(query), cursor.leaf);
+  SearchUpFrom(tree_, at != kNoIndex ? at : cursor.leaf, ball);
   cursor.revision = revision_.value();
   cursor.leaf = ball.leaf();
   cursor.query = query;
@@ -374,12 +370,13 @@ int PointQuadtree::CountInRadius(const Eigen::Vector2d& center_m,
   return disk.count();
 }
 
-SearchCursor PointQuadtree::CursorAt(const Eigen::Vector2d& p_m) const {
+SearchCursor PointQuadtree::CursorAt(const Eigen::Vector2d& p_m, const SearchCursor& near) const {
   const UnitPoint p = ToUnits(p_m);
   if (!quadtree::IsFinite(p)) return {};
-  const std::uint32_t leaf = tree_.LeafAt(CellAt(p));
-  if (leaf != kNoIndex) tree_.Prefetch(leaf);
-  return {.revision = revision_.value(), .leaf = leaf};
+  const std::uint32_t known = near.revision == revision_.value() ? near.leaf : kNoIndex;
+  const std::uint32_t leaf = tree_.LeafAt(CellAt(p), known);
+  if (leaf != kNoIndex && leaf != known) tree_.Prefetch(leaf);
+  return {.revision = revision_.value(), .leaf = leaf != kNoIndex ? leaf : known};
 }
 
 }  // namespace qwsm

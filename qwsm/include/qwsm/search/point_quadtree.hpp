@@ -100,7 +100,8 @@ class PointQuadtree {
 
   /// A cursor for a first search at a place. Making those of many places before the searches is
   /// quicker, for meanwhile the memory they need is fetched.
-  SearchCursor CursorAt(const Eigen::Vector2d& p_m) const;
+  /// @param near that of a place nearby makes it quicker, too.
+  SearchCursor CursorAt(const Eigen::Vector2d& p_m, const SearchCursor& near = {}) const;
 
   /// The `k` nearest points not farther than `max_distance_m`, nearest first, replacing `out`.
   void KNearest(const Eigen::Vector2d& query_m,

@@ -48,6 +48,9 @@ class CellQuadtree {
 
   /// The leaf whose square holds the cell; kNoIndex where there is none.
   std::uint32_t LeafAt(Cell cell) const;
+  /// The same, sought from a leaf nearby: up as far as it has to, and down again.
+  /// @param near may be kNoIndex.
+  std::uint32_t LeafAt(Cell cell, std::uint32_t near) const;
   /// The smallest node whose square holds both cells; the root where none does.
   Subtree SmallestHolding(Cell low, Cell high) const;
   /// The smallest node around the leaf that stands for `level` or more, or else the root.
@@ -60,6 +63,7 @@ class CellQuadtree {
   std::size_t bytes() const { return leaves_.bytes() + inner_.bytes(); }
 
  private:
+  std::uint32_t LeafBelow(const Subtree& part, Cell cell) const;
   void GrowTo(Cell cell);
   void EnlargeRootLeaf();
   std::uint32_t LeafFor(Cell cell);
