@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slam6d/cloud/octree.hpp"
 
-#include <algorithm>
+#include <array>
 #include <cassert>
-#include <utility>
+#include <numeric>
 
 namespace slam6d {
 namespace {
@@ -46,6 +46,28 @@ Extent ExtentOf(const PointCloud& cloud) {
   return extent;
 }
 
+struct CodedPoint {
+  std::uint64_t code;
+  std::uint32_t point;
+};
+
+/// Sorts by code; points of one code stay in their order. O(n) for codes of few bits: a radix sort.
+void SortByCode(std::vector<CodedPoint>& coded) {
+  constexpr unsigned kBits = 11;  // The counts of a pass fit into the nearest cache.
+  constexpr std::size_t kDigits = std::size_t{1} << kBits;
+  std::uint64_t used = 0;
+  for (const CodedPoint& point : coded) used |= point.code;
+  std::vector<CodedPoint> sorted(coded.size());
+  for (unsigned shift = 0; shift < 64 && (used >> shift) != 0; shift += kBits) {
+    const auto digit = [&](const CodedPoint& point) { return (point.code >> shift) % kDigits; };
+    std::array<std::uint32_t, kDigits> next{};
+    for (const CodedPoint& point : coded) ++next[digit(point)];
+    std::exclusive_scan(next.begin(), next.end(), next.begin(), 0U);
+    for (const CodedPoint& point : coded) sorted[next[digit(point)]++] = point;
+    coded.swap(sorted);
+  }
+}
+
 }  // namespace
 
 CubePlace PlaceOf(const Eigen::Vector3d& point_m, const Eigen::Vector3d& origin_m, double cube_m) {
@@ -62,19 +84,19 @@ Octree::Octree(const PointCloud& cloud, double cube_m) : cube_m_(cube_m) {
   const double widest_m = (extent.high_m - extent.low_m).maxCoeff();
   while (!(widest_m / cube_m_ < kMaxCubes - 1)) cube_m_ *= 2.0;
 
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> coded;
+  std::vector<CodedPoint> coded;
   coded.reserve(extent.points.size());
   for (const std::uint32_t point : extent.points) {
-    coded.emplace_back(MortonCode(PlaceOf(cloud[point], origin_m_, cube_m_)), point);
+    coded.push_back({MortonCode(PlaceOf(cloud[point], origin_m_, cube_m_)), point});
   }
-  std::sort(coded.begin(), coded.end());
+  SortByCode(coded);
   points_.reserve(coded.size());
   for (std::size_t i = 0; i < coded.size(); ++i) {
-    if (i == 0 || coded[i].first != coded[i - 1].first) {
+    if (i == 0 || coded[i].code != coded[i - 1].code) {
       first_.push_back(static_cast<std::uint32_t>(i));
-      places_.push_back(PlaceOf(cloud[coded[i].second], origin_m_, cube_m_));
+      places_.push_back(PlaceOf(cloud[coded[i].point], origin_m_, cube_m_));
     }
-    points_.push_back(coded[i].second);
+    points_.push_back(coded[i].point);
   }
   first_.push_back(static_cast<std::uint32_t>(coded.size()));
 }

@@ -12,6 +12,12 @@ void PointCloud::reserve(std::size_t size) {
   z_m_.reserve(size);
 }
 
+void PointCloud::resize(std::size_t size) {
+  x_m_.resize(size);
+  y_m_.resize(size);
+  z_m_.resize(size);
+}
+
 void PointCloud::push_back(const Eigen::Vector3d& point_m) {
   x_m_.push_back(point_m.x());
   y_m_.push_back(point_m.y());
@@ -55,14 +61,22 @@ void TransformRange(const Pose3& T_a_b,
 }
 
 PointCloud InRange(const PointCloud& cloud, double min_range_m, double max_range_m) {
-  PointCloud kept;
-  kept.reserve(cloud.size());
+  PointCloud kept(cloud.size());
+  double* const x_m = kept.x_m();
+  double* const y_m = kept.y_m();
+  double* const z_m = kept.z_m();
+  std::size_t count = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const double range2_m2 = cloud[i].squaredNorm();
-    if (range2_m2 >= min_range_m * min_range_m && range2_m2 <= max_range_m * max_range_m) {
-      kept.push_back(cloud[i]);
-    }
+    const Eigen::Vector3d point_m = cloud[i];
+    const double range2_m2 = point_m.squaredNorm();
+    // Written in any case, and kept if it counts: nearly all do.
+    x_m[count] = point_m.x();
+    y_m[count] = point_m.y();
+    z_m[count] = point_m.z();
+    const bool is_near = range2_m2 <= max_range_m * max_range_m;
+    count += is_near && range2_m2 >= min_range_m * min_range_m ? 1 : 0;
   }
+  kept.resize(count);
   return kept;
 }
 

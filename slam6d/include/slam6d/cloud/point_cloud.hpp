@@ -19,6 +19,8 @@ class PointCloud {
   std::size_t size() const { return x_m_.size(); }
   bool empty() const { return x_m_.empty(); }
   void reserve(std::size_t size);
+  /// Drops the last points, or adds some at the origin.
+  void resize(std::size_t size);
   void push_back(const Eigen::Vector3d& point_m);
   void Append(const PointCloud& other);
 
