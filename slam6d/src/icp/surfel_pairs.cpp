@@ -50,8 +50,6 @@ constexpr double kLeastNormalVariance = 1e-8;
 
 constexpr double kUnpaired = std::numeric_limits<double>::quiet_NaN();
 
-using Matrix6x3 = Eigen::Matrix<double, 6, 3>;
-
 /// Of the guess, for what the pairs leave open.
 Matrix6d GuessInformation(const IcpOptions& options) {
   Vector6d sigmas;
@@ -104,6 +102,37 @@ bool IsBackOf(const Surfel& ref, const Eigen::Vector3d& scanner_ref_m) {
   };
   return sine_of_sight(scanner_ref_m) < -kGrazingSine &&
          sine_of_sight(Eigen::Vector3d::Zero()) > kGrazingSine;
+}
+
+/// sum += a b^T, a column at a time: Eigen's own product is not unrolled.
+void AddOuter(const Vector6d& a, const Vector6d& b, Matrix6d& sum) {
+  for (int column = 0; column < 6; ++column) sum.col(column) += b(column) * a;
+}
+
+/// C along the axes of another frame.
+Eigen::Matrix3d TurnedSpread(const Eigen::Matrix3d& R, const Eigen::Matrix3d& C) {
+  return R.lazyProduct(C.lazyProduct(R.transpose()).eval());
+}
+
+/// What the error of the normal, of covariance C, adds on average. The row of a pair is
+/// J = (I; [arm]x) n: products with the unit matrix are left out.
+void AddNoise(double weight,
+              const Eigen::Vector3d& arm_m,
+              const Eigen::Matrix3d& C,
+              const Eigen::Vector3d& offset_m,
+              NormalEquations& equations) {
+  const Eigen::Matrix3d weighted_C =
+      weight * (C + kLeastNormalVariance * Eigen::Matrix3d::Identity());
+  Eigen::Matrix3d arm_C;
+  for (int i = 0; i < 3; ++i) arm_C.col(i) = arm_m.cross(weighted_C.col(i));
+  Eigen::Matrix3d arm_C_arm;
+  for (int i = 0; i < 3; ++i) arm_C_arm.col(i) = arm_m.cross(arm_C.row(i).transpose());
+  equations.A_noise.topLeftCorner<3, 3>() += weighted_C;
+  equations.A_noise.bottomLeftCorner<3, 3>() += arm_C;
+  equations.A_noise.bottomRightCorner<3, 3>() += arm_C_arm;
+  const Eigen::Vector3d pull = weighted_C * offset_m;
+  equations.b_noise.head<3>() += pull;
+  equations.b_noise.tail<3>() += arm_m.cross(pull);
 }
 
 }  // namespace
@@ -167,7 +196,7 @@ void SurfelPairs::AddPair(const Rules& rules, std::size_t i, NormalEquations& eq
     normal = (ref.normal + normal_ref).normalized();
     variance_m2 += cur.variance_m2;
     const Eigen::Matrix3d& R = rules.T_ref_cur.rotation;
-    C = 0.25 * (C + R * cur.normal_covariance * R.transpose());  // Of the mean of both.
+    C = 0.25 * (C + TurnedSpread(R, cur.normal_covariance));  // Of the mean of both.
   } else if (IsBackOf(ref, rules.T_ref_cur.translation_m)) {
     return;
   }
@@ -180,16 +209,14 @@ void SurfelPairs::AddPair(const Rules& rules, std::size_t i, NormalEquations& eq
   const double outlier = 1.0 + residual_m * residual_m / rules.scale2_m2;
   const double weight = 1.0 / (variance_m2 * outlier * outlier);
   const double slope = (4.0 - 3.0 * outlier) / outlier;  // d(weight r)/dr over the weight.
-  Matrix6x3 M;                                           // J = M n
-  M << Eigen::Matrix3d::Identity(), Skew(point_m - rules.T_ref_cur.translation_m);
-  const Vector6d J = M * normal;
-  C += kLeastNormalVariance * Eigen::Matrix3d::Identity();
-  const Matrix6x3 MC = M * C;
-  equations.A.noalias() += weight * J * J.transpose();
-  equations.hessian.noalias() += slope * weight * J * J.transpose();
-  equations.b += weight * residual_m * J;
-  equations.A_noise.noalias() += weight * MC * M.transpose();
-  equations.b_noise.noalias() += weight * MC * offset_m;
+  const Eigen::Vector3d arm_m = point_m - rules.T_ref_cur.translation_m;
+  Vector6d J;
+  J << normal, arm_m.cross(normal);
+  const Vector6d weighted_J = weight * J;
+  AddOuter(weighted_J, J, equations.A);
+  AddOuter(slope * weighted_J, J, equations.hessian);
+  equations.b += residual_m * weighted_J;
+  AddNoise(weight, arm_m, C, offset_m, equations);
   equations.weighted_residual2 += weight * residual_m * residual_m;
   equations.residual2_m2 += residual_m * residual_m;
   ++equations.pairs;
@@ -198,6 +225,8 @@ void SurfelPairs::AddPair(const Rules& rules, std::size_t i, NormalEquations& eq
 NormalEquations SurfelPairs::Sum(const Rules& rules, std::size_t first, std::size_t last) {
   NormalEquations equations;
   for (std::size_t i = first; i < last; ++i) AddPair(rules, i, equations);
+  Matrix6d& noise = equations.A_noise;
+  noise.topRightCorner<3, 3>() = noise.bottomLeftCorner<3, 3>().transpose();
   return equations;
 }
 
