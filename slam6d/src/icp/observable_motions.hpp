@@ -3,11 +3,19 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 
 #include "slam6d/geometry/pose3.hpp"
 #include "slam6d/src/algebra/decompositions.hpp"
 
 namespace slam6d {
+
+/// What neighbouring surfels of the current scan say together: their errors are not independent of
+/// each other, as they lie on the same few things.
+struct ClusterEquations {
+  Matrix6d A = Matrix6d::Zero();
+  Vector6d b = Vector6d::Zero();  ///< Without what the errors of the normals add on average.
+};
 
 /// Whether surfaces with the normal equations A leave a motion open of which not even noise tells.
 bool LeavesMotionOpen(const Matrix6d& A);
@@ -24,7 +32,12 @@ class ObservableMotions {
   /// @param A of the normal equations.
   /// @param A_noise what the errors of the normals add to A on average; positive definite.
   /// @param scatter covariance of the gradient, from the residuals.
-  ObservableMotions(const Matrix6d& A, const Matrix6d& A_noise, const Matrix6d& scatter);
+  /// @param clusters whose scatter that is. Where they are given, it is larger for motions that few
+  /// of them tell of.
+  ObservableMotions(const Matrix6d& A,
+                    const Matrix6d& A_noise,
+                    const Matrix6d& scatter,
+                    std::span<const ClusterEquations> clusters = {});
 
   /// What the pairs tell of the motions: A S^-1 A with S the scatter of the gradient (the sandwich
   /// of Huber 1967), without noise, and without the motions that are not observable. It is A where

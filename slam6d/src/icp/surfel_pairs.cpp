@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "slam6d/src/algebra/decompositions.hpp"
-#include "slam6d/src/icp/observable_motions.hpp"
 #include "slam6d/src/parallel.hpp"
 
 namespace slam6d {
@@ -305,7 +304,9 @@ Matrix6d SurfelPairs::Covariance(const Sums& sums,
                                  const Matrix6d& information,
                                  const IcpOptions& options) {
   const Matrix6d prior = GuessInformation(options);
-  const ObservableMotions observable(information, sums.A_noise, ScatterOf(sums, prior));
+  // The pose may hang on few things and be right; that it is cannot be known.
+  const ObservableMotions observable(
+      information, sums.A_noise, ScatterOf(sums, prior), sums.clusters);
   return InverseOf(observable.Information() + prior);
 }
 

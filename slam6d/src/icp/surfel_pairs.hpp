@@ -3,15 +3,9 @@
 #pragma once
 
 #include "slam6d/src/icp/icp_minimizer.hpp"
+#include "slam6d/src/icp/observable_motions.hpp"
 
 namespace slam6d {
-
-/// What neighbouring surfels of the current scan say together: their errors are not independent of
-/// each other, as they lie on the same few things.
-struct ClusterEquations {
-  Matrix6d A = Matrix6d::Zero();
-  Vector6d b = Vector6d::Zero();  ///< Without what the errors of the normals add on average.
-};
 
 /// The normal equations of one Gauss-Newton step over (x, y, z, roll, pitch, yaw).
 struct NormalEquations {
