@@ -6,7 +6,7 @@
 #include <deque>
 #include <vector>
 
-#include "slam6d/src/algebra/decompositions.hpp"
+#include "slam6d/src/mapping/open_motions.hpp"
 
 namespace slam6d {
 namespace {
@@ -18,9 +18,6 @@ constexpr double kMostGuessChi2 = 22.5;
 /// Where planes fail, points are first paired so many times farther off than else: a turn of 15
 /// degrees moves what is 5 m away by more than the usual pair is long, and ICP stops on the way.
 constexpr double kWidePairsFactor = 3.0;
-
-/// Of the variance that the guess has, the pairs leave no more where they tell as much as it does.
-constexpr double kLeastHeldShare = 0.5;
 
 /// One registration, tried from several places.
 class Attempts {
@@ -42,6 +39,15 @@ class Attempts {
     result.convinces = HasPose(result.icp) && IsWithinReach(result.icp.T_ref_cur) &&
                        result.agreement.Contradiction() <= options_.evidence.max_contradiction;
     return result;
+  }
+
+  /// The same, with what the error of the guess does where it has to tell.
+  Registration WithErrorOfGuess(Registration registration) const {
+    const OpenMotions open(registration.icp, options_.icp);
+    if (registration.convinces && !open.empty()) {
+      registration.icp.covariance = open.Covariance(models_, *cur_.model, cur_.T_map_scan);
+    }
+    return registration;
   }
 
   Pose3 GuessByOctrees() const {
@@ -85,20 +91,11 @@ class Attempts {
   std::vector<RangeImageReference> images_;
 };
 
-/// Whether the pairs tell of every motion at least as much as the guess does.
-bool HoldsPose(const IcpResult& result, const IcpOptions& icp) {
-  Vector6d weight;
-  weight << Eigen::Vector3d::Constant(1.0 / icp.guess_sigma_m),
-      Eigen::Vector3d::Constant(1.0 / icp.guess_sigma_rad);
-  const Matrix6d shares = weight.asDiagonal() * result.covariance * weight.asDiagonal();
-  return EigenvaluesOf(shares)(5) <= kLeastHeldShare;
-}
-
 /// Whether nothing speaks for trying elsewhere: pairs that change to and fro for ever may be those
 /// of a wrong place, and what they leave open may be held elsewhere.
 bool IsSettled(const Registration& registration, const IcpOptions& icp) {
   return registration.convinces && registration.icp.status == IcpStatus::kConverged &&
-         HoldsPose(registration.icp, icp);
+         OpenMotions(registration.icp, icp).empty();
 }
 
 /// Of two, the one that convinces; if both do, the one that sees more of what the references saw.
@@ -116,11 +113,12 @@ Registration RegisterScan(std::span<const PlacedScan> references,
   const Registration first = attempts.From(cur.T_map_scan);
   if (IsSettled(first, options.icp)) return first;
   const Registration second = attempts.From(attempts.GuessByOctrees());
-  if (IsSettled(second, options.icp) || options.icp.metric == IcpMetric::kPointToPoint) {
-    return BetterOf(first, second);
+  if (options.icp.metric == IcpMetric::kPointToPoint) return BetterOf(first, second);
+  if (IsSettled(second, options.icp)) {
+    return attempts.WithErrorOfGuess(BetterOf(first, second));
   }
   const Registration third = attempts.ByPoints();
-  return BetterOf(BetterOf(first, second), third);
+  return attempts.WithErrorOfGuess(BetterOf(BetterOf(first, second), third));
 }
 
 }  // namespace slam6d

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slam6d/src/mapping/open_motions.hpp"
+
+#include <optional>
+
+#include "slam6d/src/algebra/decompositions.hpp"
+
+namespace slam6d {
+namespace {
+
+/// Of the variance that the guess has, the pairs leave no more where they tell as much as it does.
+constexpr double kLeastHeldShare = 0.5;
+
+/// Guesses are put so many standard deviations off; weighted by a sixth each they have the moments
+/// of a normal distribution up to the fifth (Gauss and Hermite's rule of three points).
+constexpr double kDeviations = 1.7320508075688772;
+constexpr double kWeight = 1.0 / 6.0;
+
+Matrix6d CovarianceBefore(const IcpOptions& options) {
+  Vector6d sigmas;
+  sigmas << Eigen::Vector3d::Constant(options.guess_sigma_m),
+      Eigen::Vector3d::Constant(options.guess_sigma_rad);
+  return sigmas.cwiseAbs2().asDiagonal();
+}
+
+/// The pose moved along the axes of its parent frame, and turned about its own origin.
+Pose3 Displaced(const Pose3& pose, const Vector6d& motion) {
+  return {.rotation = RotationFromVector(motion.tail<3>()) * pose.rotation,
+          .translation_m = pose.translation_m + motion.head<3>()};
+}
+
+Vector6d MotionBetween(const Pose3& before, const Pose3& after) {
+  Vector6d motion;
+  motion << after.translation_m - before.translation_m,
+      RotationVector(after.rotation * before.rotation.transpose());
+  return motion;
+}
+
+}  // namespace
+
+OpenMotions::OpenMotions(const IcpResult& result, const IcpOptions& options)
+    : result_(result), options_(options) {
+  const Matrix6d before = CovarianceBefore(options);
+  const GeneralizedEigen6 eigen = GeneralizedEigenOf(result.covariance, before);
+  shares_ = eigen.values;
+  motions_ = before * eigen.vectors;
+  coordinates_ = eigen.vectors;
+  while (first_ > 0 && shares_(first_ - 1) > kLeastHeldShare) --first_;
+}
+
+Matrix6d OpenMotions::Covariance(std::span<const IcpReference> references,
+                                 const ScanModel& cur,
+                                 const Pose3& T_map_cur_guess) const {
+  Matrix6d covariance = result_.covariance;
+  for (int k = first_; k < kMotions; ++k) {
+    const Vector6d along = shares_(k) * motions_.col(k);  // Where all is linear.
+    Matrix6d spread = Matrix6d::Zero();
+    for (const double deviations : {kDeviations, -kDeviations}) {
+      const PoseAndGuess start{.now = Displaced(result_.T_ref_cur, deviations * along),
+                               .guess = Displaced(T_map_cur_guess, deviations * motions_.col(k))};
+      const IcpResult end = Align(references, cur, start, options_);
+      Vector6d moved = deviations * along;
+      if (end.covariance.trace() > 0.0) {
+        const Vector6d all = MotionBetween(result_.T_ref_cur, end.T_ref_cur);
+        moved += all - coordinates_.col(k).dot(all) * motions_.col(k);
+      }
+      spread += kWeight * moved * moved.transpose();
+    }
+    covariance += spread - along * along.transpose();
+  }
+  return covariance;
+}
+
+}  // namespace slam6d
