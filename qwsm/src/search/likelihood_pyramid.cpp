@@ -34,13 +34,31 @@ int OffsetInTile(int shift, int x, int y) {
 using Sixteen = std::uint8_t __attribute__((vector_size(16)));
 static_assert(LikelihoodStamp::kPadding == sizeof(Sixteen) && Tile::kSide % sizeof(Sixteen) == 0);
 
+Sixteen Load(const std::uint8_t* bytes) {
+  Sixteen sixteen;
+  std::memcpy(&sixteen, bytes, sizeof sixteen);
+  return sixteen;
+}
+
 void Raise(std::uint8_t* likelihoods, const std::uint8_t* of_point) {
-  Sixteen raised;
-  Sixteen to;
-  std::memcpy(&raised, likelihoods, sizeof raised);
-  std::memcpy(&to, of_point, sizeof to);
-  raised = raised > to ? raised : to;
+  const Sixteen before = Load(likelihoods);
+  const Sixteen to = Load(of_point);
+  const Sixteen raised = before > to ? before : to;
   std::memcpy(likelihoods, &raised, sizeof raised);
+}
+
+// Lowers eight drift codes, each of two cells side by side, where one of these counts as mapped.
+void LowerDrift(std::uint8_t* codes, const std::uint8_t* of_point, std::uint8_t drift_code) {
+  using Eight = std::uint8_t __attribute__((vector_size(8)));
+  using EightPairs = std::uint16_t __attribute__((vector_size(16)));
+  static_assert(Tile::DriftShiftOf(0) == 1);
+  const auto mapped = std::bit_cast<EightPairs>(Load(of_point) >= Tile::kMapped);
+  const Eight are_mapped = __builtin_convertvector(mapped | mapped >> 8, Eight);
+  const Eight to = (Eight{} + drift_code) | ~are_mapped;  // Where not mapped, the largest code.
+  Eight before;
+  std::memcpy(&before, codes, sizeof before);
+  const Eight lowered = before < to ? before : to;
+  std::memcpy(codes, &lowered, sizeof lowered);
 }
 
 }  // namespace
@@ -88,41 +106,27 @@ void LikelihoodPyramid::FindTilesAroundPoint() {
   }
 }
 
-// Raises the finest cells of a tile to those of the point.
+// Raises the finest cells of a tile to those of the point, and lowers their drift.
 void LikelihoodPyramid::RaiseFinest(GridCell at, std::uint8_t drift_code) {
   const GridCell first{at.x * Tile::kSide, at.y * Tile::kSide};
   const LikelihoodProfile& columns = columns_[0];
   const int first_row = std::max(first.y, rows_[0].first());
   const int last_row = std::min(first.y + Tile::kSide - 1, rows_[0].last());
-  const bool is_reached = first.x <= columns.last() && first.x + Tile::kSide > columns.first();
-  if (!is_reached || last_row < first_row) return;
-  Tile& tile = TileAround(at.x, at.y);
-  for (int x = first.x; x < first.x + Tile::kSide; x += LikelihoodStamp::kPadding) {
-    if (x > columns.last() || x + LikelihoodStamp::kPadding <= columns.first()) continue;
-    std::uint8_t* likelihoods =
-        tile.likelihoods(0) + (first_row - first.y) * Tile::kSide + (x - first.x);
-    for (int row = first_row; row <= last_row; ++row, likelihoods += Tile::kSide) {
-      Raise(likelihoods, stamp_.Row(row) + (x - columns.first()));
+  const int first_mapped = std::max(first_row, stamp_.first_mapped());
+  const int last_mapped = std::min(last_row, stamp_.last_mapped());
+  constexpr int kDriftSide = Tile::kSide >> Tile::DriftShiftOf(0);
+  Tile& tile = TileAround(at);
+  for (int x = 0; x < Tile::kSide; x += LikelihoodStamp::kPadding) {
+    const int column = first.x + x - columns.first();  // Of the stamp.
+    if (column > columns.last() - columns.first() || column <= -LikelihoodStamp::kPadding) continue;
+    for (int row = first_row; row <= last_row; ++row) {
+      Raise(tile.likelihoods(0) + (row - first.y) * Tile::kSide + x, stamp_.Row(row) + column);
     }
-  }
-  LowerFinestDrift(tile, first, drift_code);
-}
-
-// Lowers the drift of the finest cells of a tile that count as mapped by the point.
-// @param first the tile's first cell.
-void LikelihoodPyramid::LowerFinestDrift(Tile& tile,
-                                         GridCell first,
-                                         std::uint8_t drift_code) const {
-  constexpr int kShift = Tile::DriftShiftOf(0);
-  const int last_row = std::min(first.y + Tile::kSide - 1, stamp_.last_mapped());
-  for (int row = std::max(first.y, stamp_.first_mapped()); row <= last_row; ++row) {
-    const LikelihoodStamp::Columns mapped = stamp_.MappedOf(row);
-    std::uint8_t* codes =
-        tile.drift_codes(0) + ((row - first.y) >> kShift) * (Tile::kSide >> kShift);
-    const int last_column = std::min(mapped.last - first.x, Tile::kSide - 1) >> kShift;
-    for (int column = std::max(mapped.first - first.x, 0) >> kShift; column <= last_column;
-         ++column) {
-      codes[column] = std::min(codes[column], drift_code);
+    for (int row = first_mapped; row <= last_mapped; ++row) {
+      const int of_drift = (row - first.y) >> Tile::DriftShiftOf(0);
+      LowerDrift(tile.drift_codes(0) + of_drift * kDriftSide + (x >> Tile::DriftShiftOf(0)),
+                 stamp_.Row(row) + column,
+                 drift_code);
     }
   }
 }
@@ -133,26 +137,30 @@ void LikelihoodPyramid::RaiseCoarse(std::uint8_t drift_code) {
   constexpr int kBits = Tile::kBits - Tile::ShiftOf(kLevel);  // So many cells are in a tile.
   constexpr int kMask = (1 << kBits) - 1;
   static_assert(Tile::DriftShiftOf(kLevel) == Tile::ShiftOf(kLevel));
-  const LikelihoodProfile& columns = columns_[kLevel];
-  const LikelihoodProfile& rows = rows_[kLevel];
-  for (int row = rows.first(); row <= rows.last(); ++row) {
-    const double of_row = 255.0 * *rows.At(row);
-    for (int column = columns.first(); column <= columns.last(); ++column) {
-      Tile& tile = TileAround(column >> kBits, row >> kBits);
+  const GridCell first{columns_[kLevel].first(), rows_[kLevel].first()};
+  const GridCell last{columns_[kLevel].last(), rows_[kLevel].last()};
+  const double* of_columns = columns_[kLevel].At(first.x);
+  const double* of_rows = rows_[kLevel].At(first.y);
+  for (int row = first.y; row <= last.y; ++row) {
+    const double of_row = 255.0 * of_rows[row - first.y];
+    Tile* tile = nullptr;
+    for (int column = first.x; column <= last.x; ++column) {
+      const bool is_first_of_tile = column == first.x || (column & kMask) == 0;
+      if (is_first_of_tile) tile = &TileAround({column >> kBits, row >> kBits});
       const int cell = ((row & kMask) << kBits) + (column & kMask);
-      const auto likelihood = static_cast<std::uint8_t>(of_row * *columns.At(column));
-      std::uint8_t& greatest = tile.likelihoods(kLevel)[cell];
-      std::uint8_t& smallest_drift = tile.drift_codes(kLevel)[cell];
-      greatest = std::max(greatest, likelihood);
-      if (likelihood >= Tile::kMapped) smallest_drift = std::min(smallest_drift, drift_code);
+      const auto likelihood = static_cast<std::uint8_t>(of_row * of_columns[column - first.x]);
+      std::uint8_t& greatest = tile->likelihoods(kLevel)[cell];
+      std::uint8_t& smallest_drift = tile->drift_codes(kLevel)[cell];
+      if (likelihood > greatest) greatest = likelihood;
+      if (likelihood >= Tile::kMapped && drift_code < smallest_drift) smallest_drift = drift_code;
     }
   }
 }
 
 // One of the tiles around the point.
-LikelihoodTile& LikelihoodPyramid::TileAround(int column, int row) {
+LikelihoodTile& LikelihoodPyramid::TileAround(GridCell at) {
   const int width = around_.last.x - around_.first.x + 1;
-  const int i = (row - around_.first.y) * width + (column - around_.first.x);
+  const int i = (at.y - around_.first.y) * width + (at.x - around_.first.x);
   return tiles_[around_.tiles[static_cast<std::size_t>(i)]];
 }
 

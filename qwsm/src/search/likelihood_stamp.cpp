@@ -105,8 +105,6 @@ void LikelihoodStamp::Make(const LikelihoodProfile& columns, const LikelihoodPro
   const int width = columns.last() - columns.first() + 1;
   const int whole = (width + kColumnsAtATime - 1) / kColumnsAtATime * kColumnsAtATime;
   first_row_ = rows.first();
-  first_column_ = columns.first();
-  center_ = width / 2;
   stride_ = whole + 2 * kPadding;
   likelihoods_.resize(static_cast<std::size_t>((rows.last() - rows.first() + 1) * stride_));
   lanes_.assign(static_cast<std::size_t>(whole), 0.0);
@@ -127,15 +125,6 @@ void LikelihoodStamp::Make(const LikelihoodProfile& columns, const LikelihoodPro
     first_mapped_ = std::min(first_mapped_, row);
     last_mapped_ = row;
   }
-}
-
-LikelihoodStamp::Columns LikelihoodStamp::MappedOf(int row) const {
-  const std::uint8_t* likelihoods = Row(row);
-  int first = center_;
-  int last = center_;
-  while (likelihoods[first - 1] >= LikelihoodTile::kMapped) --first;  // The padding ends it.
-  while (likelihoods[last + 1] >= LikelihoodTile::kMapped) ++last;
-  return {.first = first_column_ + first, .last = first_column_ + last};
 }
 
 }  // namespace qwsm

@@ -138,10 +138,9 @@ class LikelihoodPyramid {
   std::uint32_t TileAt(int column, int row);
   const Tile* TileOf(const Block* block, int column, int row) const;
   void RaiseFinest(GridCell at, std::uint8_t drift_code);
-  void LowerFinestDrift(Tile& tile, GridCell first, std::uint8_t drift_code) const;
   template <int kLevel>
   void RaiseCoarse(std::uint8_t drift_code);
-  Tile& TileAround(int column, int row);
+  Tile& TileAround(GridCell at);
 
   LikelihoodPyramidOptions options_;
   double cells_per_metre_;

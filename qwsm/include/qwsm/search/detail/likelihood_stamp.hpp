@@ -48,13 +48,7 @@ class LikelihoodStamp {
   /// Rows may be read so far beyond their ends, where they hold zeros.
   static constexpr int kPadding = 16;
 
-  /// Columns side by side; none where the last one is before the first.
-  struct Columns {
-    int first = 0;
-    int last = -1;
-  };
-
-  /// Multiplies the profiles, which are to stay as they are while the stamp is in use.
+  /// Multiplies the profiles.
   void Make(const LikelihoodProfile& columns, const LikelihoodProfile& rows);
 
   /// Likelihoods of a row of cells, from the profile's first column on. @pre it is of the profile
@@ -64,13 +58,9 @@ class LikelihoodStamp {
   /// First and last row in which the point makes cells count as mapped.
   int first_mapped() const { return first_mapped_; }
   int last_mapped() const { return last_mapped_; }
-  /// The columns of such a row.
-  Columns MappedOf(int row) const;
 
  private:
   int first_row_ = 0;
-  int first_column_ = 0;
-  int center_ = 0;  // Column, from the first one on.
   int first_mapped_ = 0;
   int last_mapped_ = -1;
   int stride_ = 0;

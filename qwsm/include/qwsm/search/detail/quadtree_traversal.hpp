@@ -134,8 +134,11 @@ class Disk {
   void Visit(std::uint32_t leaf_index) const {
     const Leaf& leaf = tree_.leaf(leaf_index);
     const DistancesInLeaf distances2(leaf, center_);
-    for (std::size_t i = 0; i < leaf.count; ++i) {
-      if (distances2[i] <= radius2_) visit_(leaf.id[i], PositionAt(leaf, static_cast<int>(i)));
+    const UnitPoint corner{leaf.corner.x * kUnitsPerCell, leaf.corner.y * kUnitsPerCell};
+    const double radius2 = radius2_;
+    for (std::size_t i = 0, count = leaf.count; i < count; ++i) {
+      if (distances2[i] > radius2) continue;
+      visit_(leaf.id[i], UnitPoint{corner.x + leaf.x[i], corner.y + leaf.y[i]});
     }
   }
 
