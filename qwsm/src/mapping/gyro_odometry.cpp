@@ -46,7 +46,9 @@ std::optional<Pose2> GyroOdometry::Follow(const Observation& observation) {
     const bool is_apart = leads_ || (T_wheels_last_ && T_odom_robot_ != *T_wheels_last_);
     if (is_apart) {
       const Pose2 motion = T_wheels_last_->Inverse() * *observation.T_odom_robot;
-      T_odom_robot_ = T_odom_robot_ * (leads_ ? Turned(motion, turn_->by_gyro_rad) : motion);
+      T_odom_robot_ =
+          T_odom_robot_ *
+          (leads_ ? Turned(creep_.TakenOut(motion), turn_->by_gyro_rad) : motion);
     } else {
       T_odom_robot_ = *observation.T_odom_robot;
     }
@@ -74,6 +76,12 @@ void GyroOdometry::Learn(double turn_rad, double sigma_rad) {
   const double gain = bias_variance_ * duration_s / variance;
   bias_rad_s_ -= gain * std::clamp(of_gyro_rad, -most_rad, most_rad);
   bias_variance_ *= 1.0 - gain * duration_s;
+}
+
+void GyroOdometry::LearnWay(const UncertainPose2& before,
+                            const UncertainPose2& motion,
+                            const UncertainPose2& found) {
+  if (leads_) creep_.Learn(before, motion, found);
 }
 
 void GyroOdometry::Restart(const std::optional<Pose2>& T_odom_robot) {

@@ -113,7 +113,7 @@ TrackedScan RobotTracker::Track(const ScanMap& map, const Observation& observati
   const bool extends = has_moved_on && (options_.extend_map || step.status == StepStatus::kFirst);
   if (extends) CloseLoop(map, still.scan, sighting.points, step);
   slip_.Learn(observation, sighting.velocity, step);
-  Remember(still, step, has_moved_on);
+  Remember(sighting, has_moved_on);
   Extend(extends, still, sighting.points, step);
   if (has_moved_on) seen_free_.Add(still.scan, step.map_robot.T_a_b);
   return {.step = std::move(step),
@@ -193,15 +193,14 @@ void RobotTracker::LearnMotion(const Sighting& sighting) {
   if (!sighting.last_robot) return;
   const MappingStep& step = sighting.step;
   const UncertainPose2& last_robot = sighting.last_robot->adapted;
-  const Observation& observation = sighting.observation;
   if (sighting.dropped_odometry) dead_reckoning_.Clear();
   if (step.closed_loop) {
     LeavePath();
   } else if (step.status == StepStatus::kMatched) {
     motion_.Adapt(local_last_ * last_robot,
                   step.match,
-                  observation.T_odom_robot,
-                  lasers_.ShareOfPeriod(observation.scan));
+                  sighting.observation.T_odom_robot,
+                  lasers_.ShareOfPeriod(sighting.observation.scan));
   }
   dead_reckoning_.Follow(last_robot,
                          {.T_a_b = step.map_robot.T_a_b, .covariance = step.local_covariance});
@@ -368,16 +367,17 @@ void RobotTracker::Extend(bool extends,
 }
 
 // By what the scan alone tells: the pose is by the gyro as well.
-void RobotTracker::LearnTurn(const MappingStep& step) {
+void RobotTracker::LearnOdometry(const Sighting& sighting) {
   const std::optional<UncertainPose2> look = lasers_.last_look();
-  if (!look || step.status == StepStatus::kFirst) return;
+  if (!look || sighting.step.status == StepStatus::kFirst) return;
   gyro_.Learn(NormalizeAngle(look->T_a_b.theta_rad - local_last_.T_a_b.theta_rad),
               std::sqrt(look->covariance(2, 2) + local_last_.covariance(2, 2)));
+  if (!sighting.dropped_odometry) gyro_.LearnWay(local_last_, sighting.step.odometry_motion, *look);
 }
 
-void RobotTracker::Remember(const Observation& observation,
-                            const MappingStep& step,
-                            bool has_moved_on) {
+void RobotTracker::Remember(const Sighting& sighting, bool has_moved_on) {
+  const Observation& observation = sighting.observation;
+  const MappingStep& step = sighting.step;
   const bool is_first = step.status == StepStatus::kFirst;
   const std::optional<Pose2> T_map_before =
       lasers_.empty() ? map_last_.T_a_b : lasers_.LastPoseOf(observation.scan);
@@ -389,7 +389,7 @@ void RobotTracker::Remember(const Observation& observation,
     motion_.RememberOdometry(observation.T_odom_robot);
   }
   lasers_.Note(observation, step, has_moved_on);
-  LearnTurn(step);
+  LearnOdometry(sighting);
   map_last_ = step.map_robot;
   local_last_ = {.T_a_b = step.map_robot.T_a_b, .covariance = step.local_covariance};
   has_initial_pose_ = has_initial_pose_ && is_first && !has_moved_on;

@@ -6,6 +6,7 @@
 
 #include "qwsm/geometry/pose2.hpp"
 #include "qwsm/mapping/observation.hpp"
+#include "qwsm/mapping/wheel_creep.hpp"
 
 namespace qwsm {
 
@@ -16,6 +17,9 @@ namespace qwsm {
 /// so is how good it is: it counts while it predicts them better than the wheels do. One whose axis
 /// points down, or whose unit is wrong, is left out by itself. Without a gyro odometry is returned
 /// as it is.
+///
+/// Where the heading is known, what is left of the wheels' error is mostly their creep, which is
+/// learned and taken out of the way as well.
 class GyroOdometry {
  public:
   /// The odometry of the observation, in a frame that drifts away from the wheels' as the gyro and
@@ -26,6 +30,12 @@ class GyroOdometry {
   /// @param sigma_rad of that turn.
   void Learn(double turn_rad, double sigma_rad);
 
+  /// Takes the last motion, and where matches found the robot after it.
+  /// @param before where it was before; in the frame of the match, like `found`.
+  void LearnWay(const UncertainPose2& before,
+                const UncertainPose2& motion,
+                const UncertainPose2& found);
+
   /// Goes on from this reading of the wheels.
   void Restart(const std::optional<Pose2>& T_odom_robot);
 
@@ -34,6 +44,7 @@ class GyroOdometry {
   /// Whether the last motion's heading is the gyro's.
   bool leads() const { return leads_; }
   double bias_rad_s() const { return bias_rad_s_; }
+  const WheelCreep& creep() const { return creep_; }
 
  private:
   /// What both told of the last motion.
@@ -53,6 +64,7 @@ class GyroOdometry {
   bool leads_ = false;
   double bias_rad_s_ = 0.0;
   double bias_variance_ = 0.0025;  // Of (0.05 rad/s)^2, as cheap ones have.
+  WheelCreep creep_;
   int learned_ = 0;                // Turns.
   double wheels_chi2_ = 0.0;       // Mean squares of late, in units of what matches cannot tell.
   double gyro_chi2_ = 0.0;

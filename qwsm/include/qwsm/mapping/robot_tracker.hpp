@@ -103,8 +103,8 @@ class RobotTracker {
                  MappingStep& step);
   void LearnMotion(const Sighting& sighting);
   void LeavePath();
-  void Remember(const Observation& observation, const MappingStep& step, bool has_moved_on);
-  void LearnTurn(const MappingStep& step);
+  void Remember(const Sighting& sighting, bool has_moved_on);
+  void LearnOdometry(const Sighting& sighting);
   void Extend(bool extends,
               const Observation& observation,
               std::span<const ScanPoint> points,
