@@ -71,7 +71,9 @@ class SlipEstimator {
   void Learn(const Look& before, const Look& now, double elapsed_s);
 
   std::optional<Look> last_;  // Of the last scan, if that was matched.
-  Velocity slip_{.walk = {0.02, 0.02, 0.005}, .variances = Eigen::Vector3d::Constant(0.01)};
+  // A twentieth of the motion, which changes as that does. Were it more, a jump of odometry would pass
+  // for slip.
+  Velocity slip_{.walk = {0.03, 0.03, 0.05}, .variances = Eigen::Vector3d::Constant(0.01)};
   // As robots accelerate.
   Velocity velocity_{.walk = {0.5, 0.5, 1.0}, .variances = Eigen::Vector3d::Constant(1.0)};
 };
