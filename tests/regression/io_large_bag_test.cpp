@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <optional>
@@ -90,12 +91,18 @@ INSTANTIATE_TEST_SUITE_P(All,
                          testing::Values("large.mcap", "large.db3"),
                          [](const auto& tested) { return "Bag" + std::to_string(tested.index); });
 
-/// Processor time that something takes.
+/// Processor time that something takes, the least of a few rounds: in the first one the kernel hands
+/// out memory, which takes as long as it likes.
 template <class Work>
 std::chrono::duration<double> TimeOf(Work work) {
-  const auto before = pipeline::WorkedByThread();
-  work();
-  return pipeline::WorkedByThread() - before;
+  constexpr int kRounds = 3;
+  auto least = std::chrono::duration<double>::max();
+  for (int round = 0; round < kRounds; ++round) {
+    const auto before = pipeline::WorkedByThread();
+    work();
+    least = std::min<std::chrono::duration<double>>(least, pipeline::WorkedByThread() - before);
+  }
+  return least;
 }
 
 TEST(LargeBagOfScans, IsReadTenTimesAsFastAsItIsMapped) {
@@ -105,6 +112,7 @@ TEST(LargeBagOfScans, IsReadTenTimesAsFastAsItIsMapped) {
     WriteDrive(path);
     std::vector<Observation> observations;
     const auto reading = TimeOf([&] {
+      observations.clear();
       const auto reader = OpenLog(path);
       while (std::optional<LogRecord> record = reader->Next()) {
         if (auto* scan = std::get_if<ScanReading>(&*record)) {
@@ -112,8 +120,8 @@ TEST(LargeBagOfScans, IsReadTenTimesAsFastAsItIsMapped) {
         }
       }
     });
-    Mapper mapper;
     const auto mapping = TimeOf([&] {
+      Mapper mapper;
       for (const Observation& observation : observations) mapper.Process(observation);
     });
     RecordProperty(name, std::to_string(mapping / reading));

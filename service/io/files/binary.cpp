@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/io/files/binary.hpp"
 
+#include <zlib.h>
+
 #include <bit>
-#include <boost/crc.hpp>
 #include <concepts>
 
 namespace qwsm::io {
@@ -29,9 +30,8 @@ Number Assemble(std::string_view bytes) {
 }  // namespace
 
 std::uint32_t Checksum(std::string_view bytes) {
-  boost::crc_32_type crc;
-  crc.process_bytes(bytes.data(), bytes.size());
-  return crc.checksum();
+  const auto* data = reinterpret_cast<const Bytef*>(bytes.data());
+  return static_cast<std::uint32_t>(crc32_z(crc32_z(0, nullptr, 0), data, bytes.size()));
 }
 
 void BinaryWriter::Add(std::uint8_t value) { AppendBytes(bytes_, value); }
