@@ -44,7 +44,6 @@ class GyroOdometry {
   /// Whether the last motion's heading is the gyro's.
   bool leads() const { return leads_; }
   double bias_rad_s() const { return bias_rad_s_; }
-  const WheelCreep& creep() const { return creep_; }
 
  private:
   /// What both told of the last motion.
