@@ -9,6 +9,7 @@
 
 #include "qwsm/correction/self_correcting_mapper.hpp"
 #include "qwsm/metrics/nees.hpp"
+#include "qwsm/metrics/trajectory_error.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/sim_scenarios.hpp"
 
@@ -25,7 +26,7 @@ CorrectedDrive Corrected(const sim::ScenarioOptions& scenario) {
   SelfCorrectingMapper mapper;
   std::vector<Pose2> T_world_robot;
   while (const std::optional<sim::Reading> reading = simulation.Next()) {
-    mapper.Process({.scan = reading->scan, .T_odom_robot = reading->T_odom_robot});
+    mapper.Process(sim::ObservationOf(*reading));
     T_world_robot.push_back(reading->T_world_robot);
   }
   CorrectedDrive drive{.map_robot = mapper.Correct().map_robot, .T_map_true = {}};
@@ -56,6 +57,28 @@ TEST(CorrectedDrive, IsAsWrongAsItsCovariancesTell) {
   }
   EXPECT_GT(sum / kSeeds, 0.7);
   EXPECT_LT(sum / kSeeds, 4.5);
+}
+
+double TrajectoryError_m(const CorrectedDrive& drive) {
+  std::vector<PosePair> pairs;
+  for (std::size_t i = 0; i < drive.map_robot.size(); ++i) {
+    pairs.push_back({.T_ref_robot = drive.T_map_true[i], .T_map_robot = drive.map_robot[i].T_a_b});
+  }
+  return AbsoluteTrajectoryError(pairs, AlignUmeyama(pairs)).rmse;
+}
+
+// On wet grass, where wheels turn further than the robot goes and matches of single trees do not
+// tell by how much.
+TEST(CorrectedDrive, IsHalfAsWrongWithAGyro) {
+  double with_gyro_m = 0.0;
+  double by_wheels_m = 0.0;
+  for (int seed = 11; seed <= 16; ++seed) {
+    sim::ScenarioOptions park = sim::testing::Park(seed);
+    by_wheels_m += TrajectoryError_m(Corrected(park));
+    park.robots.front().gyro.enabled = true;
+    with_gyro_m += TrajectoryError_m(Corrected(park));
+  }
+  EXPECT_LT(with_gyro_m, 0.5 * by_wheels_m);
 }
 
 // Among these trees the robot turns twice with none in view, and comes back more than eight metres

@@ -177,6 +177,8 @@ void RobotTracker::Locate(const ScanMap& map, Sighting& sighting) const {
   const bool was_held_back =
       !sighting.dropped_odometry && CatchUpWithOdometry(map, points, last_robot.adapted, step);
   step.odometry_motion = last_robot.adapted;
+  step.odometry_adds_up = gyro_.leads() && !sighting.dropped_odometry &&
+                          !IsFarFrom(local_last_ * last_robot.adapted, PoseOf(step.match));
   step.map_robot = map_last_ * last_robot.conservative;
   step.local_covariance = (local_last_ * last_robot.conservative).covariance;
   const UncertainPose2 last_in_map{.T_a_b = map_last_.T_a_b};

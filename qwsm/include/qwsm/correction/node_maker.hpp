@@ -21,7 +21,10 @@ class NodeMaker {
   void Follow(const UncertainPose2& map_last) { map_last_ = map_last; }
 
  private:
+  void GoOn(const MappingStep& step);
+
   UncertainPose2 odometry_;  // Since the last node.
+  bool adds_up_ = true;      // Whether all of that does.
   std::optional<UncertainPose2> map_last_;
 };
 

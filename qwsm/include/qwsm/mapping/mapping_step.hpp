@@ -27,6 +27,9 @@ struct MappingStep {
   Timestamp stamp{};
   /// Motion since the last scan as odometry tells it, as uncertain as it has proved to be.
   UncertainPose2 odometry_motion{};
+  /// Whether the error of that motion is random, so that a sum of many grows no faster than their
+  /// noise: the heading is a gyro's, the creep of the wheels is taken out, and nothing slipped.
+  bool odometry_adds_up = false;
   UncertainPose2 map_robot{};  ///< Covariance of all error since the start.
   /// Covariance of the error relative to the map around the robot, without the drift of that map.
   Eigen::Matrix3d local_covariance = Eigen::Matrix3d::Zero();
