@@ -94,6 +94,23 @@ TEST(Slam3, DeadReckonsWhereAScanShowsAnotherPlace) {
   EXPECT_EQ(steps[3].status, SlamStatus::kMatched);
 }
 
+// Points that lie on nothing fit nowhere: with all of them, twenty times as much was sought as for a
+// scan that fits.
+TEST(Slam3, SeeksWhatFitsNowhereWithFewPoints) {
+  constexpr std::size_t kPoints = 40'000;
+  std::mt19937 random(11);
+  PointCloud nothing;
+  while (nothing.size() < kPoints) nothing.push_back(DrawNormal(random, 1.0));
+  const PointCloud room = DriveInCircle(2, kPoints, 11).scans.front();
+  const ScanModel models[]{ScanModel(room), ScanModel(nothing)};
+  const RangeImage images[]{RangeImage(room), RangeImage(nothing)};
+  const PlacedScan ref{.model = &models[0], .image = &images[0], .T_map_scan = {}};
+  const PlacedScan cur{.model = &models[1], .image = &images[1], .T_map_scan = {}};
+  const Registration registration = RegisterScan(std::span(&ref, 1), cur, {});
+  EXPECT_FALSE(registration.convinces);
+  EXPECT_LT(registration.searches, 10 * kPoints);
+}
+
 TEST(Slam3, RefinementGathersScansThatWereLeftApart) {
   const Drive3 drive = DriveInCircle(6, 4000, 9);
   std::mt19937 random(9);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "slam6d/cloud/scan_model.hpp"
@@ -48,6 +49,7 @@ struct Registration {
   /// Whether the pairs hold the pose, within what the guess may be wrong by, and free space does
   /// not contradict it.
   bool convinces = false;
+  std::uint64_t searches = 0;  ///< Neighbours sought, in all attempts.
 };
 
 /// Registers a scan, which is guessed to be at its pose, with all references at once (Nüchter et
