@@ -11,6 +11,10 @@ namespace {
 /// Iterations of one fit, at most: a scan that still moves comes to its turn again.
 constexpr int kMostIterations = 20;
 
+/// A fit ends at steps of this share of what lets the neighbors rest: they move meanwhile, and the
+/// last tenth of a millimetre of points that slide along surfaces takes most of the iterations.
+constexpr double kStepShare = 0.3;
+
 /// The queue of scans to be fitted, each in it once.
 class FitQueue {
  public:
@@ -133,6 +137,10 @@ RefinementResult RefineModel(std::span<const IcpReference> scans,
   IcpOptions fit = icp;
   fit.max_distance_m = options.max_distance_m;
   fit.max_iterations = std::min(fit.max_iterations, kMostIterations);
+  fit.translation_tolerance_m =
+      std::max(fit.translation_tolerance_m, kStepShare * options.translation_tolerance_m);
+  fit.rotation_tolerance_rad =
+      std::max(fit.rotation_tolerance_rad, kStepShare * options.rotation_tolerance_rad);
   std::vector<IcpReference> model(scans.begin(), scans.end());
   FitQueue queue(scans.size(), options.max_visits);
   for (std::size_t scan = 0; scan < scans.size(); ++scan) {
