@@ -113,7 +113,7 @@ TEST_F(WhoWalksIn, IsLeftOut) {
   EXPECT_EQ(still.size(), points.size() - 10);
   for (const ScanPoint& point : still) EXPECT_GT(point.range_m, 4.0);
 
-  const LaserScan kept = seen_free_.WithoutMoving(scan_, points, {});
+  const LaserScan kept = WithoutMarked(scan_, points, seen_free_.MovingAmong(points, {}));
   for (std::size_t i = 0; i < kept.size(); ++i) {
     EXPECT_EQ(std::isnan(kept.ranges_m[i]), i >= 80 && i < 90) << i;
   }

@@ -194,12 +194,6 @@ std::vector<ScanPoint> FreeSpace::WithoutMoving(std::span<const ScanPoint> point
   return still;
 }
 
-LaserScan FreeSpace::WithoutMoving(LaserScan scan,
-                                   std::span<const ScanPoint> points,
-                                   const Pose2& T_map_robot) const {
-  return WithoutMarked(std::move(scan), points, MovingAmong(points, T_map_robot));
-}
-
 LaserScan WithoutMarked(LaserScan scan,
                         std::span<const ScanPoint> points,
                         std::span<const std::uint8_t> marks) {

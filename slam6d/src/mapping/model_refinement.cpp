@@ -11,7 +11,7 @@ namespace {
 /// Iterations of one fit, at most: a scan that still moves comes to its turn again.
 constexpr int kMostIterations = 20;
 
-/// A fit ends at steps of this share of what lets the neighbors rest: they move meanwhile, and the
+/// A fit ends at steps of this share of what lets the neighbours rest: they move meanwhile, and the
 /// last tenth of a millimetre of points that slide along surfaces takes most of the iterations.
 constexpr double kStepShare = 0.3;
 

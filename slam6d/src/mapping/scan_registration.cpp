@@ -26,7 +26,7 @@ constexpr std::size_t kPointsOfGuess = 3000;
 constexpr double kLastStep_m = 1e-3;
 constexpr double kLastStep_rad = 1e-4;
 
-/// Every so many-th of the points, which stand near their neighbors.
+/// Every so many-th of the points, which stand near their neighbours.
 PointCloud SampleOf(const PointCloud& points) {
   const std::size_t step = points.size() / kPointsOfGuess + 1;
   PointCloud sample;

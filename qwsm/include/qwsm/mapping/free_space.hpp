@@ -137,10 +137,6 @@ class FreeSpace {
   /// The points that may have stood where they are all the time.
   std::vector<ScanPoint> WithoutMoving(std::span<const ScanPoint> points,
                                        const Pose2& T_map_robot) const;
-  /// The scan with the beams to all others turned invalid. @param points those of the scan.
-  LaserScan WithoutMoving(LaserScan scan,
-                          std::span<const ScanPoint> points,
-                          const Pose2& T_map_robot) const;
 
  private:
   std::shared_ptr<const BeamsByDirection> BeamsOf(const LaserScan& scan) const;
