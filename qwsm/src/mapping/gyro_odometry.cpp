@@ -37,12 +37,18 @@ std::optional<GyroOdometry::Turn> GyroOdometry::TurnSince(const Observation& obs
               .duration_s = duration_s};
 }
 
+// What is left of the bias turns every motion the same way, and is to be lost in the gyro's noise.
+bool GyroOdometry::IsBiasKnown(double duration_s) const {
+  return bias_variance_ * duration_s <= kNoise_rad_per_sqrt_s * kNoise_rad_per_sqrt_s;
+}
+
 std::optional<Pose2> GyroOdometry::Follow(const Observation& observation) {
   turn_.reset();
   leads_ = false;
   if (observation.T_odom_robot) {
     turn_ = TurnSince(observation);
-    leads_ = turn_ && learned_ >= kLeastTurns && gyro_chi2_ <= kBenefitOfDoubt * wheels_chi2_;
+    leads_ = turn_ && IsBiasKnown(turn_->duration_s) && learned_ >= kLeastTurns &&
+             gyro_chi2_ <= kBenefitOfDoubt * wheels_chi2_;
     const bool is_apart = leads_ || (T_wheels_last_ && T_odom_robot_ != *T_wheels_last_);
     if (is_apart) {
       const Pose2 motion = T_wheels_last_->Inverse() * *observation.T_odom_robot;

@@ -38,9 +38,7 @@ bool IsConvincinglyBetter(std::span<const ScanPoint> points,
 // Whether any pose could be convincingly better: where nearly all of the scan is explained, none
 // is, and need not be sought.
 bool MayBeBeaten(std::span<const ScanPoint> points, const MatchResult& match) {
-  MatchResult perfect;
-  perfect.overlap = 1.0;
-  return IsConvincinglyBetter(points, perfect, match);
+  return IsConvincinglyBetter(points, {.overlap = 1.0}, match);
 }
 
 // Covariance of a matched pose: as uncertain as the part of the map it was matched to, plus what is

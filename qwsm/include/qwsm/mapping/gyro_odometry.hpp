@@ -14,9 +14,9 @@ namespace qwsm {
 /// badly.
 ///
 /// The gyro's bias is learned from the turns that matches find (a Kalman filter of one state), and
-/// so is how good it is: it counts while it predicts them better than the wheels do. One whose axis
-/// points down, or whose unit is wrong, is left out by itself. Without a gyro odometry is returned
-/// as it is.
+/// so is how good it is: it counts once its bias is known to within its noise, and while it predicts
+/// turns better than the wheels do. One whose axis points down, or whose unit is wrong, is left out
+/// by itself. Without a gyro odometry is returned as it is.
 ///
 /// Where the heading is known, what is left of the wheels' error is mostly their creep, which is
 /// learned and taken out of the way as well.
@@ -54,6 +54,8 @@ class GyroOdometry {
   };
 
   std::optional<Turn> TurnSince(const Observation& observation) const;
+  // Whether the bias errs by less than noise does in a turn of that duration.
+  bool IsBiasKnown(double duration_s) const;
 
   std::optional<Pose2> T_wheels_last_;
   std::optional<double> gyro_last_rad_;
