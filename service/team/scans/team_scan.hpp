@@ -15,7 +15,8 @@ namespace qwsm::team {
 /// How a robot came from its last relevant scan to the next.
 struct ScanMotion {
   UncertainPose2 odometry;  ///< As odometry tells it, as uncertain as it has proved to be.
-  /// As it was answered; none where the answer does not continue the one before.
+  /// As it is believed (`ScanNode::T_last_node`); none where the answer does not continue the one
+  /// before.
   std::optional<Pose2> T_last_this;
 };
 

@@ -21,10 +21,14 @@ class NodeMaker {
   void Follow(const UncertainPose2& map_last) { map_last_ = map_last; }
 
  private:
+  struct Motion {
+    UncertainPose2 odometry;
+    bool adds_up = true;
+  };
+
   void GoOn(const MappingStep& step);
 
-  UncertainPose2 odometry_;  // Since the last node.
-  bool adds_up_ = true;      // Whether all of that does.
+  Motion since_;  // The last node.
   std::optional<UncertainPose2> map_last_;
 };
 
