@@ -108,7 +108,7 @@ TEST(Slam3, SeeksWhatFitsNowhereWithFewPoints) {
   const PlacedScan cur{.model = &models[1], .image = &images[1], .T_map_scan = {}};
   const Registration registration = RegisterScan(std::span(&ref, 1), cur, {});
   EXPECT_FALSE(registration.convinces);
-  EXPECT_LT(registration.searches, 10 * kPoints);
+  EXPECT_LT(registration.icp.search.queries, 10 * kPoints);
 }
 
 TEST(Slam3, RefinementGathersScansThatWereLeftApart) {

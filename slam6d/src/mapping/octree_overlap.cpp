@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "slam6d/cloud/octree.hpp"
+#include "slam6d/src/mapping/sample.hpp"
 
 namespace slam6d {
 namespace {
@@ -32,15 +33,6 @@ std::vector<std::uint64_t> KeysOf(const Octree& octree, int level) {
     if (keys.empty() || keys.back() != key) keys.push_back(key);
   }
   return keys;
-}
-
-/// Every so many-th of the means, at most `max_cubes` of them.
-std::vector<Eigen::Vector3d> Sample(const std::vector<Eigen::Vector3d>& means_m, int max_cubes) {
-  const auto limit = static_cast<std::size_t>(max_cubes);
-  const std::size_t step = (means_m.size() + limit - 1) / limit;
-  std::vector<Eigen::Vector3d> sample;
-  for (std::size_t i = 0; i < means_m.size(); i += step) sample.push_back(means_m[i]);
-  return sample;
 }
 
 /// The occupied cubes of one level of all references.
@@ -168,7 +160,8 @@ double Overlap(std::span<const OverlapReference> references,
                const Pose3& T_map_cur,
                const OverlapOptions& options) {
   if (cur.means_m().empty()) return 0.0;
-  const std::vector<Eigen::Vector3d> sample = Sample(cur.means_m(), options.max_cubes);
+  const std::vector<Eigen::Vector3d> sample =
+      Sample(cur.means_m(), static_cast<std::size_t>(options.max_cubes));
   return static_cast<double>(Level(references, 0).Count(sample, T_map_cur, 0)) /
          static_cast<double>(sample.size());
 }
@@ -180,7 +173,8 @@ OverlapGuess GuessByOverlap(std::span<const OverlapReference> references,
   const double overlap = Overlap(references, cur, T_map_cur_guess, options);
   OverlapGuess guess{.T_map_cur = T_map_cur_guess, .overlap = overlap};
   if (options.levels == 0 || references.empty() || !(cur.radius_m() > 0.0)) return guess;
-  const std::vector<Eigen::Vector3d> sample = Sample(cur.means_m(), options.max_cubes);
+  const std::vector<Eigen::Vector3d> sample =
+      Sample(cur.means_m(), static_cast<std::size_t>(options.max_cubes));
   Search search(sample, T_map_cur_guess);
   const auto coarsest = static_cast<std::size_t>(options.levels) - 1;
   for (std::size_t level = coarsest + 1; level-- > 0;) {

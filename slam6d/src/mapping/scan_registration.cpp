@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "slam6d/src/mapping/open_motions.hpp"
+#include "slam6d/src/mapping/sample.hpp"
 
 namespace slam6d {
 namespace {
@@ -20,19 +21,11 @@ constexpr double kMostGuessChi2 = 22.5;
 /// degrees moves what is 5 m away by more than the usual pair is long, and ICP stops on the way.
 constexpr double kWidePairsFactor = 3.0;
 
-/// Where points put a scan planes begin only: about so many of its points will do, and steps of a
+/// Where points put a scan planes begin only: so many of its points will do, and steps of a
 /// millimetre end it. All of them, where nothing overlaps, cost twenty times a registration.
 constexpr std::size_t kPointsOfGuess = 3000;
 constexpr double kLastStep_m = 1e-3;
 constexpr double kLastStep_rad = 1e-4;
-
-/// Every so many-th of the points, which stand near their neighbours.
-PointCloud SampleOf(const PointCloud& points) {
-  const std::size_t step = points.size() / kPointsOfGuess + 1;
-  PointCloud sample;
-  for (std::size_t i = 0; i < points.size(); i += step) sample.push_back(points[i]);
-  return sample;
-}
 
 /// One registration, tried from several places.
 class Attempts {
@@ -50,7 +43,6 @@ class Attempts {
   Registration From(const Pose3& T_map_cur) const {
     const PoseAndGuess start{.now = T_map_cur, .guess = cur_.T_map_scan};
     Registration result{.icp = Align(models_, *cur_.model, start, options_.icp)};
-    result.searches = result.icp.search.queries;
     result.agreement = Compare(images_, *cur_.image, result.icp.T_ref_cur);
     result.convinces = HasPose(result.icp) && IsWithinReach(result.icp.T_ref_cur) &&
                        result.agreement.Contradiction() <= options_.evidence.max_contradiction;
@@ -85,10 +77,10 @@ class Attempts {
     points.max_distance_m *= kWidePairsFactor;
     points.translation_tolerance_m = std::max(points.translation_tolerance_m, kLastStep_m);
     points.rotation_tolerance_rad = std::max(points.rotation_tolerance_rad, kLastStep_rad);
-    const ScanModel sample(SampleOf(cur_.model->points));
+    const ScanModel sample(Sample(cur_.model->points, kPointsOfGuess));
     const IcpResult found = Align(models_, sample, cur_.T_map_scan, points);
     Registration result = From(found.T_ref_cur);
-    result.searches += found.search.queries;
+    result.icp.search += found.search;
     return result;
   }
 
@@ -125,7 +117,7 @@ Registration BetterOf(const Registration& a, const Registration& b) {
   const bool sees_more = a.convinces && b.agreement.Overlap() > a.agreement.Overlap();
   const bool is_second = a.convinces == b.convinces ? sees_more : b.convinces;
   Registration better = is_second ? b : a;
-  better.searches = a.searches + b.searches;
+  better.icp.search += (is_second ? a : b).icp.search;
   return better;
 }
 

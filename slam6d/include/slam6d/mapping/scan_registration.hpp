@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
 #include <span>
 
 #include "slam6d/cloud/scan_model.hpp"
@@ -44,12 +43,11 @@ struct PlacedScan {
 
 /// What came of a registration.
 struct Registration {
-  IcpResult icp;  ///< Its `ref` is the map.
+  IcpResult icp;  ///< Its `ref` is the map; its searches are those of all attempts.
   Agreement agreement{};
   /// Whether the pairs hold the pose, within what the guess may be wrong by, and free space does
   /// not contradict it.
   bool convinces = false;
-  std::uint64_t searches = 0;  ///< Neighbours sought, in all attempts.
 };
 
 /// Registers a scan, which is guessed to be at its pose, with all references at once (Nüchter et
