@@ -4,24 +4,21 @@
 // Corrected paths of simulated robots, against the truth.
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "qwsm/correction/self_correcting_mapper.hpp"
 #include "qwsm/metrics/nees.hpp"
-#include "qwsm/metrics/trajectory_error.hpp"
 #include "sim/simulation.hpp"
+#include "tests/support/mapped_drive.hpp"
 #include "tests/support/sim_scenarios.hpp"
 
 namespace qwsm::test {
 namespace {
 
-struct CorrectedDrive {
-  std::vector<UncertainPose2> map_robot;
-  std::vector<Pose2> T_map_true;  ///< Seen from the first pose.
-};
-
-CorrectedDrive Corrected(const sim::ScenarioOptions& scenario) {
+std::vector<FoundPose> Corrected(const sim::ScenarioOptions& scenario) {
   sim::Simulation simulation(scenario);
   SelfCorrectingMapper mapper;
   std::vector<Pose2> T_world_robot;
@@ -29,23 +26,26 @@ CorrectedDrive Corrected(const sim::ScenarioOptions& scenario) {
     mapper.Process(sim::ObservationOf(*reading));
     T_world_robot.push_back(reading->T_world_robot);
   }
-  CorrectedDrive drive{.map_robot = mapper.Correct().map_robot, .T_map_true = {}};
-  const Pose2 T_map_world = drive.map_robot.front().T_a_b * T_world_robot.front().Inverse();
-  for (const Pose2& T_world : T_world_robot) drive.T_map_true.push_back(T_map_world * T_world);
-  return drive;
+  const std::vector<UncertainPose2> map_robot = mapper.Correct().map_robot;
+  const Pose2 T_map_world = map_robot.front().T_a_b * T_world_robot.front().Inverse();
+  std::vector<FoundPose> poses;
+  for (std::size_t i = 0; i < map_robot.size(); ++i) {
+    poses.push_back({.T_map_true = T_map_world * T_world_robot[i], .map_robot = map_robot[i]});
+  }
+  return poses;
 }
 
-double MeanNees(const CorrectedDrive& drive) {
+double MeanNees(std::span<const FoundPose> poses) {
   std::vector<double> values;
-  for (std::size_t i = 1; i < drive.map_robot.size(); ++i) {
-    if (const auto nees = Nees(drive.map_robot[i], drive.T_map_true[i])) values.push_back(*nees);
+  for (const FoundPose& pose : poses.subspan(1)) {
+    if (const auto nees = Nees(pose.map_robot, pose.T_map_true)) values.push_back(*nees);
   }
   return SummarizeNees(values).mean;
 }
 
-double LastError_m(const CorrectedDrive& drive) {
-  return (drive.map_robot.back().T_a_b.translation_m() - drive.T_map_true.back().translation_m())
-      .norm();
+double LastError_m(std::span<const FoundPose> poses) {
+  const FoundPose& last = poses.back();
+  return (last.map_robot.T_a_b.translation_m() - last.T_map_true.translation_m()).norm();
 }
 
 // One drive has one drift: three together tell more.
@@ -59,14 +59,6 @@ TEST(CorrectedDrive, IsAsWrongAsItsCovariancesTell) {
   EXPECT_LT(sum / kSeeds, 4.5);
 }
 
-double TrajectoryError_m(const CorrectedDrive& drive) {
-  std::vector<PosePair> pairs;
-  for (std::size_t i = 0; i < drive.map_robot.size(); ++i) {
-    pairs.push_back({.T_ref_robot = drive.T_map_true[i], .T_map_robot = drive.map_robot[i].T_a_b});
-  }
-  return AbsoluteTrajectoryError(pairs, AlignUmeyama(pairs)).rmse;
-}
-
 // On wet grass, where wheels turn further than the robot goes and matches of single trees do not
 // tell by how much.
 TEST(CorrectedDrive, IsHalfAsWrongWithAGyro) {
@@ -74,9 +66,9 @@ TEST(CorrectedDrive, IsHalfAsWrongWithAGyro) {
   double by_wheels_m = 0.0;
   for (int seed = 11; seed <= 16; ++seed) {
     sim::ScenarioOptions park = sim::testing::Park(seed);
-    by_wheels_m += TrajectoryError_m(Corrected(park));
+    by_wheels_m += AteRmse_m(Corrected(park));
     park.robots.front().gyro.enabled = true;
-    with_gyro_m += TrajectoryError_m(Corrected(park));
+    with_gyro_m += AteRmse_m(Corrected(park));
   }
   EXPECT_LT(with_gyro_m, 0.5 * by_wheels_m);
 }

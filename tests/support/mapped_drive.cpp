@@ -22,9 +22,9 @@ MappedDrive::MappedDrive(const sim::ScenarioOptions& scenario, const MapperOptio
   }
 }
 
-double MappedDrive::AteRmse_m() const {
+double AteRmse_m(std::span<const FoundPose> poses) {
   std::vector<PosePair> pairs;
-  for (const FoundPose& pose : poses_) {
+  for (const FoundPose& pose : poses) {
     pairs.push_back(
         {.stamp = {}, .T_ref_robot = pose.T_map_true, .T_map_robot = pose.map_robot.T_a_b});
   }

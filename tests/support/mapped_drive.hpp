@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "qwsm/mapping/mapper.hpp"
@@ -16,6 +17,9 @@ struct FoundPose {
   UncertainPose2 map_robot;
 };
 
+/// Root of the mean squared distance between found and true positions, aligned as well as can be.
+double AteRmse_m(std::span<const FoundPose> poses);
+
 /// The first robot of a scenario, mapped while it drives. Of several answers for one moment, as two
 /// lasers get, the last counts: it is by all that was seen.
 class MappedDrive {
@@ -27,8 +31,7 @@ class MappedDrive {
   const Pose2& T_world_map() const { return T_world_map_; }
   const sim::SceneryOptions& scenery() const { return simulation_.scenery(); }
 
-  /// Root of the mean squared distance between found and true positions, aligned as well as can be.
-  double AteRmse_m() const;
+  double AteRmse_m() const { return test::AteRmse_m(poses_); }
 
  private:
   sim::Simulation simulation_;
