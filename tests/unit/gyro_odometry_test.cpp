@@ -16,8 +16,10 @@ constexpr double kPeriod_s = 0.5;
 /// A robot that turns to and fro on grass: its wheels tell a fifth more.
 class TurningRobot {
  public:
-  explicit TurningRobot(double bias_rad_s, double gyro_factor = 1.0)
-      : bias_rad_s_(bias_rad_s), gyro_factor_(gyro_factor) {}
+  explicit TurningRobot(double bias_rad_s,
+                        double gyro_factor = 1.0,
+                        double turn_sigma_rad = kTurnSigma_rad)
+      : bias_rad_s_(bias_rad_s), gyro_factor_(gyro_factor), turn_sigma_rad_(turn_sigma_rad) {}
 
   void Step() {
     ++steps_;
@@ -31,7 +33,7 @@ class TurningRobot {
     const double before_rad = T_odom_robot_.theta_rad;
     T_odom_robot_ = *odometry_.Follow(observation);
     const double told_rad = NormalizeAngle(T_odom_robot_.theta_rad - before_rad);
-    if (steps_ > 1) odometry_.Learn(turn_rad + kTurnSigma_rad * normal_(random_), kTurnSigma_rad);
+    if (steps_ > 1) odometry_.Learn(turn_rad + turn_sigma_rad_ * normal_(random_), turn_sigma_rad_);
     if (steps_ > 200) {
       by_gyro_rad2_ += std::pow(told_rad - turn_rad, 2);
       by_wheels_rad2_ += std::pow(0.2 * turn_rad, 2);
@@ -47,6 +49,7 @@ class TurningRobot {
  private:
   double bias_rad_s_;
   double gyro_factor_;
+  double turn_sigma_rad_;
   GyroOdometry odometry_;
   int steps_ = 0;
   double truth_rad_ = 0.0;
@@ -65,6 +68,15 @@ TEST(GyroOdometry, LearnsTheBias) {
   EXPECT_TRUE(turning.odometry().leads());
   EXPECT_NEAR(turning.odometry().bias_rad_s(), 0.02, 0.001);
   EXPECT_LT(turning.Share(), 0.5) << "the error of the heading is halved, and more";
+}
+
+// Among few trees matches tell soon that it is better than the wheels, and late what its bias is.
+TEST(GyroOdometry, CountsOnceItsBiasIsKnown) {
+  TurningRobot turning(0.02, 1.0, 0.02);
+  for (int i = 0; i < 100; ++i) turning.Step();
+  EXPECT_FALSE(turning.odometry().leads());
+  for (int i = 0; i < 300; ++i) turning.Step();
+  EXPECT_TRUE(turning.odometry().leads());
 }
 
 TEST(GyroOdometry, DoesWithoutAGyroThatIsUpsideDown) {
