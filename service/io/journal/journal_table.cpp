@@ -95,7 +95,7 @@ std::optional<JournalEntry> JournalTable::Find(std::int64_t position) {
                        .robot = find_->Text(1),
                        .sequence = static_cast<std::uint64_t>(find_->Integer(2)),
                        .stamp = std::chrono::nanoseconds(find_->Integer(3)),
-                       .contents = find_->Blob(4)};
+                       .contents = std::string(find_->Blob(4))};
     const bool is_intact = ChecksumOf(entry) == find_->Integer(5);
     find_->Reset();  // An open statement would keep the log from being tidied up.
     if (is_intact) return entry;

@@ -63,7 +63,7 @@ std::vector<KeptMark> MarkTable::All(std::size_t& damaged) {
   try {
     // Pages of a damaged table may point at each other.
     for (std::size_t row = 0; row < kMostKeptMarks && all.Step(); ++row) {
-      KeptMark mark{.id = all.Text(0), .contents = all.Blob(1)};
+      KeptMark mark{.id = all.Text(0), .contents = std::string(all.Blob(1))};
       if (Checksum(mark.contents) == all.Integer(2)) {
         marks.push_back(std::move(mark));
       } else {

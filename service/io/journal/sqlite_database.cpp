@@ -67,12 +67,12 @@ std::int64_t SqliteStatement::Integer(int column) const {
   return sqlite3_column_int64(statement_.get(), column);
 }
 
-std::string SqliteStatement::Text(int column) const { return Blob(column); }
+std::string SqliteStatement::Text(int column) const { return std::string(Blob(column)); }
 
-std::string SqliteStatement::Blob(int column) const {
+std::string_view SqliteStatement::Blob(int column) const {
   const void* bytes = sqlite3_column_blob(statement_.get(), column);
   const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column));
-  return size == 0 ? std::string() : std::string(static_cast<const char*>(bytes), size);
+  return {static_cast<const char*>(bytes), size};
 }
 
 void SqliteDatabase::Close::operator()(sqlite3* database) const { sqlite3_close_v2(database); }

@@ -39,7 +39,8 @@ class SqliteStatement {
 
   std::int64_t Integer(int column) const;
   std::string Text(int column) const;
-  std::string Blob(int column) const;
+  /// Valid until the statement goes on.
+  std::string_view Blob(int column) const;
 
  private:
   friend class SqliteDatabase;

@@ -7,6 +7,9 @@ namespace {
 
 // Rows that are left out at once, where pages of the database are damaged, at most.
 constexpr std::int64_t kLongestStride = std::int64_t{1} << 40;
+// Messages of a topic that are read at once: SQLite locks and unlocks the file for each query, which
+// takes longer than to read a scan.
+constexpr std::size_t kAheadBytes = std::size_t{1} << 16;
 
 }  // namespace
 
@@ -24,7 +27,8 @@ SqliteBag::SqliteBag(const std::filesystem::path& path, TellDamage tell)
     : database_(path, SqliteDatabase::Access::kReadOnly),
       tell_(std::move(tell)),
       rows_(database_.Prepare("SELECT id, topic_id, data FROM messages WHERE id > ? ORDER BY id")),
-      message_(database_.Prepare("SELECT data FROM messages WHERE id = ?")) {
+      messages_(database_.Prepare(
+          "SELECT id, data FROM messages WHERE topic_id = ? AND id >= ? ORDER BY id")) {
   SqliteStatement topics =
       database_.Prepare("SELECT id, name, type, serialization_format FROM topics ORDER BY id");
   while (topics.Step()) {
@@ -59,10 +63,10 @@ std::optional<BagMessage> SqliteBag::TakeRow() {
     tell_(static_cast<std::uint64_t>(last_row_), "a message belongs to a topic that is not listed");
     return std::nullopt;
   }
-  bytes_ = rows_.Blob(2);
   return BagMessage{.topic = topic->second,
-                    .address = {.container = 0, .at = static_cast<std::uint64_t>(last_row_)},
-                    .bytes = bytes_};
+                    .address = {.container = static_cast<std::uint64_t>(topic->first),
+                                .at = static_cast<std::uint64_t>(last_row_)},
+                    .bytes = rows_.Blob(2)};
 }
 
 /// Goes on behind the damaged page: a row further, then two, then four ...
@@ -78,10 +82,32 @@ bool SqliteBag::GoAround(const std::string& problem) {
 }
 
 std::string_view SqliteBag::Read(const MessageAddress& address) {
-  message_.Reset();
-  message_.Bind(1, static_cast<std::int64_t>(address.at));
-  bytes_ = message_.Step() ? message_.Blob(0) : std::string();
-  return bytes_;
+  RowsAhead& ahead = ahead_[address.container];
+  const auto row = static_cast<std::int64_t>(address.at);
+  if (!ahead.contains(row)) ahead = ReadAhead(static_cast<std::int64_t>(address.container), row);
+  const auto found = ahead.find(row);
+  return found == ahead.end() ? std::string_view() : found->second;
+}
+
+/// A row, and those of the same topic that are likely to be asked for next.
+SqliteBag::RowsAhead SqliteBag::ReadAhead(std::int64_t topic, std::int64_t row) {
+  RowsAhead ahead;
+  messages_.Reset();
+  messages_.Bind(1, topic);
+  messages_.Bind(2, row);
+  for (std::size_t bytes = 0; bytes < kAheadBytes;) {
+    try {
+      if (!messages_.Step()) break;
+    } catch (const SqliteError&) {
+      if (ahead.empty()) throw;
+      break;  // It is told when it is asked for.
+    }
+    const auto [added, is_new] = ahead.emplace(messages_.Integer(0), messages_.Blob(1));
+    if (!is_new) break;  // Damaged pages go round in a circle.
+    bytes += sizeof(RowsAhead::value_type) + added->second.size();
+  }
+  messages_.Reset();
+  return ahead;
 }
 
 }  // namespace qwsm::io

@@ -30,18 +30,21 @@ class SqliteBag final : public MessageSource {
   std::string_view Read(const MessageAddress& address) override;
 
  private:
+  using RowsAhead = std::map<std::int64_t, std::string>;
+
   std::optional<BagMessage> TakeRow();
   bool GoAround(const std::string& problem);
+  RowsAhead ReadAhead(std::int64_t topic, std::int64_t row);
 
   SqliteDatabase database_;
   TellDamage tell_;
   std::vector<BagTopic> topics_;
   std::map<std::int64_t, std::size_t> topic_of_id_;
-  SqliteStatement rows_;     // From the row after a number on, in the order of writing.
-  SqliteStatement message_;  // One row.
+  SqliteStatement rows_;      // From the row after a number on, in the order of writing.
+  SqliteStatement messages_;  // Of a topic, from a row on.
   std::int64_t last_row_ = -1;
   std::int64_t stride_ = 1;
-  std::string bytes_;
+  std::map<std::uint64_t, RowsAhead> ahead_;  // By topic.
 };
 
 }  // namespace qwsm::io
