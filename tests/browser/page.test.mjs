@@ -314,30 +314,40 @@ test('a robot in a map of its own is not drawn in the team\'s until it is found 
   assert.equal(text, 'map_robot_9 was found in map: they are one map now');
 });
 
-test('whoever comes late sees the whole map within a second', async (t) => {
+test('whoever comes late sees the whole map about as soon as a small one', async (t) => {
   const kTiles = 32 * 32;
   const publisher = programs.publishLargeMap();
   const tilesOf = () => window.qwsm.model.maps.get('/large/map_tiles')?.tiles.size ?? 0;
   await until(async () => await inPage(tilesOf) === kTiles, 'the map is in the first page');
   const late = await browser.newPage();
   await late.addInitScript(([tiles]) => {
+    const tilesOf = (topic) => window.qwsm?.model.maps.get(topic)?.tiles.size ?? 0;
     const look = () => {
-      if (window.qwsm?.model.maps.get('/large/map_tiles')?.tiles.size === tiles) window.drawn_ms = performance.now();
+      if (tilesOf('/map_tiles') > 0) window.small_ms ??= performance.now();
+      if (tilesOf('/large/map_tiles') === tiles) window.drawn_ms = performance.now();
       else requestAnimationFrame(look);
     };
     requestAnimationFrame(look);
   }, [kTiles]);
   await late.goto(`http://localhost:${port}/`);
-  await late.waitForFunction(() => window.drawn_ms > 0);
-  const drawn_ms = await late.evaluate(() => window.drawn_ms);
-  t.diagnostic(`${drawn_ms.toFixed(0)} ms after the page was asked for`);
-  // A second is what is wanted where nothing else runs.
-  assert.ok(drawn_ms < 5000);
+  await late.waitForFunction(() => window.drawn_ms > 0 && window.small_ms > 0);
+  const {drawn_ms, small_ms} = await late.evaluate(() => ({drawn_ms: window.drawn_ms, small_ms: window.small_ms}));
+  t.diagnostic(`${drawn_ms.toFixed(0)} ms after the page was asked for, the robots' own map after ${small_ms.toFixed(0)} ms`);
+  assert.ok(drawn_ms < 10 * small_ms);
   await late.close();
   publisher.kill('SIGKILL');
 });
 
+// How old poses are when they are drawn, in the median of some time, and how many they are.
+async function latencyDuring(rest_ms) {
+  await inPage(() => { window.qwsm.model.latencies_ms.length = 0; });
+  await new Promise((resolve) => setTimeout(resolve, rest_ms));
+  const latencies = await inPage(() => [...window.qwsm.model.latencies_ms].sort((a, b) => a - b));
+  return {poses: latencies.length, median_ms: latencies[latencies.length >> 1]};
+}
+
 test('a browser that hangs holds nobody up, and comes back', async (t) => {
+  const usual = await latencyDuring(2000);
   const server = await chromium.launchServer(kBrowser);
   const other = await chromium.connect(server.wsEndpoint());
   const hanging = await other.newPage();
@@ -346,13 +356,11 @@ test('a browser that hangs holds nobody up, and comes back', async (t) => {
   const group = -server.process().pid;
   process.kill(group, 'SIGSTOP');
   const before = programs.memory_kB(service);
-  await inPage(() => { window.qwsm.model.latencies_ms.length = 0; });
-  await new Promise((resolve) => setTimeout(resolve, 4000));
+  const beside = await latencyDuring(4000);
   const grown_kB = programs.memory_kB(service) - before;
-  const latencies = await inPage(() => [...window.qwsm.model.latencies_ms].sort((a, b) => a - b));
   process.kill(group, 'SIGCONT');
-  t.diagnostic(`beside it ${latencies.length} poses, in the median ${latencies[latencies.length >> 1].toFixed(0)} ms old; the service grew by ${grown_kB} kB`);
-  assert.ok(latencies.length > 50 && latencies[latencies.length >> 1] < 500);
+  t.diagnostic(`beside it ${beside.poses} poses, in the median ${beside.median_ms.toFixed(0)} ms old, ${usual.median_ms.toFixed(0)} ms without it; the service grew by ${grown_kB} kB`);
+  assert.ok(beside.poses > 50 && beside.median_ms < 10 * usual.median_ms);
   assert.ok(grown_kB < 8192, `the service grew by ${grown_kB} kB`);
   await hanging.waitForFunction(() => [...window.qwsm.model.robots.values()].every((robot) => Date.now() - robot.arrived_ms < 2000));
   await other.close();
