@@ -51,6 +51,14 @@ double BestScore(const LikelihoodPyramid& map, const Points& points_m, double re
   return SearchPose(map, points_m, window, {})->score;
 }
 
+FoundModes FindModes(const LikelihoodPyramid& map,
+                     const Points& places_m,
+                     const Points& scan_m,
+                     const ModeSearchLimits& limits) {
+  constexpr double kReach_m = 1.5;
+  return SearchModes(map, ModeSearchArea(map, places_m, kReach_m), scan_m, limits);
+}
+
 TEST(ModeSearch, FindsWhereTheScanWasTakenAtAnyHeading) {
   Random random(1);
   std::uniform_real_distribution<double> angle_rad(-std::numbers::pi, std::numbers::pi);
@@ -58,8 +66,8 @@ TEST(ModeSearch, FindsWhereTheScanWasTakenAtAnyHeading) {
     SCOPED_TRACE(round);
     const Points walls_m = AnyPlaces(random, 80);
     const Pose2 T_map_robot(1.3, -0.7, angle_rad(random));
-    const FoundModes found = SearchModes(
-        PyramidOf(walls_m), SeenFrom(T_map_robot, walls_m), {.places_m = kPlaces, .margin = 0.1});
+    const FoundModes found =
+        FindModes(PyramidOf(walls_m), kPlaces, SeenFrom(T_map_robot, walls_m), {.margin = 0.1});
     ASSERT_FALSE(found.modes.empty());
     EXPECT_TRUE(IsNear(found.modes.front().T_map_robot, T_map_robot));
     EXPECT_LE(found.floor_score, found.modes.front().score - 0.1 + 1e-9);
@@ -73,7 +81,7 @@ TEST(ModeSearch, FindsNoWorsePoseThanAnExhaustiveSearch) {
     SCOPED_TRACE(round);
     const LikelihoodPyramid map = PyramidOf(AnyPlaces(random, 150));
     const Points scan_m = AnyPlaces(random, 30);  // Which was taken nowhere in the map.
-    const FoundModes found = SearchModes(map, scan_m, {.places_m = origin, .reach_m = 1.5});
+    const FoundModes found = FindModes(map, origin, scan_m, {});
     ASSERT_FALSE(found.modes.empty());
     EXPECT_GT(found.modes.front().score, BestScore(map, scan_m, 1.5) - 0.02);
   }
@@ -88,8 +96,8 @@ TEST(ModeSearch, FindsAllPlacesThatAreAlike) {
   const Pose2 T_map_robot(0.5, 0.5, 0.3);
   const Points places = {
       T_map_robot.translation_m(), (T_map_other * T_map_robot).translation_m(), {15.0, 2.5}};
-  const FoundModes found = SearchModes(
-      PyramidOf(both_m), SeenFrom(T_map_robot, room_m), {.places_m = places, .margin = 0.1});
+  const FoundModes found =
+      FindModes(PyramidOf(both_m), places, SeenFrom(T_map_robot, room_m), {.margin = 0.1});
   ASSERT_EQ(found.modes.size(), 2U);
   const bool is_first = IsNear(found.modes[0].T_map_robot, T_map_robot);
   EXPECT_TRUE(IsNear(found.modes[is_first ? 0 : 1].T_map_robot, T_map_robot));
@@ -105,17 +113,17 @@ TEST(ModeSearch, SearchesMapsThatAreFarApart) {
   for (const Eigen::Vector2d& p_m : room_m) both_m.push_back(T_map_other * p_m);
   const Pose2 T_map_robot = T_map_other * Pose2(0.5, 0.5, 0.3);
   const Points places = {{0.0, 0.0}, T_map_robot.translation_m()};
-  const FoundModes found = SearchModes(
-      PyramidOf(both_m), SeenFrom({0.5, 0.5, 0.3}, room_m), {.places_m = places, .margin = 0.1});
+  const FoundModes found =
+      FindModes(PyramidOf(both_m), places, SeenFrom({0.5, 0.5, 0.3}, room_m), {.margin = 0.1});
   ASSERT_FALSE(found.modes.empty());
   EXPECT_TRUE(IsNear(found.modes[0].T_map_robot, T_map_robot));
 }
 
 TEST(ModeSearch, FindsNothingWhereThereIsNothingToFind) {
   const Points one_m = {{1.0, 1.0}};
-  EXPECT_TRUE(SearchModes(PyramidOf({}), one_m, {.places_m = kPlaces, .min_score = 0.3}).modes.empty());
-  EXPECT_TRUE(SearchModes(PyramidOf(one_m), {}, {.places_m = kPlaces}).modes.empty());
-  EXPECT_TRUE(SearchModes(PyramidOf(one_m), one_m, {}).modes.empty());
+  EXPECT_TRUE(FindModes(PyramidOf({}), kPlaces, one_m, {.min_score = 0.3}).modes.empty());
+  EXPECT_TRUE(FindModes(PyramidOf(one_m), kPlaces, {}, {}).modes.empty());
+  EXPECT_TRUE(FindModes(PyramidOf(one_m), {}, one_m, {}).modes.empty());
 }
 
 }  // namespace

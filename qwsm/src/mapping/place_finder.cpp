@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "qwsm/mapping/surface_hold.hpp"
-#include "qwsm/matching/mode_search.hpp"
 
 namespace qwsm {
 namespace {
@@ -74,22 +73,18 @@ double NatsPerScore(std::size_t points, const CorrelativeSearchOptions& search) 
 // A scan, and where in the map it may have been taken.
 struct PlaceFinder::Sight {
   const ScanMap& map;
-  std::vector<Eigen::Vector2d> path_m;
   std::vector<ScanPoint> points;
   std::vector<Eigen::Vector2d> positions_m;
   FoundModes modes;
 
-  Sight(const ScanMap& in, std::span<const ScanPoint> all)
+  Sight(const ScanMap& in, const ModeSearchArea& area, std::span<const ScanPoint> all)
       : map(in),
-        path_m(PathOf(in)),
         points(ThinOut(all, kLookSpacing_m, kLookedAtPoints)),
         positions_m(PositionsOf(points)),
         modes(SearchModes(map.surfaces().likelihood(),
+                          area,
                           positions_m,
-                          {.places_m = path_m,
-                           .reach_m = kAroundPath_m,
-                           .min_score = kMinScore,
-                           .margin = kModeMargin})) {}
+                          {.min_score = kMinScore, .margin = kModeMargin})) {}
 };
 
 std::string_view Name(PlaceVerdict verdict) {
@@ -111,10 +106,10 @@ const PlaceBelief& PlaceFinder::Look(const ScanMap& map,
                                      std::span<const ScanPoint> points,
                                      const Pose2& T_local_robot) {
   if (map.empty() || points.empty() || !HasMovedOn(T_local_robot)) return belief_;
-  const Sight sight(map, points);
+  const Sight sight(map, AreaOf(map), points);
   if (T_local_last_) Follow(sight, T_local_last_->Inverse() * T_local_robot);
   AddModes(sight);
-  elsewhere_nats_ = std::log(CountPlaces(sight.path_m));
+  elsewhere_nats_ = std::log(CountPlaces(path_m_));
   Weigh(sight, seen_.TakeNews(points, T_local_robot));
   ForgetUnlikely();
   T_local_last_ = T_local_robot;
@@ -122,6 +117,17 @@ const PlaceBelief& PlaceFinder::Look(const ScanMap& map,
   const bool is_promising = !hypotheses_.empty() && hypotheses_.front().nats > 0.0;
   vain_looks_ = is_promising ? 0 : vain_looks_ + 1;
   return belief_ = Belief();
+}
+
+// Where no scan was inserted or moved, the map is as it was.
+const ModeSearchArea& PlaceFinder::AreaOf(const ScanMap& map) {
+  std::vector<Eigen::Vector2d> path_m = PathOf(map);
+  if (!area_ || path_m != path_m_) {
+    path_m_ = std::move(path_m);
+    area_ =
+        std::make_shared<const ModeSearchArea>(map.surfaces().likelihood(), path_m_, kAroundPath_m);
+  }
+  return *area_;
 }
 
 bool PlaceFinder::HasMovedOn(const Pose2& T_local_robot) const {

@@ -12,8 +12,6 @@
 #include <unordered_set>
 #include <utility>
 
-#include "qwsm/search/coarse_likelihood.hpp"
-
 namespace qwsm {
 namespace {
 
@@ -118,21 +116,15 @@ double FarthestOf(std::span<const Eigen::Vector2d> points_m) {
   return lever_m;
 }
 
-// Places near to each other, and the map around them: maps may reach from one end of a town to the
-// other with nothing between.
-struct District {
-  std::vector<Eigen::Vector2d> places_m;
-  std::optional<CoarseLikelihood> likelihood;
-};
-
-std::vector<District> DistrictsOf(std::span<const Eigen::Vector2d> places_m) {
-  std::map<std::pair<double, double>, District> districts;
+// Places within the same square of a map's plan.
+std::vector<std::vector<Eigen::Vector2d>> ByDistrict(std::span<const Eigen::Vector2d> places_m) {
+  std::map<std::pair<double, double>, std::vector<Eigen::Vector2d>> districts;
   for (const Eigen::Vector2d& place_m : places_m) {
     const Eigen::Vector2d district = (place_m / kDistrict_m).array().floor();
-    districts[{district.x(), district.y()}].places_m.push_back(place_m);
+    districts[{district.x(), district.y()}].push_back(place_m);
   }
-  std::vector<District> list;
-  for (auto& [key, district] : districts) list.push_back(std::move(district));
+  std::vector<std::vector<Eigen::Vector2d>> list;
+  for (auto& [key, of_district_m] : districts) list.push_back(std::move(of_district_m));
   return list;
 }
 
@@ -143,22 +135,20 @@ Eigen::AlignedBox2d AreaAround(std::span<const Eigen::Vector2d> places_m, double
   return {area.min() - around_m, area.max() + around_m};
 }
 
+constexpr int kTop = CoarseLikelihood::kLevels - 1;
+
+double CoarsestCell_m(const LikelihoodPyramid& map) {
+  return CoarseLikelihood::SideOf(kTop) * map.cell_size_m();
+}
+
 class ModeSearch {
  public:
   ModeSearch(const LikelihoodPyramid& map,
+             const ModeSearchArea& area,
              std::vector<Eigen::Vector2d> points_m,
-             const ModeSearchWindow& window)
-      : map_(map),
-        points_m_(std::move(points_m)),
-        window_(window),
-        districts_(DistrictsOf(window.places_m)) {
-    const double coarsest_m = CoarseLikelihood::SideOf(kTop) * map.cell_size_m();
-    const double farthest_m = FarthestOf(points_m_);
-    for (District& district : districts_) {
-      district.likelihood.emplace(
-          map, AreaAround(district.places_m, window.reach_m + farthest_m + 2.0 * coarsest_m));
-    }
-    const double half_width_rad = 0.25 * coarsest_m / farthest_m;
+             const ModeSearchLimits& limits)
+      : map_(map), area_(area), points_m_(std::move(points_m)), limits_(limits) {
+    const double half_width_rad = 0.25 * CoarsestCell_m(map) / FarthestOf(points_m_);
     int headings = static_cast<int>(std::ceil(std::numbers::pi / half_width_rad));
     for (int level = kTop; level >= 0; --level, headings *= 2) {
       turned_.emplace_back(points_m_, headings, map.cell_size_m());
@@ -169,13 +159,13 @@ class ModeSearch {
   // The higher the threshold, the fewer blocks are of interest: a low one serves only where nothing
   // scores more. What is found is the same.
   FoundModes Run() {
-    double score = std::max(window_.min_score, kHighScore);
+    double score = std::max(limits_.min_score, kHighScore);
     FoundModes found = RunAbove(score);
-    while (!is_given_up_ && score > window_.min_score) {
+    while (!is_given_up_ && score > limits_.min_score) {
       const double enough =
-          found.modes.empty() ? kLower * score : found.modes.front().score - window_.margin;
+          found.modes.empty() ? kLower * score : found.modes.front().score - limits_.margin;
       if (enough >= score) break;
-      score = std::max(window_.min_score, enough);
+      score = std::max(limits_.min_score, enough);
       found = RunAbove(score);
     }
     return found;
@@ -200,13 +190,11 @@ class ModeSearch {
     return Best(threshold_);
   }
 
-  static constexpr int kTop = CoarseLikelihood::kLevels - 1;
-
   // The coarsest blocks around the places, each once.
   void PushPlaces() {
     std::unordered_set<std::uint64_t> seen;
-    for (std::uint32_t district = 0; district < districts_.size(); ++district) {
-      for (const Eigen::Vector2d& place_m : districts_[district].places_m) {
+    for (std::uint32_t district = 0; district < area_.districts().size(); ++district) {
+      for (const Eigen::Vector2d& place_m : area_.districts()[district].places_m) {
         PushAround(place_m, district, seen);
       }
     }
@@ -219,7 +207,7 @@ class ModeSearch {
     const auto index = [&](double coordinate_m) {
       return static_cast<int>(std::floor(coordinate_m / (width * map_.cell_size_m())));
     };
-    const double reach_m = window_.reach_m;
+    const double reach_m = area_.reach_m();
     for (int x = index(place_m.x() - reach_m); x <= index(place_m.x() + reach_m); ++x) {
       for (int y = index(place_m.y() - reach_m); y <= index(place_m.y() + reach_m); ++y) {
         const std::uint64_t key =
@@ -238,7 +226,7 @@ class ModeSearch {
 
   void Push(PoseBlock block) {
     const auto ends = turned_[static_cast<std::size_t>(block.level)].At(block.heading);
-    block.bound = districts_[block.district].likelihood->Bound(
+    block.bound = area_.districts()[block.district].likelihood->Bound(
         block.level, ends, {block.x, block.y}, threshold_);
     if (block.bound <= threshold_) return;
     queue_.Push(block);
@@ -264,7 +252,7 @@ class ModeSearch {
     const std::optional<FoundPose> found = SearchPose(map_, points_m_, around, {});
     if (!found) return;
     found_.push_back(*found);
-    threshold_ = std::max(threshold_, found->score - window_.margin);
+    threshold_ = std::max(threshold_, found->score - limits_.margin);
   }
 
   bool IsTried(const PoseBlock& block) const {
@@ -300,9 +288,9 @@ class ModeSearch {
   }
 
   const LikelihoodPyramid& map_;
+  const ModeSearchArea& area_;
   std::vector<Eigen::Vector2d> points_m_;
-  const ModeSearchWindow& window_;
-  std::vector<District> districts_;
+  const ModeSearchLimits& limits_;
   std::vector<TurnedPoints> turned_;  // By level.
   double threshold_ = 0.0;            // What scores less is of no interest.
   bool is_given_up_ = false;
@@ -313,12 +301,35 @@ class ModeSearch {
 
 }  // namespace
 
+ModeSearchArea::ModeSearchArea(const LikelihoodPyramid& map,
+                               std::span<const Eigen::Vector2d> places_m,
+                               double reach_m)
+    : reach_m_(reach_m) {
+  const double around_m = reach_m + kFarthestModePoint_m + 2.0 * CoarsestCell_m(map);
+  for (std::vector<Eigen::Vector2d>& of_district_m : ByDistrict(places_m)) {
+    const Eigen::AlignedBox2d box = AreaAround(of_district_m, around_m);
+    districts_.push_back(
+        {std::move(of_district_m), std::make_shared<const CoarseLikelihood>(map, box)});
+  }
+}
+
+ModeSearchArea ModeSearchArea::Without(const Eigen::Vector2d& center_m, double radius_m) const {
+  ModeSearchArea rest = *this;
+  for (District& district : rest.districts_) {
+    std::erase_if(district.places_m, [&](const Eigen::Vector2d& place_m) {
+      return (place_m - center_m).norm() < radius_m;
+    });
+  }
+  return rest;
+}
+
 FoundModes SearchModes(const LikelihoodPyramid& map,
+                       const ModeSearchArea& area,
                        std::span<const Eigen::Vector2d> points_robot_m,
-                       const ModeSearchWindow& window) {
+                       const ModeSearchLimits& limits) {
   std::vector<Eigen::Vector2d> near_m = NearOnes(points_robot_m);
-  if (near_m.empty() || window.places_m.empty()) return {};
-  return ModeSearch(map, std::move(near_m), window).Run();
+  if (near_m.empty() || area.districts().empty()) return {};
+  return ModeSearch(map, area, std::move(near_m), limits).Run();
 }
 
 SearchWindow FlatWindow(const Pose2& T_map_robot, double translation_m, double rotation_rad) {

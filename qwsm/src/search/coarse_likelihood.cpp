@@ -23,6 +23,19 @@ std::span<const int> PartsOf(int level) {
   return kOfOthers;
 }
 
+// Raises the cells of a row to those of another one, as far as that has any; or to every second one
+// of them.
+void RaiseRow(std::span<std::uint8_t> row, std::span<const std::uint8_t> by, int stride) {
+  const std::size_t count = std::min(row.size(), stride == 1 ? by.size() : (by.size() + 1) / 2);
+  std::uint8_t* const to = row.data();  // Bytes may be anything, to the compiler sizes, too.
+  const std::uint8_t* const from = by.data();
+  if (stride == 1) {
+    for (std::size_t i = 0; i < count; ++i) to[i] = std::max(to[i], from[i]);
+  } else {
+    for (std::size_t i = 0; i < count; ++i) to[i] = std::max(to[i], from[2 * i]);
+  }
+}
+
 }  // namespace
 
 CoarseLikelihood::Plane::Plane(int columns, int rows)
@@ -68,20 +81,16 @@ void CoarseLikelihood::Raise(const LikelihoodTile& tile, GridCell at) {
 // One axis after the other: the maximum in a square is that of its columns' maxima.
 CoarseLikelihood::Plane CoarseLikelihood::Coarsened(const Plane& fine, int level) {
   const int shift = StrideShiftOf(level) - StrideShiftOf(level - 1);
-  Plane rows((fine.width + shift) >> shift, fine.height);
-  Plane coarse(rows.width, (fine.height + shift) >> shift);
+  Plane rows(fine.width, (fine.height + shift) >> shift);
   for (const int part : PartsOf(level)) {
-    for (int y = 0; y < rows.height; ++y) {
-      for (int x = 0; x < rows.width && (x << shift) + part < fine.width; ++x) {
-        rows.At(x, y) = std::max(rows.At(x, y), fine.At((x << shift) + part, y));
-      }
+    for (int y = 0; y < rows.height && (y << shift) + part < fine.height; ++y) {
+      RaiseRow(rows.Row(y), fine.Row((y << shift) + part), 1);
     }
   }
+  Plane coarse((fine.width + shift) >> shift, rows.height);
   for (const int part : PartsOf(level)) {
-    for (int y = 0; y < coarse.height && (y << shift) + part < rows.height; ++y) {
-      for (int x = 0; x < coarse.width; ++x) {
-        coarse.At(x, y) = std::max(coarse.At(x, y), rows.At(x, (y << shift) + part));
-      }
+    for (int y = 0; y < coarse.height; ++y) {
+      RaiseRow(coarse.Row(y), rows.Row(y).subspan(static_cast<std::size_t>(part)), 1 << shift);
     }
   }
   return coarse;

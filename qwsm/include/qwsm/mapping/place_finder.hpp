@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -13,6 +14,7 @@
 #include "qwsm/mapping/scan_locator.hpp"
 #include "qwsm/mapping/scan_map.hpp"
 #include "qwsm/mapping/seen_surfaces.hpp"
+#include "qwsm/matching/mode_search.hpp"
 
 namespace qwsm {
 
@@ -77,6 +79,7 @@ class PlaceFinder {
   };
   struct Sight;
 
+  const ModeSearchArea& AreaOf(const ScanMap& map);
   bool HasMovedOn(const Pose2& T_local_robot) const;
   void Follow(const Sight& sight, const Pose2& T_last_robot);
   void AddModes(const Sight& sight);
@@ -88,11 +91,13 @@ class PlaceFinder {
 
   ScanLocator locator_;
   PlaceEvidence evidence_;
-  SeenSurfaces seen_;                   // By the looks so far, in the local frame.
-  std::vector<Hypothesis> hypotheses_;  // The most likely one first.
+  std::vector<Eigen::Vector2d> path_m_;         // Of the map at the last look.
+  std::shared_ptr<const ModeSearchArea> area_;  // Along that; copies of the finder share it.
+  SeenSurfaces seen_;                           // By the looks so far, in the local frame.
+  std::vector<Hypothesis> hypotheses_;          // The most likely one first.
   // The robot may as well be outside the map as in it: any one place has that much against it.
   double elsewhere_nats_ = 0.0;
-  std::optional<Pose2> T_local_last_;   // At the last look.
+  std::optional<Pose2> T_local_last_;  // At the last look.
   int looks_ = 0;
   int vain_looks_ = 0;  // Since one that spoke for some place.
   PlaceBelief belief_;

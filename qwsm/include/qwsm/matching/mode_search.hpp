@@ -4,20 +4,49 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "qwsm/matching/correlative_search.hpp"
+#include "qwsm/search/coarse_likelihood.hpp"
 #include "qwsm/search/likelihood_pyramid.hpp"
 
 namespace qwsm {
 
-/// Describes a search for all poses that may be the right one, where nothing is known but the map.
-struct ModeSearchWindow {
-  std::span<const Eigen::Vector2d> places_m;  ///< Positions to search around, at any heading.
-  double reach_m = 2.0;                       ///< How far around each of them.
-  double min_score = 0.0;                     ///< Poses that score no better are not found.
-  double margin = 0.0;  ///< Poses that score this much less than the best one are not found.
+/// Where in a map poses are searched for of which nothing else is known, and upper bounds of the
+/// likelihoods there. To make it takes longer than a search: it serves for any number of them, as
+/// long as the map stays as it is.
+class ModeSearchArea {
+ public:
+  /// @param places_m positions to search around, at any heading. @param reach_m how far around
+  /// each.
+  ModeSearchArea(const LikelihoodPyramid& map,
+                 std::span<const Eigen::Vector2d> places_m,
+                 double reach_m);
+
+  /// Places near to each other, and the map around them: maps may reach from one end of a town to
+  /// the other with nothing between.
+  struct District {
+    std::vector<Eigen::Vector2d> places_m;
+    std::shared_ptr<const CoarseLikelihood> likelihood;
+  };
+
+  /// The same area but for the places within a circle.
+  ModeSearchArea Without(const Eigen::Vector2d& center_m, double radius_m) const;
+
+  double reach_m() const { return reach_m_; }
+  std::span<const District> districts() const { return districts_; }
+
+ private:
+  double reach_m_;
+  std::vector<District> districts_;  // None without places.
+};
+
+/// Which poses of an area are searched for.
+struct ModeSearchLimits {
+  double min_score = 0.0;  ///< Poses that score no better are not found.
+  double margin = 0.0;     ///< Poses that score this much less than the best one are not found.
 };
 
 /// All poses that may be the right one.
@@ -28,16 +57,17 @@ struct FoundModes {
   double floor_score = 0.0;
 };
 
-/// Searches a map for all poses whose score comes near to that of the best one: global
+/// Searches an area of a map for all poses whose score comes near to that of the best one: global
 /// localization. Branch and bound over position and heading together (Olson 2009; Hess et al. 2016
 /// branch over the position only): a block is the wider in heading, the wider it is in position.
 /// Blocks are visited in the order of their bounds and only near the places given, so that the cost
 /// follows the length of the drive and how alike its places are, not the area of the map.
 ///
-/// @param points_robot_m thinned out, as for SearchPose().
+/// @param map that the area was made of. @param points_robot_m thinned out, as for SearchPose().
 FoundModes SearchModes(const LikelihoodPyramid& map,
+                       const ModeSearchArea& area,
                        std::span<const Eigen::Vector2d> points_robot_m,
-                       const ModeSearchWindow& window);
+                       const ModeSearchLimits& limits);
 
 /// The window around a pose in which none is more likely than another: as in the search for modes,
 /// or scores could not be compared.

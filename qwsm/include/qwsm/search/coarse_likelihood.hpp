@@ -40,6 +40,12 @@ class CoarseLikelihood {
     Plane(int columns, int rows);
     std::uint8_t& At(int x, int y) { return cells[Index(x, y)]; }
     std::uint8_t At(int x, int y) const { return cells[Index(x, y)]; }
+    std::span<std::uint8_t> Row(int y) {
+      return std::span(cells).subspan(Index(0, y), static_cast<std::size_t>(width));
+    }
+    std::span<const std::uint8_t> Row(int y) const {
+      return std::span(cells).subspan(Index(0, y), static_cast<std::size_t>(width));
+    }
 
     int width;
     int height;
