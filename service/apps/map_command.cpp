@@ -18,6 +18,7 @@
 #include "service/apps/saved_map.hpp"
 #include "service/apps/scenario_arguments.hpp"
 #include "service/apps/team_mapping.hpp"
+#include "service/apps/teammates.hpp"
 #include "service/config/suggestion.hpp"
 #include "service/io/files/atomic_file.hpp"
 #include "service/pipeline/live/live_run.hpp"
@@ -176,10 +177,11 @@ ExitCode MapAll(const MapArguments& arguments,
   const std::unique_ptr<pipeline::LiveRun> live = ShowLive(arguments, options);
   if (live) sinks.push_back(live.get());
   if (arguments.bag) sinks.push_back(&answers);
-  const auto answer = [&](const Observation& observation) {
+  pipeline::Answer answer = [&](const Observation& observation) {
     return correcting ? AnswerAndTell(observation, *correcting, *losses, live.get())
                       : incremental.Process(observation);
   };
+  if (arguments.robot) answer = WithoutTeammates(std::move(answer));
   const pipeline::ReplayResult end = session.Run("map", source, answer, sinks);
   results.SetTitle(session.Title("map", end));
 

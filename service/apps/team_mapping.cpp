@@ -12,12 +12,14 @@
 #include "qwsm/mapping/localizer.hpp"
 #include "service/apps/output.hpp"
 #include "service/apps/saved_map.hpp"
+#include "service/apps/teammates.hpp"
 #include "service/io/maps/ros_map_file.hpp"
 #include "service/io/pictures/map_picture.hpp"
 #include "service/pipeline/results/marks_list.hpp"
 #include "service/pipeline/results/marks_of_map.hpp"
 #include "service/pipeline/run/parallel.hpp"
 #include "service/pipeline/text/messages.hpp"
+#include "service/team/atlas/meeting_places.hpp"
 
 namespace qwsm::apps {
 namespace {
@@ -75,8 +77,10 @@ class TeamMapping {
 
   pipeline::ReplayResult FollowIncrementally(pipeline::ScanSource& source, MappedRobot& robot) {
     Mapper mapper(options_.mapper);
-    const auto end = robot.session.Run(
-        "map", source, std::bind_front(&Mapper::Process, &mapper), {robot.results.get(), &marks_});
+    const auto end = robot.session.Run("map",
+                                       source,
+                                       WithoutTeammates(std::bind_front(&Mapper::Process, &mapper)),
+                                       {robot.results.get(), &marks_});
     map_ = mapper.map();
     robot.answers = pipeline::AnswersOf(robot.results->path());
     return end;
@@ -86,10 +90,11 @@ class TeamMapping {
   pipeline::ReplayResult FollowCorrecting(pipeline::ScanSource& source, MappedRobot& robot) {
     pipeline::ShareMemoryAmongThreads();
     SelfCorrectingMapper mapper(options_.mapper, pipeline::BeginOnAnotherThread);
-    const auto end = robot.session.Run("map",
-                                       source,
-                                       std::bind_front(&SelfCorrectingMapper::Process, &mapper),
-                                       {robot.results.get(), &marks_});
+    const auto end = robot.session.Run(
+        "map",
+        source,
+        WithoutTeammates(std::bind_front(&SelfCorrectingMapper::Process, &mapper)),
+        {robot.results.get(), &marks_});
     pipeline::CorrectedRun corrected = pipeline::CorrectAtTheEnd(mapper);
     map_ = std::move(corrected.map);
     robot.answers = pipeline::AnswersOf(robot.results->path());
@@ -100,19 +105,20 @@ class TeamMapping {
     return end;
   }
 
-  /// Tries again who was not found while the map grows: a robot may have been where only those
-  /// have been that come after it.
+  /// Those who have been where the first one has, or others of them.
   ExitCode FollowOthers(std::vector<std::string> robots) {
-    for (bool has_grown = true; has_grown && !robots.empty();) {
-      std::vector<std::string> waiting;
-      for (const std::string& name : robots) {
-        const ExitCode code = FollowInMap(name);
-        if (code != ExitCode::kDone && code != ExitCode::kFailed) return code;
-        if (!IsMapped(name)) waiting.push_back(name);
-      }
-      has_grown = waiting.size() < robots.size();
-      robots = std::move(waiting);
+    std::vector<ScanMap> maps{map_};
+    for (const std::string& name : robots) {
+      const ExitCode code = MapAlone(name, maps.emplace_back());
+      if (code != ExitCode::kDone) return code;
     }
+    messages::Info("looking for where they meet");
+    for (const team::MeetingPlace& place : team::FindMeetingPlaces(maps, options_.mapper)) {
+      const RelevantScan& first = maps[place.map].scans().front();
+      const ExitCode code = FollowInMap(robots[place.map - 1], place.first_map * first.map_robot);
+      if (code != ExitCode::kDone && code != ExitCode::kFailed) return code;
+    }
+    std::erase_if(robots, [this](const std::string& name) { return IsMapped(name); });
     for (const std::string& name : robots) {
       messages::Error("{0}: is not in the map of the others; --robot {0} maps it alone", name);
     }
@@ -121,14 +127,30 @@ class TeamMapping {
     return robots.empty() && all_are_done ? ExitCode::kDone : ExitCode::kFailed;
   }
 
-  ExitCode FollowInMap(const std::string& name) {
+  /// @param map what the robot maps by itself, in a frame of its own.
+  ExitCode MapAlone(const std::string& name, ScanMap& map) const {
+    messages::Info("mapping {} alone", name);
+    io::LogOptions log = LogOptionsOf(LogOf(name));
+    log.on_fault = {};  // Faults are told when the robot is mapped with the others.
+    pipeline::LogSource source(arguments_.logs, log, options_.log.mirrored);
+    SelfCorrectingMapper mapper(options_.mapper, pipeline::BeginOnAnotherThread);
+    const pipeline::ReplayResult end = session_.LookThrough(
+        "map", source, WithoutTeammates(std::bind_front(&SelfCorrectingMapper::Process, &mapper)));
+    map = pipeline::CorrectAtTheEnd(mapper).map;
+    return end.end == pipeline::ReplayEnd::kInterrupted ? ExitCode::kInterrupted : ExitCode::kDone;
+  }
+
+  ExitCode FollowInMap(const std::string& name, const UncertainPose2& start) {
     const auto source = Open(name);
     MappedRobot robot = Begin(name);
     robot.first_scan = map_.scans().size();
-    Localizer localizer(options_.mapper, std::move(map_));
+    Localizer localizer(options_.mapper, std::move(map_), start);
     pipeline::LostAndFound lost_and_found(localizer, {robot.results.get()});
-    const pipeline::ReplayResult end = robot.session.Run(
-        "map", *source, std::bind_front(&Localizer::Process, &localizer), {&lost_and_found});
+    const pipeline::ReplayResult end =
+        robot.session.Run("map",
+                          *source,
+                          WithoutTeammates(std::bind_front(&Localizer::Process, &localizer)),
+                          {&lost_and_found});
     map_ = localizer.map();
     robot.answers = pipeline::AnswersOf(robot.results->path());
     robot.code = ConcludeDrive(end, localizer, lost_and_found);
@@ -138,10 +160,14 @@ class TeamMapping {
     return code;
   }
 
-  std::unique_ptr<pipeline::LogSource> Open(const std::string& robot) const {
+  options::LogOptions LogOf(const std::string& robot) const {
     options::LogOptions log = options_.log;
     log.robot = robot;
-    return OpenLogs(arguments_, log);
+    return log;
+  }
+
+  std::unique_ptr<pipeline::LogSource> Open(const std::string& robot) const {
+    return OpenLogs(arguments_, LogOf(robot));
   }
 
   MappedRobot Begin(const std::string& name) const {

@@ -39,19 +39,15 @@ std::vector<const RelevantScan*> Some(std::span<const RelevantScan* const> scans
   return some;
 }
 
-std::vector<FoundPose> PlacesElsewhere(const RelevantScan& scan, const ScanMap& map) {
+std::vector<FoundPose> PlacesElsewhere(const RelevantScan& scan,
+                                       const ScanMap& map,
+                                       const ModeSearchArea& area) {
   const Eigen::Vector2d here_m = scan.map_robot.T_a_b.translation_m();
-  std::vector<Eigen::Vector2d> path_m = PathOf(map);
-  std::erase_if(path_m, [&](const Eigen::Vector2d& p_m) {
-    return (p_m - here_m).norm() < kElsewhere_m + kAroundPath_m;
-  });
   const std::vector<ScanPoint> points = ThinOut(ToPoints(scan.scan), kPointSpacing_m, kMostPoints);
   std::vector<FoundPose> places = SearchModes(map.surfaces().likelihood(),
+                                              area.Without(here_m, kElsewhere_m + kAroundPath_m),
                                               PositionsOf(points),
-                                              {.places_m = path_m,
-                                               .reach_m = kAroundPath_m,
-                                               .min_score = kMinScore,
-                                               .margin = kModeMargin})
+                                              {.min_score = kMinScore, .margin = kModeMargin})
                                       .modes;
   // A search begins in blocks that are wider than its reach.
   std::erase_if(places, [&](const FoundPose& place) {
@@ -66,9 +62,12 @@ bool IsSameEcho(const Pose2& one, const Pose2& other, const Eigen::Vector2d& p_m
          std::abs(NormalizeAngle(one.theta_rad - other.theta_rad)) < kOneEcho_rad;
 }
 
-void Vote(const RelevantScan& scan, const ScanMap& map, std::vector<Echo>& echoes) {
+void Vote(const RelevantScan& scan,
+          const ScanMap& map,
+          const ModeSearchArea& area,
+          std::vector<Echo>& echoes) {
   const Pose2& T_map_scan = scan.map_robot.T_a_b;
-  for (const FoundPose& place : PlacesElsewhere(scan, map)) {
+  for (const FoundPose& place : PlacesElsewhere(scan, map, area)) {
     const Pose2 T_map_map = place.T_map_robot * T_map_scan.Inverse();
     const auto known = std::ranges::find_if(echoes, [&](const Echo& echo) {
       return IsSameEcho(echo.T_map_map, T_map_map, T_map_scan.translation_m());
@@ -87,10 +86,11 @@ std::vector<Pose2> FindEchoes(std::span<const RelevantScan* const> scans,
                               const ScanMap& map,
                               const std::stop_token& stop) {
   if (scans.empty()) return {};
+  const ModeSearchArea area(map.surfaces().likelihood(), PathOf(map), kAroundPath_m);
   std::vector<Echo> echoes;
   for (const RelevantScan* scan : Some(scans)) {
     if (stop.stop_requested()) break;
-    Vote(*scan, map, echoes);
+    Vote(*scan, map, area, echoes);
   }
   std::ranges::stable_sort(echoes, std::ranges::greater{}, &Echo::votes);
   if (echoes.size() > kMostEchoes) echoes.resize(kMostEchoes);

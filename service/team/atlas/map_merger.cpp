@@ -10,9 +10,6 @@
 namespace qwsm::team {
 namespace {
 
-// A robot moves no farther in this time than its body is long.
-constexpr std::chrono::milliseconds kSameTime{300};
-
 // A map that has grown by no more than this is searched as it was.
 constexpr double kOutgrown = 1.1;
 
@@ -20,8 +17,6 @@ constexpr double kOutgrown = 1.1;
 // these do not tell.
 constexpr std::size_t kScansToJudge = 5;
 
-// Places of at least this probability, as a robot sees it, are weighed by all that is mapped.
-constexpr double kWorthALook = 0.1;
 // Who was told where it is is there beyond doubt.
 constexpr double kConfirmedNats = 4.6;
 // Who was told where it is is taken out of the map only where that is beyond doubt: once in ten
@@ -80,7 +75,7 @@ std::optional<ComponentPlace> MapMerger::LookFor(const std::string& robot,
   JointCandidates& candidates = candidates_[std::minmax(sighting.component.name, other.name)];
   const UncertainPose2 own_robot{.T_a_b = sighting.map_robot.T_a_b};
   for (const Place& place : belief.places) {
-    if (place.probability < kWorthALook) break;
+    if (place.probability < JointCandidates::kWorthALook) break;
     const auto [into_robot, from_robot] =
         IntoAndFrom(sighting.component, own_robot, other, place.map_robot);
     candidates.Propose(into_robot * Inverse(from_robot), from_robot.T_a_b);
@@ -104,7 +99,7 @@ void MapMerger::Confront(const Sighting& sighting,
   const RobotSight own{sighting.points, sighting.map_robot.T_a_b};
   for (const auto& [robot, there] : all) {
     if (there.component.map != other.map) continue;
-    if (std::chrono::abs(there.stamp - sighting.stamp) > kSameTime) continue;
+    if (std::chrono::abs(there.stamp - sighting.stamp) > JointCandidates::kSameTime) continue;
     const RobotSight its{there.points, there.map_robot.T_a_b};
     const auto [in_into, in_from] = IntoAndFrom(sighting.component, own, other, its);
     candidates.Confront(in_into, in_from);

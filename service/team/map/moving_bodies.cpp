@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "service/team/map/robot_positions.hpp"
+
 namespace qwsm::team {
 namespace {
 
@@ -90,6 +92,10 @@ std::vector<Eigen::Vector2d> MovingBodies::Follow(const LaserScan& scan,
     if (body.has_moved || !is_known) moving_m.push_back(p_robot_m);
   }
   return moving_m;
+}
+
+void MovingBodies::Hide(double radius_m, const Pose2& T_odom_robot, LaserScan& scan) {
+  HideRobots(Follow(scan, T_odom_robot), radius_m, Pose2{}, scan);
 }
 
 MovingBodies::Body& MovingBodies::BodyAt(const Sighting& seen) {

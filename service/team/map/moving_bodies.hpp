@@ -23,6 +23,8 @@ class MovingBodies {
   /// it is not known yet; a body that stands for a while is a part of the place. None where scans
   /// are too seldom to follow one from scan to scan: nothing would ever be known to stand.
   std::vector<Eigen::Vector2d> Follow(const LaserScan& scan, const Pose2& T_odom_robot);
+  /// As Follow(), and makes the readings of the scan invalid that end within the radius of a body.
+  void Hide(double radius_m, const Pose2& T_odom_robot, LaserScan& scan);
   /// Odometry does not go on from the last scan.
   void Forget() {
     bodies_.clear();

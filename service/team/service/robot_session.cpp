@@ -324,10 +324,7 @@ void RobotSession::HideUnplacedRobots(Work& work) {
   if (are_all_placed || !work.T_odom_robot || !work.odometry_goes_on || work.odometry_jumped) {
     return bodies_.Forget();
   }
-  HideRobots(bodies_.Follow(work.scan, *work.T_odom_robot),
-             context_.teammate_radius_m,
-             Pose2{},
-             work.scan);
+  bodies_.Hide(context_.teammate_radius_m, *work.T_odom_robot, work.scan);
 }
 
 SessionCounts RobotSession::Note(const Work& work,

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/team/atlas/meeting_places.hpp"
+
+#include <chrono>
+#include <optional>
+
+#include "qwsm/mapping/place_finder.hpp"
+#include "qwsm/sensor/scan_points.hpp"
+#include "service/team/atlas/joint_candidates.hpp"
+#include "service/team/atlas/map_agreement.hpp"
+
+namespace qwsm::team {
+namespace {
+
+/// A map of which it is not known where it lies.
+struct Apart {
+  std::size_t map = 0;
+  JointCandidates candidates{};        // Where it may.
+  std::size_t places_looked_into = 0;  // Of those known.
+};
+
+/// The maps that have a place, and the search for the others'.
+class MeetingSearch {
+ public:
+  MeetingSearch(std::span<const ScanMap> maps, const MapperOptions& options)
+      : maps_(maps),
+        options_(options),
+        agreement_(options.locator, options.free_space),
+        joined_(maps.front()) {}
+
+  /// Looks around in all maps that have a place, and have got one since it was done last.
+  /// @return whether the map has a place now.
+  bool Joins(Apart& apart) {
+    while (apart.places_looked_into < places_.size()) {
+      const MeetingPlace& other = places_[apart.places_looked_into++];
+      const std::optional<UncertainPose2> place = LookInto(other, apart);
+      if (!place) continue;
+      for (const RelevantScan& scan : maps_[apart.map].scans()) {
+        joined_.Insert(scan.scan, ToPoints(scan.scan), *place * scan.map_robot);
+      }
+      places_.push_back({.map = apart.map, .first_map = *place});
+      return true;
+    }
+    return false;
+  }
+
+  /// The places of all but the first.
+  std::vector<MeetingPlace> places() const { return {places_.begin() + 1, places_.end()}; }
+
+ private:
+  // As soon as the robot by itself would think that it is found, all that both have mapped is
+  // asked; and in the end.
+  std::optional<UncertainPose2> LookInto(const MeetingPlace& other, Apart& apart) const {
+    PlaceFinder finder(options_);
+    for (const RelevantScan& scan : maps_[apart.map].scans()) {
+      const Pose2& T_own_robot = scan.map_robot.T_a_b;
+      const std::optional<Pose2> T_own_looked = finder.T_local_looked();
+      const PlaceBelief& belief = finder.Look(maps_[other.map], ToPoints(scan.scan), T_own_robot);
+      if (finder.T_local_looked() == T_own_looked) continue;
+      Propose(belief, T_own_robot, other.first_map, apart.candidates);
+      if (belief.verdict != PlaceVerdict::kFound) continue;
+      if (const std::optional<UncertainPose2> place = Decide(apart)) return place;
+      finder = PlaceFinder(options_);
+    }
+    return Decide(apart);
+  }
+
+  static void Propose(const PlaceBelief& belief,
+                      const Pose2& T_own_robot,
+                      const UncertainPose2& first_map,
+                      JointCandidates& candidates) {
+    const UncertainPose2 robot_own = Inverse({.T_a_b = T_own_robot});
+    for (const Place& place : belief.places) {
+      if (place.probability < JointCandidates::kWorthALook) break;
+      candidates.Propose(first_map * place.map_robot * robot_own, T_own_robot);
+    }
+  }
+
+  std::optional<UncertainPose2> Decide(Apart& apart) const {
+    return apart.candidates.Decide(agreement_, joined_, maps_[apart.map], {});
+  }
+
+  std::span<const ScanMap> maps_;
+  const MapperOptions& options_;
+  MapAgreement agreement_;
+  ScanMap joined_;  // Of all that have a place.
+  std::vector<MeetingPlace> places_{{.map = 0, .first_map = {}}};
+};
+
+}  // namespace
+
+std::vector<MeetingPlace> FindMeetingPlaces(std::span<const ScanMap> maps,
+                                            const MapperOptions& options) {
+  if (maps.empty()) return {};
+  MeetingSearch search(maps, options);
+  std::vector<Apart> apart;
+  for (std::size_t map = 1; map < maps.size(); ++map) apart.push_back({.map = map});
+  while (std::erase_if(apart, [&](Apart& one) { return search.Joins(one); }) > 0) {
+  }
+  return search.places();
+}
+
+}  // namespace qwsm::team

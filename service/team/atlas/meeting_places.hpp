@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "qwsm/mapping/mapper_options.hpp"
+#include "qwsm/mapping/scan_map.hpp"
+
+namespace qwsm::team {
+
+/// Where a map lies in another one.
+struct MeetingPlace {
+  std::size_t map = 0;  ///< Which one of them.
+  UncertainPose2 first_map;
+};
+
+/// Finds where maps that robots made, each alone, lie in that of the first one: where each may be
+/// by what its scans look like in the others' maps, and is by all that both have mapped. What a
+/// place has for it counts no more than the building repeats itself. Maps that are found in none
+/// but each other have no place in the first's.
+/// @return the places of all others that have one, in the order in which they were found: each by
+/// the first map and those before.
+std::vector<MeetingPlace> FindMeetingPlaces(std::span<const ScanMap> maps,
+                                            const MapperOptions& options);
+
+}  // namespace qwsm::team

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Where maps lie in each other that robots made, each alone.
+#include "service/team/atlas/meeting_places.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "tests/support/scenes.hpp"
+#include "tests/support/simulated_drive.hpp"
+
+namespace qwsm::team {
+namespace {
+
+/// What a robot maps between two moments of a drive through an office, in the frame it begins in.
+ScanMap MapOfDrive(const test::SimulatedDrive& drive, std::size_t first, std::size_t last) {
+  const Pose2 T_own_world = drive.T_world_robot[first].Inverse();
+  ScanMap map;
+  for (std::size_t i = first; i < last; i += 5) {
+    const LaserScan& scan = drive.observations[i].scan;
+    map.Insert(scan,
+               ToPoints(scan),
+               UncertainPose2::WithSigmas(T_own_world * drive.T_world_robot[i], 0.005, 0.002));
+  }
+  return map;
+}
+
+class MeetingPlaces : public testing::Test {
+ protected:
+  static constexpr std::size_t kScans = 120;
+
+  ScanMap MapFrom(std::size_t first) const { return MapOfDrive(drive_, first, first + kScans); }
+
+  void ExpectToBeRight(const MeetingPlace& place, std::size_t first) const {
+    const Pose2 T_truth = drive_.T_world_robot[0].Inverse() * drive_.T_world_robot[first];
+    const Pose2 off = T_truth.Inverse() * place.first_map.T_a_b;
+    EXPECT_LT(off.translation_m().norm(), 0.05);
+    EXPECT_LT(std::abs(off.theta_rad), 0.01);
+  }
+
+  test::SimulatedDrive drive_ = test::DriveThrough(test::OfficeLoop(), {.scan_period_s = 0.5});
+};
+
+TEST_F(MeetingPlaces, AreWhereBothRobotsHaveBeen) {
+  const std::vector<MeetingPlace> places =
+      FindMeetingPlaces(std::vector{MapFrom(0), MapFrom(60)}, {});
+  ASSERT_EQ(places.size(), 1U);
+  EXPECT_EQ(places.front().map, 1U);
+  ExpectToBeRight(places.front(), 60);
+}
+
+TEST_F(MeetingPlaces, AreFoundByWayOfAThirdRobot) {
+  const std::vector<MeetingPlace> places =
+      FindMeetingPlaces(std::vector{MapFrom(0), MapFrom(160), MapFrom(80)}, {});
+  ASSERT_EQ(places.size(), 2U);
+  EXPECT_EQ(places[0].map, 2U);
+  ExpectToBeRight(places[0], 80);
+  EXPECT_EQ(places[1].map, 1U);
+  ExpectToBeRight(places[1], 160);
+}
+
+TEST_F(MeetingPlaces, AreNoneWhereRobotsNeverMet) {
+  const test::SimulatedDrive elsewhere =
+      test::DriveThrough(test::FurnishedRoom(), {.scan_period_s = 0.5});
+  const ScanMap other = MapOfDrive(elsewhere, 0, std::min(kScans, elsewhere.observations.size()));
+  EXPECT_TRUE(FindMeetingPlaces(std::vector{MapFrom(0), other}, {}).empty());
+}
+
+TEST_F(MeetingPlaces, AreNoneWithoutMaps) {
+  EXPECT_TRUE(FindMeetingPlaces({}, {}).empty());
+  EXPECT_TRUE(FindMeetingPlaces(std::vector{MapFrom(0), ScanMap{}}, {}).empty());
+  EXPECT_TRUE(FindMeetingPlaces(std::vector{ScanMap{}, MapFrom(0)}, {}).empty());
+}
+
+}  // namespace
+}  // namespace qwsm::team
