@@ -149,6 +149,62 @@ TEST(CorrelativeSearch, SeveralSearchesOfOneWindowFindWhatEachAloneWould) {
   }
 }
 
+TEST(CorrelativeSearch, FindsTheBestPoseOutsideOfWhatWasSearchedBefore) {
+  int found_further = 0;
+  for (int seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(static_cast<unsigned>(seed));
+    LikelihoodPyramid map;
+    const Points stored_m = AnyPoints(random, 60, 3.0);
+    for (const Eigen::Vector2d& p_m : stored_m) map.Insert(p_m, 1e-6);
+    const Points scan_m(stored_m.begin(), stored_m.begin() + 25);
+    const WindowReach narrow{.translation_m = Uniform(random, 0.0, 0.4),
+                             .rotation_rad = Uniform(random, 0.0, 0.1)};
+    SearchWindow window{.predicted = {{Uniform(random, -0.6, 0.6),
+                                       Uniform(random, -0.6, 0.6),
+                                       Uniform(random, -0.15, 0.15)},
+                                      AnyCovariance(random)},
+                        .translation_m = narrow.translation_m,
+                        .rotation_rad = narrow.rotation_rad};
+    const auto near = SearchPose(map, scan_m, window, {});
+    window.min_score = near ? near->score : 0.0;
+    window.translation_m = std::max(window.translation_m, Uniform(random, 0.0, 1.0));
+    window.rotation_rad = std::max(window.rotation_rad, Uniform(random, 0.0, 0.2));
+    window.searched = narrow;
+    const double best = BestOfAll(map, scan_m, window, {});
+    const auto found = SearchPose(map, scan_m, window, {});
+    ASSERT_EQ(found.has_value(), best > window.min_score);
+    if (found) {
+      EXPECT_NEAR(found->score, best, 1e-12);
+      ++found_further;
+    }
+  }
+  EXPECT_GT(found_further, 5);
+  EXPECT_LT(found_further, 35);
+}
+
+TEST(CorrelativeSearch, FindsTheBestOfAllPosesWhereBeamsSweepFar) {
+  for (int seed = 0; seed < 6; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(static_cast<unsigned>(seed));
+    LikelihoodPyramid map;
+    const Points stored_m = AnyPoints(random, 60, 40.0);
+    for (const Eigen::Vector2d& p_m : stored_m) map.Insert(p_m, 1e-6);
+    const Points scan_m(stored_m.begin(), stored_m.begin() + 25);
+    const SearchWindow window{
+        .predicted = {{0.2, -0.1, 0.05}, AnyCovariance(random)},
+        .translation_m = seed % 2 == 0 ? 0.3 : 1.4,  // The latter takes several areas of blocks.
+        .rotation_rad = 0.15};
+    const CorrelativeSearchOptions options{.lever_m = seed % 3 == 0 ? 2.0 : 15.0};
+    const double best = BestOfAll(map, scan_m, window, options);
+    const auto found = SearchPose(map, scan_m, window, options);
+    ASSERT_EQ(found.has_value(), best > window.min_score);
+    if (found) {
+      EXPECT_NEAR(found->score, best, 1e-12);
+    }
+  }
+}
+
 TEST(CorrelativeSearch, InterpolatesBetweenTheCells) {
   LikelihoodPyramid map;
   Points room_m;

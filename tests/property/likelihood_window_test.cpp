@@ -27,109 +27,167 @@ class AnyWindow : public testing::TestWithParam<unsigned> {
     }
   }
 
-  // Blocks that begin at any cell are in it.
-  LikelihoodWindow Window(std::uint8_t max_drift_code) const {
-    constexpr int kMargin = LikelihoodWindow::kBlockSide - 1;
-    return {pyramid_, kLow, {kHigh.x + kMargin, kHigh.y + kMargin}, max_drift_code};
+  // Cells may be moved by up to kMargin.
+  static constexpr int kMargin = LikelihoodWindow::kBlocks * LikelihoodWindow::kBlockSide;
+  LikelihoodWindow Window(std::uint8_t max_drift_code) {
+    return {pyramid_,
+            {{kLow.x - kMargin, kLow.y - kMargin}, {kHigh.x + kMargin, kHigh.y + kMargin}},
+            max_drift_code,
+            memory_};
   }
   GridCell AnyCell() {
     return {std::uniform_int_distribution<int>(kLow.x, kHigh.x)(random_),
             std::uniform_int_distribution<int>(kLow.y, kHigh.y)(random_)};
   }
-  static int At(LikelihoodWindow& window, int level, GridCell cell) {
-    return level == 0 ? window.SumsOfBlock(std::span(&cell, 1), {0, 0}).front()
-                      : window.Bound(level, std::span(&cell, 1), {0, 0});
+  std::vector<GridCell> AnyCells(int count) {
+    std::vector<GridCell> cells;
+    for (int i = 0; i < count; ++i) cells.push_back(AnyCell());
+    return cells;
+  }
+  // As the pyramid tells it.
+  int LikelihoodAt(GridCell cell, std::uint8_t max_drift_code) const {
+    const bool counts = max_drift_code == LikelihoodPyramid::kUnmapped ||
+                        pyramid_.DriftCodeAt(0, cell.x, cell.y) <= max_drift_code;
+    return counts ? pyramid_.LikelihoodAt(0, cell.x, cell.y) : 0;
+  }
+  int SumAt(std::span<const GridCell> cells, GridCell offset, std::uint8_t max_drift_code) const {
+    int sum = 0;
+    for (const GridCell& cell : cells) {
+      sum += LikelihoodAt({cell.x + offset.x, cell.y + offset.y}, max_drift_code);
+    }
+    return sum;
   }
 
+  static constexpr int kSide = LikelihoodWindow::kBlockSide;
+  static constexpr int kBlocks = LikelihoodWindow::kBlocks;
+  static constexpr int kPair = LikelihoodWindow::kPairSide;
+  const std::array<std::uint8_t, 2> drift_codes_ = {LikelihoodPyramid::kUnmapped,
+                                                    LikelihoodPyramid::DriftCode(0.2)};
   std::mt19937_64 random_;
+  SearchMemory memory_;
   LikelihoodPyramid pyramid_;
 };
 
-TEST_P(AnyWindow, ReadsWhatThePyramidHolds) {
-  LikelihoodWindow window = Window(LikelihoodPyramid::kUnmapped);
-  for (int level = 0; level < LikelihoodPyramid::kLevels; ++level) {
-    for (int trial = 0; trial < 500; ++trial) {
-      const GridCell cell = AnyCell();
-      EXPECT_EQ(At(window, level, cell), pyramid_.LikelihoodAt(level, cell.x, cell.y));
-    }
-  }
-}
-
 TEST_P(AnyWindow, SumsTheCellsMovedByEachOffsetOfABlock) {
-  LikelihoodWindow window = Window(LikelihoodPyramid::kUnmapped);
-  std::vector<GridCell> cells;  // More than a sum of 16 bits would hold.
-  for (int i = 0; i < 700; ++i) cells.push_back({(i * 7) % 50 - 25, (i * 11) % 40 - 20});
-  const GridCell first{-3, 5};
-  constexpr int kSide = LikelihoodWindow::kBlockSide;
-  const auto sums = window.SumsOfBlock(cells, first);
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
-      int expected = 0;
-      for (const GridCell& cell : cells) {
-        expected += pyramid_.LikelihoodAt(0, cell.x + first.x + x, cell.y + first.y + y);
+  const std::vector<GridCell> cells = AnyCells(700);  // More than a sum of 16 bits would hold.
+  for (const std::uint8_t max_drift_code : drift_codes_) {
+    LikelihoodWindow window = Window(max_drift_code);
+    const GridCell first{-3, 5};
+    const auto sums = window.SumsOfBlock(cells, first, {});
+    for (int i = 0; i < kSide * kSide; ++i) {
+      const GridCell offset{first.x + i % kSide, first.y + i / kSide};
+      EXPECT_EQ(sums[static_cast<std::size_t>(i)], SumAt(cells, offset, max_drift_code));
+    }
+  }
+}
+
+TEST_P(AnyWindow, BoundsPairsOfOffsetsByThreeCellsAndSumsThem) {
+  const std::vector<GridCell> cells = AnyCells(300);
+  for (const std::uint8_t max_drift_code : drift_codes_) {
+    LikelihoodWindow window = Window(max_drift_code);
+    const GridCell first{-7, 3};
+    const auto bounds = window.BoundsOfPairs(cells, first, {});
+    for (int i = 0; i < kBlocks * kBlocks; ++i) {
+      const GridCell pair{first.x + i % kBlocks * kPair, first.y + i / kBlocks * kPair};
+      const auto sums = window.SumsOfPair(cells, pair);
+      for (int k = 0; k < kPair * kPair; ++k) {
+        const GridCell offset{pair.x + k % kPair, pair.y + k / kPair};
+        EXPECT_EQ(sums[static_cast<std::size_t>(k)], SumAt(cells, offset, max_drift_code));
       }
-      EXPECT_EQ(sums[static_cast<std::size_t>(y * kSide + x)], expected);
-      for (int level = 1; level < LikelihoodPyramid::kLevels; ++level) {
-        EXPECT_LE(expected, window.Bound(level, cells, first));
+      EXPECT_LE(*std::ranges::max_element(sums), bounds[static_cast<std::size_t>(i)]);
+    }
+  }
+}
+
+/// What a cell meets at most that is anywhere in a box and moved by any offset of a block.
+TEST_P(AnyWindow, BoundsABlockOfOffsetsForACellAnywhereInABox) {
+  for (const std::uint8_t max_drift_code : drift_codes_) {
+    LikelihoodWindow window = Window(max_drift_code);
+    for (int trial = 0; trial < 60; ++trial) {
+      // From one cell to much more than any square that is kept.
+      const int widest = trial % 3 == 0 ? 200 : 20;
+      CellBox box{.low = AnyCell(), .high = {}};
+      box.high = {std::min(kHigh.x, box.low.x + std::uniform_int_distribution(0, widest)(random_)),
+                  std::min(kHigh.y, box.low.y + std::uniform_int_distribution(0, widest)(random_))};
+      const GridCell first{trial % 7 - 3, trial % 5 - 2};
+      const auto bounds = window.BoundsOf(std::span(&box, 1), first);
+      for (int i = 0; i < kBlocks * kBlocks; i += 5) {
+        const int column = i % kBlocks;
+        const int row = i / kBlocks;
+        int greatest = 0;
+        for (int y = box.low.y; y <= box.high.y + kSide - 1; ++y) {
+          for (int x = box.low.x; x <= box.high.x + kSide - 1; ++x) {
+            const GridCell cell{x + first.x + column * kSide, y + first.y + row * kSide};
+            if (cell.x > kHigh.x || cell.y > kHigh.y) continue;  // Not in the window.
+            greatest = std::max(greatest, LikelihoodAt(cell, max_drift_code));
+          }
+        }
+        ASSERT_LE(greatest, bounds.front().At(column, row));
       }
     }
   }
 }
 
-TEST_P(AnyWindow, BoundsPairsOfOffsetsAndSumsThem) {
-  LikelihoodWindow window = Window(LikelihoodPyramid::DriftCode(0.2));
-  std::vector<GridCell> cells;
-  for (int i = 0; i < 300; ++i) cells.push_back({(i * 7) % 50 - 25, (i * 11) % 40 - 20});
-  const GridCell first{-7, 3};
-  constexpr int kSide = LikelihoodWindow::kBlockSide;
-  constexpr int kPair = LikelihoodWindow::kPairSide;
-  const auto bounds = window.BoundsOfPairs(cells, first, {});
-  for (int i = 0; i < kSide * kSide; ++i) {
-    const GridCell pair{first.x + i % kSide * kPair, first.y + i / kSide * kPair};
-    const auto sums = window.SumsOfPair(cells, pair);
-    const auto of_block = window.SumsOfBlock(cells, pair);
-    EXPECT_EQ(sums,
-              (std::array<int, 4>{of_block[0], of_block[1], of_block[kSide], of_block[kSide + 1]}));
-    EXPECT_LE(*std::ranges::max_element(sums), bounds[static_cast<std::size_t>(i)]);
+TEST_P(AnyWindow, BoundsOfSmallBoxesReachNoFurtherThanTheCoarseCellsAbout) {
+  LikelihoodWindow window = Window(LikelihoodPyramid::kUnmapped);
+  constexpr int kCoarse = 1 << LikelihoodTile::ShiftOf(1);
+  for (int trial = 0; trial < 200; ++trial) {
+    CellBox box{.low = AnyCell(), .high = {}};
+    box.high = {box.low.x + trial % 9, box.low.y + trial % 4};
+    int greatest = 0;
+    const auto down = [](int cell) { return cell & ~(kCoarse - 1); };
+    for (int y = down(box.low.y); y < down(box.high.y + kSide - 1) + kCoarse; ++y) {
+      for (int x = down(box.low.x); x < down(box.high.x + kSide - 1) + kCoarse; ++x) {
+        greatest = std::max<int>(greatest, pyramid_.LikelihoodAt(0, x, y));
+      }
+    }
+    EXPECT_EQ(window.BoundsOf(std::span(&box, 1), {0, 0}).front().At(0, 0), greatest);
+  }
+}
+
+TEST_P(AnyWindow, SumsTheBoundsOfManyCells) {
+  LikelihoodWindow window = Window(LikelihoodPyramid::kUnmapped);
+  std::vector<CellBox> boxes;
+  for (const GridCell& cell : AnyCells(600)) boxes.push_back({cell, {cell.x + 5, cell.y + 2}});
+  const auto bounds = window.BoundsOf(boxes, {0, 0});
+  for (int rows = 1; rows <= kBlocks; ++rows) {
+    const auto sums = LikelihoodWindow::SumsOf(bounds, rows);
+    for (int i = 0; i < rows * kBlocks; ++i) {
+      int expected = 0;
+      for (const auto& bound : bounds) expected += bound.At(i % kBlocks, i / kBlocks);
+      EXPECT_EQ(sums[static_cast<std::size_t>(i)], expected);
+    }
   }
 }
 
 TEST_P(AnyWindow, GivesUpOnlyWhereNoSumReachesWhatIsNeeded) {
   LikelihoodWindow window = Window(LikelihoodPyramid::kUnmapped);
-  std::vector<GridCell> cells;
-  for (int i = 0; i < 300; ++i) cells.push_back({(i * 7) % 50 - 25, (i * 11) % 40 - 20});
+  const std::vector<GridCell> cells = AnyCells(300);
   const GridCell first{-3, 5};
-  const auto sums = window.SumsOfBlock(cells, first);
-  const int largest = *std::ranges::max_element(sums);
-  const int bound = window.Bound(LikelihoodWindow::kBlockLevel, cells, first);
-  EXPECT_EQ(window.SumsOfBlock(cells, first, {.bound = bound, .needed = largest}), sums);
-  const auto fewer = window.SumsOfBlock(cells, first, {.bound = bound, .needed = largest + 1});
-  EXPECT_LE(*std::ranges::max_element(fewer), largest);
-}
-
-TEST_P(AnyWindow, BoundsWhatABeamMovedWithinACellMeetsAmongSurfacesOfLittleDrift) {
-  LikelihoodWindow window = Window(LikelihoodPyramid::DriftCode(0.2));
-  for (int trial = 0; trial < 500; ++trial) {
-    const GridCell cell = AnyCell();
-    for (int level = 1; level < LikelihoodPyramid::kLevels; ++level) {
-      const int bound = At(window, level, cell);
-      const int side = 1 << LikelihoodTile::ShiftOf(level);
-      for (int y = cell.y; y < std::min(kHigh.y, cell.y + side); ++y) {
-        for (int x = cell.x; x < std::min(kHigh.x, cell.x + side); ++x) {
-          ASSERT_LE(At(window, 0, {x, y}), bound);
-        }
-      }
-    }
+  std::vector<int> rest;  // As high as it can be, after the first few cells, twice as many ..
+  for (std::size_t i = LikelihoodWindow::kCellsAtATime; i < cells.size();
+       i += LikelihoodWindow::kCellsAtATime) {
+    const auto sums = window.SumsOfBlock(std::span(cells).subspan(i), first, {});
+    rest.push_back(*std::ranges::max_element(sums));
   }
+  const auto sums = window.SumsOfBlock(cells, first, {});
+  const int largest = *std::ranges::max_element(sums);
+  EXPECT_EQ(window.SumsOfBlock(cells, first, {.needed = largest, .rest = rest}), sums);
+  const auto fewer = window.SumsOfBlock(cells, first, {.needed = largest + 1, .rest = rest});
+  EXPECT_LE(*std::ranges::max_element(fewer), largest);
 }
 
 TEST_P(AnyWindow, ForgetsSurfacesOfMuchDrift) {
   LikelihoodPyramid pyramid;
   pyramid.Insert({0.0, 0.0}, 0.01);
   pyramid.Insert({2.0, 0.0}, 0.5);
-  LikelihoodWindow window(pyramid, kLow, kHigh, LikelihoodPyramid::DriftCode(0.1));
-  EXPECT_GT(At(window, 0, {pyramid.CellIndex(0.0), 0}), 0);
-  EXPECT_EQ(At(window, 0, {pyramid.CellIndex(2.0), 0}), 0);
+  LikelihoodWindow window(pyramid, {kLow, kHigh}, LikelihoodPyramid::DriftCode(0.1), memory_);
+  const auto at = [&](double x_m) {
+    const GridCell cell{pyramid.CellIndex(x_m), 0};
+    return window.SumsOfBlock(std::span(&cell, 1), {0, 0}, {}).front();
+  };
+  EXPECT_GT(at(0.0), 0);
+  EXPECT_EQ(at(2.0), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, AnyWindow, testing::Range(0U, 5U));

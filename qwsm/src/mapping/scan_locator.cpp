@@ -20,18 +20,24 @@ struct Task {
   const FreeSpace& seen_free;
 
   // The best pose within so many sigmas of where it is expected, if it scores more than that.
+  // @param searched_sigmas within so many no pose scores more.
   std::optional<FoundPose> Search(const UncertainPose2& expected,
                                   double sigmas,
-                                  double min_score = 0.0) const {
+                                  double min_score = 0.0,
+                                  std::optional<double> searched_sigmas = {}) const {
     if (thinned.size() < kMinSearchPoints) return std::nullopt;
-    return SearchPose(
-        map.likelihood(),
-        thinned,
-        {.predicted = expected,
-         .translation_m = std::min(options.max_window_m, sigmas * expected.SigmaXY_m()),
-         .rotation_rad = std::min(options.max_window_rad, sigmas * expected.SigmaTheta_rad()),
-         .min_score = min_score},
-        options.search);
+    const WindowReach reach = ReachOf(expected, sigmas);
+    SearchWindow window{.predicted = expected,
+                        .translation_m = reach.translation_m,
+                        .rotation_rad = reach.rotation_rad,
+                        .min_score = min_score};
+    if (searched_sigmas) window.searched = ReachOf(expected, *searched_sigmas);
+    return SearchPose(map.likelihood(), thinned, window, options.search);
+  }
+
+  WindowReach ReachOf(const UncertainPose2& expected, double sigmas) const {
+    return {.translation_m = std::min(options.max_window_m, sigmas * expected.SigmaXY_m()),
+            .rotation_rad = std::min(options.max_window_rad, sigmas * expected.SigmaTheta_rad())};
   }
 
   // Matches what has not moved from the pose found, or from where it is expected.
@@ -66,12 +72,13 @@ MatchResult ScanLocator::Locate(const ScanMap& map,
     return match.overlap >= min_overlap && match.reduced_chi2 <= options_.max_reduced_chi2;
   };
 
-  const auto near = task.Search(predicted, options_.narrow_share * sigmas);
+  const double narrow_sigmas = options_.narrow_share * sigmas;
+  const auto near = task.Search(predicted, narrow_sigmas);
   const MatchResult narrow = task.Match(near, predicted);
   const bool is_likely = near && near->score >= options_.confident_score;
   if (is_likely && fits(narrow, options_.confident_overlap)) return narrow;
 
-  const auto better = task.Search(predicted, sigmas, near ? near->score : 0.0);
+  const auto better = task.Search(predicted, sigmas, near ? near->score : 0.0, narrow_sigmas);
   const MatchResult full = better ? task.Match(better, predicted) : narrow;
   if (fits(full, options_.widen_below_overlap)) return full;
 

@@ -31,10 +31,17 @@ PriorCost::PriorCost(const Eigen::Matrix3d& covariance, double per_squared_sigma
   least_of_position_ = std::max(0.0, axes.eigenvalues()(0));
 }
 
-double PriorCost::AtLeast(const Eigen::Vector2d& corner_m, double side_m, double turn_rad) const {
-  const Eigen::Vector2d cheapest_m = turn_rad * cheapest_per_rad_;
-  const double x_m = DistanceToInterval(cheapest_m.x(), corner_m.x(), corner_m.x() + side_m);
-  const double y_m = DistanceToInterval(cheapest_m.y(), corner_m.y(), corner_m.y() + side_m);
+double PriorCost::AtLeast(const Eigen::Vector2d& corner_m,
+                          double side_m,
+                          double first_rad,
+                          double last_rad) const {
+  const Eigen::Vector2d first_m = first_rad * cheapest_per_rad_;
+  const Eigen::Vector2d last_m = last_rad * cheapest_per_rad_;
+  const Eigen::Vector2d low_m = corner_m - first_m.cwiseMax(last_m);
+  const Eigen::Vector2d high_m = corner_m - first_m.cwiseMin(last_m);
+  const double x_m = DistanceToInterval(0.0, low_m.x(), high_m.x() + side_m);
+  const double y_m = DistanceToInterval(0.0, low_m.y(), high_m.y() + side_m);
+  const double turn_rad = DistanceToInterval(0.0, first_rad, last_rad);
   return of_heading_ * turn_rad * turn_rad + least_of_position_ * (x_m * x_m + y_m * y_m);
 }
 

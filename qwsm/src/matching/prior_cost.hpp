@@ -20,8 +20,11 @@ class PriorCost {
 
   double Of(const Eigen::Vector3d& way) const { return way.dot(information_ * way); }
 
-  // A lower bound for the ways to a square of positions with one heading.
-  double AtLeast(const Eigen::Vector2d& corner_m, double side_m, double turn_rad) const;
+  // A lower bound for the ways to a square of positions with headings from one to another.
+  double AtLeast(const Eigen::Vector2d& corner_m,
+                 double side_m,
+                 double first_rad,
+                 double last_rad) const;
 
  private:
   Eigen::Matrix3d information_;

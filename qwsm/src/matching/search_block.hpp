@@ -2,42 +2,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
+
+#include "beam_ends.hpp"
 #include "qwsm/search/likelihood_window.hpp"
 
 namespace qwsm {
 
-// Level of the blocks that a search begins with.
-inline constexpr int kRootLevel = LikelihoodPyramid::kLevels - 1;
-inline constexpr int kRootSide = 1 << LikelihoodTile::ShiftOf(kRootLevel);
-// So many finer blocks are in each, along each axis.
-inline constexpr int kBlocksOfRoot = kRootSide / LikelihoodWindow::kBlockSide;
+// Blocks of offsets side by side, which LikelihoodWindow bounds.
+struct BlockRange {
+  int column = 0;  // Of the first one.
+  int row = 0;
+  int columns = 1;
+  int rows = 1;
+};
 
-// A square block of cell offsets at one heading.
+// A square of cell offsets at some headings.
 struct SearchBlock {
   double bound = 0.0;
-  int heading = 0;
-  int x = 0;
-  int y = 0;
-  int side = 1;  // In cells.
+  HeadingRange headings;
+  GridCell first;  // Offset.
+  int side = 1;    // In cells.
+  // Of a root: the bounds of all beams, and which of their blocks are in it.
+  std::span<const LikelihoodWindow::Bounds> beams{};
+  BlockRange blocks{};
 
   bool operator<(const SearchBlock& other) const { return bound < other.bound; }
 };
 
-// Offsets -reach .. reach in x and y.
-struct OffsetRange {
-  explicit OffsetRange(int reach_cells) : reach(reach_cells) {}
-
-  // Whether all can be tried at once.
-  bool IsOneBlock() const { return LikelihoodWindow::kBlockSide > 2 * reach; }
-
-  int first() const { return -reach; }
-  // Last cell of the blocks that cover them.
-  int last() const {
-    const int side = IsOneBlock() ? LikelihoodWindow::kBlockSide : kRootSide;
-    return first() + (2 * reach / side + 1) * side - 1;
-  }
-
-  int reach;
+// Offsets from one on, in blocks.
+struct OffsetArea {
+  GridCell first;
+  int columns = 0;
+  int rows = 0;
 };
 
 }  // namespace qwsm

@@ -72,29 +72,29 @@ void LikelihoodPyramid::Insert(const Eigen::Vector2d& p_m, double drift_m2) {
       RaiseFinest({column, row}, drift_code);
     }
   }
-  static_assert(kLevels == 3);
-  RaiseCoarse<1>(drift_code);
-  RaiseCoarse<2>(drift_code);
+  RaiseCoarse();
+  LowerCoarseDrift(drift_code);
 }
 
 // A Gaussian is the product of its profiles along both axes, and so is its maximum in a box.
 void LikelihoodPyramid::LayProfiles(const Eigen::Vector2d& p_m) {
-  columns_[0].CenterAt(p_m.x(), CellIndex(p_m.x()), fall_);
-  rows_[0].CenterAt(p_m.y(), CellIndex(p_m.y()), fall_);
-  stamp_.Make(columns_[0], rows_[0]);
-  for (int level = 1; level < kLevels; ++level) {
-    const auto i = static_cast<std::size_t>(level);
-    columns_[i].Coarsen(columns_[0], Tile::ShiftOf(level));
-    rows_[i].Coarsen(rows_[0], Tile::ShiftOf(level));
-  }
+  columns_.Lay(p_m.x(), CellIndex(p_m.x()), fall_);
+  rows_.Lay(p_m.y(), CellIndex(p_m.y()), fall_);
+  stamp_.Make(columns_.fine, rows_.fine);
+}
+
+void LikelihoodPyramid::Profiles::Lay(double center_m, int cell, const LikelihoodFall& fall) {
+  fine.CenterAt(center_m, cell, fall);
+  coarse.Coarsen(fine, Tile::ShiftOf(1), 0);
+  of_drift.Coarsen(fine, Tile::DriftShiftOf(1), (1 << Tile::DriftShiftOf(1)) - 1);
 }
 
 // Finds all tiles that hold cells to be raised, and makes those that are not there.
 void LikelihoodPyramid::FindTilesAroundPoint() {
-  // In bits, so many of the coarsest cells, which reach farthest, are in a tile.
-  constexpr int kBits = Tile::kBits - Tile::ShiftOf(kLevels - 1);
-  const GridCell first{columns_.back().first() >> kBits, rows_.back().first() >> kBits};
-  const GridCell last{columns_.back().last() >> kBits, rows_.back().last() >> kBits};
+  // In bits, so many of the coarse cells of drift, which reach farthest, are in a tile.
+  constexpr int kBits = Tile::kBits - Tile::DriftShiftOf(1);
+  const GridCell first{columns_.of_drift.first() >> kBits, rows_.of_drift.first() >> kBits};
+  const GridCell last{columns_.of_drift.last() >> kBits, rows_.of_drift.last() >> kBits};
   if (!around_.tiles.empty() && first == around_.first && last == around_.last) return;
   around_.first = first;
   around_.last = last;
@@ -109,9 +109,9 @@ void LikelihoodPyramid::FindTilesAroundPoint() {
 // Raises the finest cells of a tile to those of the point, and lowers their drift.
 void LikelihoodPyramid::RaiseFinest(GridCell at, std::uint8_t drift_code) {
   const GridCell first{at.x * Tile::kSide, at.y * Tile::kSide};
-  const LikelihoodProfile& columns = columns_[0];
-  const int first_row = std::max(first.y, rows_[0].first());
-  const int last_row = std::min(first.y + Tile::kSide - 1, rows_[0].last());
+  const LikelihoodProfile& columns = columns_.fine;
+  const int first_row = std::max(first.y, rows_.fine.first());
+  const int last_row = std::min(first.y + Tile::kSide - 1, rows_.fine.last());
   const int first_mapped = std::max(first_row, stamp_.first_mapped());
   const int last_mapped = std::min(last_row, stamp_.last_mapped());
   constexpr int kDriftSide = Tile::kSide >> Tile::DriftShiftOf(0);
@@ -131,30 +131,41 @@ void LikelihoodPyramid::RaiseFinest(GridCell at, std::uint8_t drift_code) {
   }
 }
 
-// Raises the cells of a coarser level, of which each has a drift of its own.
-template <int kLevel>
-void LikelihoodPyramid::RaiseCoarse(std::uint8_t drift_code) {
-  constexpr int kBits = Tile::kBits - Tile::ShiftOf(kLevel);  // So many cells are in a tile.
+// Calls visit(tile, cell, likelihood) for the cells of the profiles, 2^kShift finest ones wide.
+template <int kShift, class Visit>
+void LikelihoodPyramid::VisitCoarse(const LikelihoodProfile& columns,
+                                    const LikelihoodProfile& rows,
+                                    Visit visit) {
+  constexpr int kBits = Tile::kBits - kShift;  // So many cells are in a tile.
   constexpr int kMask = (1 << kBits) - 1;
-  static_assert(Tile::DriftShiftOf(kLevel) == Tile::ShiftOf(kLevel));
-  const GridCell first{columns_[kLevel].first(), rows_[kLevel].first()};
-  const GridCell last{columns_[kLevel].last(), rows_[kLevel].last()};
-  const double* of_columns = columns_[kLevel].At(first.x);
-  const double* of_rows = rows_[kLevel].At(first.y);
-  for (int row = first.y; row <= last.y; ++row) {
-    const double of_row = 255.0 * of_rows[row - first.y];
+  const double* of_columns = columns.At(columns.first());
+  const double* of_rows = rows.At(rows.first());
+  for (int row = rows.first(); row <= rows.last(); ++row) {
+    const double of_row = 255.0 * *of_rows++;
     Tile* tile = nullptr;
-    for (int column = first.x; column <= last.x; ++column) {
-      const bool is_first_of_tile = column == first.x || (column & kMask) == 0;
+    for (int column = columns.first(); column <= columns.last(); ++column) {
+      const bool is_first_of_tile = column == columns.first() || (column & kMask) == 0;
       if (is_first_of_tile) tile = &TileAround({column >> kBits, row >> kBits});
       const int cell = ((row & kMask) << kBits) + (column & kMask);
-      const auto likelihood = static_cast<std::uint8_t>(of_row * of_columns[column - first.x]);
-      std::uint8_t& greatest = tile->likelihoods(kLevel)[cell];
-      std::uint8_t& smallest_drift = tile->drift_codes(kLevel)[cell];
-      if (likelihood > greatest) greatest = likelihood;
-      if (likelihood >= Tile::kMapped && drift_code < smallest_drift) smallest_drift = drift_code;
+      visit(*tile, cell, static_cast<std::uint8_t>(of_row * of_columns[column - columns.first()]));
     }
   }
+}
+
+void LikelihoodPyramid::RaiseCoarse() {
+  VisitCoarse<Tile::ShiftOf(1)>(
+      columns_.coarse, rows_.coarse, [](Tile& tile, int cell, std::uint8_t likelihood) {
+        std::uint8_t& greatest = tile.likelihoods(1)[cell];
+        greatest = std::max(greatest, likelihood);
+      });
+}
+
+void LikelihoodPyramid::LowerCoarseDrift(std::uint8_t drift_code) {
+  VisitCoarse<Tile::DriftShiftOf(1)>(
+      columns_.of_drift, rows_.of_drift, [=](Tile& tile, int cell, std::uint8_t likelihood) {
+        std::uint8_t& smallest = tile.drift_codes(1)[cell];
+        if (likelihood >= Tile::kMapped) smallest = std::min(smallest, drift_code);
+      });
 }
 
 // One of the tiles around the point.

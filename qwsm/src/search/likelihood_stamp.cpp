@@ -87,8 +87,7 @@ void LikelihoodProfile::CenterAt(double center_m, int cell, const LikelihoodFall
 }
 
 // Of what falls to both sides, the greatest value is the one nearest to the middle.
-void LikelihoodProfile::Coarsen(const LikelihoodProfile& fine, int shift) {
-  const int beyond = (1 << shift) - 1;
+void LikelihoodProfile::Coarsen(const LikelihoodProfile& fine, int shift, int beyond) {
   const int center = fine.first_ + (fine.last_ - fine.first_) / 2;
   first_ = (fine.first_ - beyond) >> shift;
   last_ = fine.last_ >> shift;
@@ -96,7 +95,7 @@ void LikelihoodProfile::Coarsen(const LikelihoodProfile& fine, int shift) {
   double* value = values_.data();
   for (int cell = first_; cell <= last_; ++cell) {
     const int from = std::max(fine.first_, cell << shift);
-    const int to = std::min(fine.last_, (cell << shift) + 2 * beyond);
+    const int to = std::min(fine.last_, ((cell + 1) << shift) - 1 + beyond);
     *value++ = *fine.At(std::clamp(center, from, to));
   }
 }

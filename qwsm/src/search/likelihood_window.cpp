@@ -5,124 +5,58 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstring>
+
+#include "short_sums.hpp"
 
 namespace qwsm {
 namespace {
 
 using Tile = LikelihoodTile;
 
-constexpr int kSide = LikelihoodWindow::kBlockSide;
+constexpr int kCoarseShift = Tile::ShiftOf(1);
+static_assert(LikelihoodWindow::kBlockSide == 1 << kCoarseShift);
+static_assert(LikelihoodWindow::kBlocks == Tile::kSide >> kCoarseShift);
 
-// Every processor of the last twenty years adds eight sums at once.
-using RowOfSums = std::uint16_t __attribute__((vector_size(2 * kSide)));
-
-// Eight bytes as numbers of 16 bits: interleaved with zeros.
-RowOfSums Widened(const std::uint8_t* row) {
-  using Bytes = std::uint8_t __attribute__((vector_size(2 * kSide)));
-  using Words = std::uint64_t __attribute__((vector_size(2 * kSide)));
-  static_assert(std::endian::native == std::endian::little);
-  std::uint64_t bytes = 0;
-  std::memcpy(&bytes, row, sizeof(bytes));
-  const auto low = std::bit_cast<Bytes>(Words{bytes, 0});
-  return std::bit_cast<RowOfSums>(__builtin_shufflevector(
-      low, Bytes{}, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23));
-}
-
-using SixteenBytes = std::uint8_t __attribute__((vector_size(16)));
-
-// Of each of sixteen cells from one on, the maximum over it, the two beside it, and those below.
-SixteenBytes MaximumOfThreeByThree(const std::uint8_t* cell, int stride) {
-  SixteenBytes maximum{};
-  for (int y = 0; y < 3; ++y, cell += stride) {
-    for (int x = 0; x < 3; ++x) {
-      SixteenBytes moved;
-      std::memcpy(&moved, cell + x, sizeof(moved));
-      maximum = maximum < moved ? moved : maximum;
-    }
-  }
-  return maximum;
-}
-
-struct TileRow {
-  SixteenBytes left;
-  SixteenBytes right;
-};
-static_assert(sizeof(TileRow) == Tile::kSide);
-
-// A row of a tile's finest cells, 0 where all has drifted too much.
-TileRow WithoutDrifted(const Tile& tile, int y, std::uint8_t max_drift_code) {
-  static_assert(Tile::DriftShiftOf(0) == 1);
-  SixteenBytes drift;
-  std::memcpy(&drift, tile.drift_codes(0) + (y / 2) * (Tile::kSide / 2), sizeof(drift));
-  const auto kept = std::bit_cast<SixteenBytes>(drift <= max_drift_code);
-  TileRow row;
-  std::memcpy(&row, tile.likelihoods(0) + y * Tile::kSide, sizeof(row));
-  row.left &= __builtin_shufflevector(kept, kept, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7);
-  row.right &= __builtin_shufflevector(
-      kept, kept, 8, 8, 9, 9, 10, 10, 11, 11, 12, 12, 13, 13, 14, 14, 15, 15);
-  return row;
-}
-
-// The sums of up to kMostSummands blocks of bytes, of so many rows each: no more fit 16 bits.
-template <int kRows = kSide>
-class ShortSums {
- public:
-  static constexpr std::size_t kMostSummands = 256;
-
-  // Adds a block of which the first row is at `row`.
-  void Add(const std::uint8_t* row, int stride) {
-    for (RowOfSums& sums : rows_) {
-      sums += Widened(row);
-      row += stride;
-    }
-  }
-
-  // None is larger.
-  int Largest() const {
-    RowOfSums largest = rows_.front();
-    for (const RowOfSums& sums : rows_) largest = largest < sums ? sums : largest;
-    int value = 0;
-    for (int column = 0; column < kSide; ++column) value = std::max<int>(value, largest[column]);
-    return value;
-  }
-
-  void AddTo(LikelihoodWindow::BlockSums& sums) const {
-    auto sum = sums.begin();
-    for (const RowOfSums& row : rows_) {
-      for (int column = 0; column < kSide; ++column) *sum++ += row[column];
-    }
-  }
-
- private:
-  std::array<RowOfSums, kRows> rows_{};
-};
-
-// Sums what `add` adds for each cell, while some sum can still be what is hoped.
-// @param bound_of of some cells, what none of their sums exceeds.
-template <int kRows = kSide, class Add, class BoundOf>
-LikelihoodWindow::BlockSums SumWhileHopeful(std::span<const GridCell> cells,
-                                            const LikelihoodWindow::Hope& hope,
-                                            Add add,
-                                            BoundOf bound_of) {
-  constexpr std::size_t kAtATime = 32;  // Cells after which to ask whether to go on.
-  static_assert(ShortSums<>::kMostSummands % kAtATime == 0);
-  int rest = hope.bound;  // Of the cells that are not summed yet.
-  int largest = 0;        // Of the sums.
+template <int kRows>
+LikelihoodWindow::BlockSums SumRows(std::span<const LikelihoodWindow::Bounds> cells) {
   LikelihoodWindow::BlockSums sums{};
   while (!cells.empty()) {
-    ShortSums<kRows> of_next;
-    for (std::size_t summands = 0; summands < ShortSums<>::kMostSummands && !cells.empty();) {
+    const auto next = cells.first(std::min(cells.size(), kMostSummands));
+    cells = cells.subspan(next.size());
+    SumsOfRows<kRows, LikelihoodWindow::Bounds::kSide> of_next;
+    for (const LikelihoodWindow::Bounds& cell : next) of_next.Add(cell.first());
+    of_next.AddTo(sums);
+  }
+  return sums;
+}
+
+// Sums what is found of cells, while some sum can still be what is hoped.
+// @param find tells where the rows of some cells begin.
+template <class ShortSums, class Find>
+typename ShortSums::Sums SumWhileHopeful(std::span<const GridCell> cells,
+                                         const LikelihoodWindow::Hope& hope,
+                                         Find find) {
+  constexpr std::size_t kAtATime = LikelihoodWindow::kCellsAtATime;
+  static_assert(kMostSummands % kAtATime == 0);
+  std::array<const std::uint8_t*, kAtATime> found;
+  auto rest = hope.rest.begin();
+  int largest = 0;  // Of the sums.
+  typename ShortSums::Sums sums{};
+  while (!cells.empty()) {
+    ShortSums of_next;
+    for (std::size_t summands = 0; summands < kMostSummands && !cells.empty();) {
       const auto next = cells.first(std::min(cells.size(), kAtATime));
       cells = cells.subspan(next.size());
       summands += next.size();
-      for (const GridCell& cell : next) add(cell, of_next);
+      find(next, found);
+      for (std::size_t i = 0; i < next.size(); ++i) of_next.Add(found[i]);
       if (hope.needed <= 0 || cells.empty()) continue;
-      rest -= bound_of(next);
-      if (largest + of_next.Largest() + rest < hope.needed) return sums;
+      const int missing = hope.needed - largest - *rest++;
+      if (missing > kLargestShortSum) return sums;
+      if (missing > 0 && !of_next.AnyReaches(static_cast<std::uint16_t>(missing))) return sums;
     }
     of_next.AddTo(sums);
-    largest = *std::ranges::max_element(sums);
+    if (!cells.empty()) largest = *std::ranges::max_element(sums);
   }
   return sums;
 }
@@ -130,194 +64,146 @@ LikelihoodWindow::BlockSums SumWhileHopeful(std::span<const GridCell> cells,
 }  // namespace
 
 LikelihoodWindow::LikelihoodWindow(const LikelihoodPyramid& pyramid,
-                                   GridCell low,
-                                   GridCell high,
-                                   std::uint8_t max_drift_code)
-    : max_drift_code_(max_drift_code),
-      first_tile_{low.x >> Tile::kBits, low.y >> Tile::kBits},
-      size_{(high.x >> Tile::kBits) - first_tile_.x + 1,
-            (high.y >> Tile::kBits) - first_tile_.y + 1},
-      tiles_(pyramid.FindTiles(first_tile_, {size_.x + 2, size_.y + 2})),
-      known_(tiles_.size()) {
-  FillPlanes();
+                                   const CellBox& read,
+                                   std::uint8_t max_drift_code,
+                                   SearchMemory& memory)
+    : memory_(memory), max_drift_code_(max_drift_code) {
+  const GridCell first{read.low.x >> Tile::kBits, read.low.y >> Tile::kBits};
+  first_ = {first.x * Tile::kSide, first.y * Tile::kSide};
+  size_ = {(read.high.x >> Tile::kBits) - first.x + 1, (read.high.y >> Tile::kBits) - first.y + 1};
+  tiles_ = pyramid.FindTiles(first, size_);
+  known_of_ = memory.Take<Known*>(tiles_.size(), nullptr);
+  finest_of_ = memory.Take<const Finest*>(tiles_.size(), nullptr);
+  own_pairs_of_ = memory.Take<Pairs*>(tiles_.size(), nullptr);
+  pairs_of_ = memory.Take<const Pairs*>(tiles_.size(), nullptr);
 }
 
-LikelihoodWindow::BlockSums LikelihoodWindow::BoundsOfBlocks(int level,
-                                                             std::span<const GridCell> cells,
-                                                             GridCell offset) const {
-  const Plane& plane = PlaneOf(level);
-  const int shift = Tile::ShiftOf(level);
-  const int x = offset.x - first_tile_.x * Tile::kSide;
-  const int y = offset.y - first_tile_.y * Tile::kSide;
-  return SumWhileHopeful(
-      cells,
-      {},
-      [&](const GridCell& cell, ShortSums<>& sums) {
-        sums.Add(&plane.At((cell.x + x) >> shift, (cell.y + y) >> shift), plane.width);
-      },
-      [](std::span<const GridCell>) { return 0; });
+std::span<const LikelihoodWindow::Bounds> LikelihoodWindow::BoundsOf(std::span<const CellBox> boxes,
+                                                                     GridCell offset) {
+  static constexpr Greatest kAnything = [] {
+    Greatest anything{};
+    anything.cells.fill(255);
+    return anything;
+  }();
+  using FourCells = std::int32_t __attribute__((vector_size(16)));
+  static_assert(sizeof(CellBox) == sizeof(FourCells));
+  constexpr int kTileShift = Tile::kBits - kCoarseShift;
+  constexpr int kMask = kBlocks - 1;
+  constexpr int kLast = kBlockSide - 1;  // Offset of a block.
+  const GridCell to{offset.x - first_.x, offset.y - first_.y};
+  const FourCells move{to.x, to.y, to.x + kLast, to.y + kLast};
+  const std::span<Bounds> bounds = memory_.Take<Bounds>(boxes.size());
+  const int columns = size_.x;
+  Known* const* known_of = known_of_.data();
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const FourCells coarse = (std::bit_cast<FourCells>(boxes[i]) + move) >> kCoarseShift;
+    const GridCell low{coarse[0], coarse[1]};
+    const std::size_t shape = ShapeOf(coarse[2] - low.x + 1, coarse[3] - low.y + 1);
+    const GridCell tile{low.x >> kTileShift, low.y >> kTileShift};
+    const Known* known = known_of[tile.y * columns + tile.x];
+    const Greatest* greatest = &kAnything;
+    if (shape < kShapes) {
+      greatest = known == nullptr ? nullptr : known->greatest[shape];
+      if (greatest == nullptr) greatest = &GreatestOf(tile.x, tile.y, shape);
+    }
+    bounds[i].first_ = greatest->At(low.x & kMask, low.y & kMask);
+  }
+  return bounds;
 }
 
-LikelihoodWindow::BlockSums LikelihoodWindow::SumsOfBlock(std::span<const GridCell> cells,
-                                                          GridCell offset,
-                                                          const Hope& hope) {
-  const int x = offset.x - first_tile_.x * Tile::kSide;
-  const int y = offset.y - first_tile_.y * Tile::kSide;
-  const auto add = [&](const GridCell& cell, auto& sums) {
-    sums.Add(FinestFrom(cell.x + x, cell.y + y), FinestReach::kSide);
-  };
-  const auto bound_of = [&](std::span<const GridCell> some) {
-    return Bound(kBlockLevel, some, offset);
-  };
-  return hope.rows > kSide / 2 ? SumWhileHopeful(cells, hope, add, bound_of)
-                               : SumWhileHopeful<kSide / 2>(cells, hope, add, bound_of);
+// The smallest shape that holds so many coarse cells; kShapes where none does.
+std::size_t LikelihoodWindow::ShapeOf(int width, int height) {
+  if (std::max(width, height) <= kOblong) {
+    return static_cast<std::size_t>((height - 1) * kOblong + width - 1);
+  }
+  std::size_t shape = kOblong * kOblong;
+  for (const int side : kSquares) {
+    if (std::max(width, height) <= side) break;
+    ++shape;
+  }
+  return shape;
+}
+
+LikelihoodWindow::BlockSums LikelihoodWindow::SumsOf(std::span<const Bounds> cells, int rows) {
+  if (rows <= 2) return SumRows<2>(cells);
+  if (rows <= 5) return SumRows<5>(cells);
+  return SumRows<kBlocks>(cells);
+}
+
+LikelihoodWindow::OffsetSums LikelihoodWindow::SumsOfBlock(std::span<const GridCell> cells,
+                                                           GridCell offset,
+                                                           const Hope& hope) {
+  return SumWhileHopeful<SumsOfSquares<Finest::kSide>>(
+      cells, hope, [this, offset](std::span<const GridCell> some, CellsAtATime& finest) {
+        FindFinest(some, offset, finest);
+      });
 }
 
 LikelihoodWindow::BlockSums LikelihoodWindow::BoundsOfPairs(std::span<const GridCell> cells,
                                                             GridCell offset,
                                                             const Hope& hope) {
-  constexpr int kCoarsest = Tile::kLevels - 1;
-  static_assert(kPairSide * kBlockSide == 1 << Tile::ShiftOf(kCoarsest));
-  const int x = offset.x - first_tile_.x * Tile::kSide;
-  const int y = offset.y - first_tile_.y * Tile::kSide;
-  return SumWhileHopeful(
-      cells,
-      hope,
-      [&](const GridCell& cell, ShortSums<>& sums) {
-        sums.Add(PairsFrom(cell.x + x, cell.y + y), PairReach::kSide);
-      },
-      [&](std::span<const GridCell> some) { return Bound(kCoarsest, some, offset); });
+  const auto find = [this, offset](std::span<const GridCell> some, CellsAtATime& pairs) {
+    FindPairs(some, offset, pairs);
+  };
+  return hope.rows > kBlocks / 2
+             ? SumWhileHopeful<SumsOfRows<kBlocks, Pairs::kSide>>(cells, hope, find)
+             : SumWhileHopeful<SumsOfRows<kBlocks / 2, Pairs::kSide>>(cells, hope, find);
 }
 
 std::array<int, 4> LikelihoodWindow::SumsOfPair(std::span<const GridCell> cells, GridCell offset) {
-  const int x = offset.x - first_tile_.x * Tile::kSide;
-  const int y = offset.y - first_tile_.y * Tile::kSide;
   std::array<int, 4> sums{};
-  for (const GridCell& cell : cells) {
-    const std::uint8_t* above = FinestFrom(cell.x + x, cell.y + y);
-    const std::uint8_t* below = above + FinestReach::kSide;
-    sums[0] += above[0];
-    sums[1] += above[1];
-    sums[2] += below[0];
-    sums[3] += below[1];
+  CellsAtATime finest;
+  while (!cells.empty()) {
+    const auto next = cells.first(std::min(cells.size(), kCellsAtATime));
+    cells = cells.subspan(next.size());
+    FindFinest(next, offset, finest);
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      const std::uint8_t* above = finest[i];
+      const std::uint8_t* below = above + Finest::kSide;
+      sums[0] += above[0];
+      sums[1] += above[1];
+      sums[2] += below[0];
+      sums[3] += below[1];
+    }
   }
   return sums;
 }
 
-void LikelihoodWindow::FillPlanes() {
-  const bool forgets = max_drift_code_ != LikelihoodPyramid::kUnmapped;
-  for (int level = 1; level < Tile::kLevels; ++level) {
-    const int side = Tile::kSide >> Tile::ShiftOf(level);
-    Plane& plane = planes_.emplace_back(side, size_, std::uint8_t{0});
-    Plane drift(side, forgets ? size_ : GridCell{}, LikelihoodPyramid::kUnmapped);
-    for (int row = 0; row < size_.y; ++row) {
-      auto tile = tiles_.begin() + row * (size_.x + 2);
-      for (int column = 0; column < size_.x; ++column, ++tile) {
-        if (*tile == nullptr) continue;
-        plane.Place((*tile)->likelihoods(level), {column, row});
-        if (forgets) drift.Place((*tile)->drift_codes(level), {column, row});
-      }
-    }
-    if (forgets) plane.ForgetWhere(drift, max_drift_code_);
+// Tells where cells are, moved by an offset.
+void LikelihoodWindow::FindFinest(std::span<const GridCell> cells,
+                                  GridCell offset,
+                                  CellsAtATime& finest) {
+  constexpr int kMask = Tile::kSide - 1;
+  const int x = offset.x - first_.x;
+  const int y = offset.y - first_.y;
+  const int columns = size_.x;
+  const Finest* const* finest_of = finest_of_.data();
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const int column = cells[i].x + x;
+    const int row = cells[i].y + y;
+    const int index = (row >> Tile::kBits) * columns + (column >> Tile::kBits);
+    const Finest* of_tile = finest_of[index];
+    if (of_tile == nullptr) of_tile = &MakeFinest(column >> Tile::kBits, row >> Tile::kBits);
+    finest[i] = of_tile->At(column & kMask, row & kMask);
   }
 }
 
-// Puts the rows of a tile in their place.
-void LikelihoodWindow::Plane::Place(const std::uint8_t* tile, GridCell at) {
-  for (int y = 0; y < side; ++y) {
-    std::copy_n(tile + y * side, side, &At(at.x * side, at.y * side + y));
+void LikelihoodWindow::FindPairs(std::span<const GridCell> cells,
+                                 GridCell offset,
+                                 CellsAtATime& pairs) {
+  constexpr int kMask = Tile::kSide - 1;
+  const int x = offset.x - first_.x;
+  const int y = offset.y - first_.y;
+  const int columns = size_.x;
+  const Pairs* const* pairs_of = pairs_of_.data();
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const int column = cells[i].x + x;
+    const int row = cells[i].y + y;
+    const int index = (row >> Tile::kBits) * columns + (column >> Tile::kBits);
+    const Pairs* of_tile = pairs_of[index];
+    if (of_tile == nullptr) of_tile = &MakePairs(column >> Tile::kBits, row >> Tile::kBits);
+    pairs[i] = of_tile->At((column & kMask) / kPairSide, (row & kMask) / kPairSide);
   }
-}
-
-// Sets the likelihood of cells to 0 that no surface with little drift is in. A coarse cell is the
-// maximum over itself and most of the next one along each axis.
-void LikelihoodWindow::Plane::ForgetWhere(const Plane& drift, std::uint8_t max_drift_code) {
-  static_assert(Tile::DriftShiftOf(1) == Tile::ShiftOf(1));
-  static_assert(Tile::DriftShiftOf(2) == Tile::ShiftOf(2));
-  for (int y = 0; y < height; ++y) {
-    const std::uint8_t* of_row = &drift.At(0, y);
-    const std::uint8_t* of_next = &drift.At(0, y + 1);
-    std::uint8_t* likelihood = &At(0, y);
-    for (int x = 0; x < width - kBlockSide; ++x) {
-      const std::uint8_t smallest = std::min(std::min(of_row[x], of_row[x + 1]),  //
-                                             std::min(of_next[x], of_next[x + 1]));
-      likelihood[x] = smallest > max_drift_code ? std::uint8_t{0} : likelihood[x];
-    }
-  }
-}
-
-// The finest cells of a tile and what is beside and below it.
-const LikelihoodWindow::FinestReach& LikelihoodWindow::MakeFinest(int column, int row) {
-  static const FinestReach kNothing;
-  if (IsEmptyAround(column, row)) return kNothing;
-  FinestReach& reach = finest_.emplace_back();
-  for (const int below : {0, 1}) {
-    for (const int right : {0, 1}) {
-      const GridCell tile_at{column + right, row + below};
-      Copy(tile_at, {right * Tile::kSide, below * Tile::kSide}, reach);
-    }
-  }
-  return reach;
-}
-
-bool LikelihoodWindow::IsEmptyAround(int column, int row) const {
-  const int last_column = std::min(column + 1, size_.x + 1);
-  const int last_row = std::min(row + 1, size_.y + 1);
-  for (int y = row; y <= last_row; ++y) {
-    for (int x = column; x <= last_column; ++x) {
-      if (tiles_[IndexOf(x, y)] != nullptr) return false;
-    }
-  }
-  return true;
-}
-
-// Copies as many of a tile's finest cells as fit.
-void LikelihoodWindow::Copy(GridCell tile_at, GridCell to, FinestReach& reach) {
-  if (tile_at.x >= size_.x + 2 || tile_at.y >= size_.y + 2) return;
-  const Tile* tile = tiles_[IndexOf(tile_at.x, tile_at.y)];
-  if (tile == nullptr) return;
-  const int rows = std::min(Tile::kSide, FinestReach::kSide - to.y);
-  for (int y = 0; y < rows; ++y) {
-    const TileRow row = WithoutDrifted(*tile, y, max_drift_code_);
-    to.x == 0 ? std::memcpy(reach.At(0, to.y + y), &row, sizeof(row))
-              : std::memcpy(reach.At(to.x, to.y + y), &row, kSide);
-  }
-}
-
-// The pairs by pairs of cells of a tile and what is beside and below it.
-const LikelihoodWindow::PairReach& LikelihoodWindow::MakePairs(int column, int row) {
-  constexpr int kPairs = Tile::kSide / kPairSide;
-  PairReach& reach = OwnPairsOf(column, row);
-  Copy({column + 1, row}, {kPairs, 0}, reach);
-  Copy({column, row + 1}, {0, kPairs}, reach);
-  Copy({column + 1, row + 1}, {kPairs, kPairs}, reach);
-  return reach;
-}
-
-void LikelihoodWindow::Copy(GridCell tile_at, GridCell to, PairReach& reach) {
-  constexpr int kPairs = Tile::kSide / kPairSide;
-  const PairReach& from = OwnPairsOf(tile_at.x, tile_at.y);
-  const int rows = std::min(kPairs, PairReach::kSide - to.y);
-  for (int y = 0; y < rows; ++y) {
-    to.x == 0 ? std::memcpy(reach.At(0, to.y + y), from.At(0, y), kPairs)
-              : std::memcpy(reach.At(to.x, to.y + y), from.At(0, y), kSide);
-  }
-}
-
-// Those of the tile itself: the maximum of three cells along each axis.
-LikelihoodWindow::PairReach& LikelihoodWindow::OwnPairsOf(int column, int row) {
-  PairReach*& own = known_[IndexOf(column, row)].own_pairs;
-  if (own != nullptr) return *own;
-  const FinestReach& finest = FinestOf(column, row);
-  own = &pairs_.emplace_back();
-  for (int y = 0; y < Tile::kSide; y += kPairSide) {
-    const SixteenBytes left = MaximumOfThreeByThree(finest.At(0, y), FinestReach::kSide);
-    const SixteenBytes right = MaximumOfThreeByThree(finest.At(16, y), FinestReach::kSide);
-    const SixteenBytes every_other = __builtin_shufflevector(
-        left, right, 0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
-    std::memcpy(own->At(0, y / kPairSide), &every_other, sizeof(every_other));
-  }
-  return *own;
 }
 
 }  // namespace qwsm

@@ -44,6 +44,12 @@ struct ExcludedDisk {
   double radius_m = 0.0;  ///< Positions no further than that from the centre are left out.
 };
 
+/// How far a window reaches from its middle.
+struct WindowReach {
+  double translation_m = 0.0;
+  double rotation_rad = 0.0;
+};
+
 /// Describes where to search for a pose.
 struct SearchWindow {
   UncertainPose2 predicted;    ///< The prediction; poses cost the more sigmas they are away.
@@ -51,6 +57,9 @@ struct SearchWindow {
   double rotation_rad = 0.0;   ///< Half the range of headings.
   double min_score = 0.0;      ///< Poses that score no better are not found.
   std::optional<ExcludedDisk> excluded{};
+  /// Where the same points were sought before, about the same prediction: no pose there scores more
+  /// than min_score.
+  std::optional<WindowReach> searched{};
   /// Surfaces that drifted more do not count; see LikelihoodPyramid::DriftCode().
   std::uint8_t max_drift_code = LikelihoodPyramid::kUnmapped;
 };
@@ -61,9 +70,10 @@ struct FoundPose {
   double score = 0.0;  ///< Mean likelihood of the beam ends, 0..1, less the cost of the prior.
 };
 
-/// Searches a window for its best pose, by branch and bound over the pyramid's levels (Olson 2009;
-/// Hess et al. 2016): exhaustive in steps of a cell and of the heading that moves a far point by a
-/// cell. The position is then interpolated between the cells.
+/// Searches a window for its best pose, by branch and bound (Olson 2009; Hess et al. 2016):
+/// exhaustive in steps of a cell and of the heading that moves a far point by a cell. Blocks of
+/// positions are bounded at several headings at once, by what each beam meets anywhere in the box
+/// it then sweeps. The position is interpolated between the cells at last.
 ///
 /// @param points_robot_m the scan's points in the robot's frame, thinned out: cost is linear in
 /// them, and near surfaces, on which beams are dense, would outvote the rest.

@@ -45,14 +45,14 @@ struct GridCell {
   friend bool operator==(const GridCell&, const GridCell&) = default;
 };
 
-/// How likely a beam ends in each cell, at the levels a coarse-to-fine search visits.
+/// How likely a beam ends in each cell, finely and coarsely, for searches that go from the coarse
+/// to the fine.
 ///
 /// Level 0 holds the maximum over the stored points of exp(-d^2 / 2 sigma^2), scaled to 0..255. A
-/// cell c of a coarser level, s level-0 cells wide, holds the maximum over the level-0 cells
-/// c s .. c s + 2 (s - 1) in each axis: an upper bound for a beam that ends anywhere in c and is
-/// then moved by 0 .. s - 1 cells (Olson 2009; Hess et al. 2016). The smallest drift of the points
-/// in the same cells is held as well, so that a search can be restricted to what was mapped with
-/// little drift.
+/// cell of level 1 holds the maximum of the four by four level-0 cells in it. The smallest drift of
+/// the points is held as well, so that a search can be restricted to what was mapped with little
+/// drift: in cells of two by two level-0 cells, and for level 1 in cells c of s = 16 by 16 over the
+/// level-0 cells c s .. c s + 2 (s - 1) in each axis.
 ///
 /// Stored in square tiles that exist only where points are. Searches read a LikelihoodWindow.
 class LikelihoodPyramid {
@@ -133,13 +133,24 @@ class LikelihoodPyramid {
     std::vector<std::uint32_t> tiles;
   };
 
+  // Along one axis.
+  struct Profiles {
+    void Lay(double center_m, int cell, const LikelihoodFall& fall);
+
+    LikelihoodProfile fine;
+    LikelihoodProfile coarse;
+    LikelihoodProfile of_drift;  // Of the coarse cells of drift.
+  };
+
   void LayProfiles(const Eigen::Vector2d& p_m);
   void FindTilesAroundPoint();
   std::uint32_t TileAt(int column, int row);
   const Tile* TileOf(const Block* block, int column, int row) const;
   void RaiseFinest(GridCell at, std::uint8_t drift_code);
-  template <int kLevel>
-  void RaiseCoarse(std::uint8_t drift_code);
+  template <int kShift, class Visit>
+  void VisitCoarse(const LikelihoodProfile& columns, const LikelihoodProfile& rows, Visit visit);
+  void RaiseCoarse();
+  void LowerCoarseDrift(std::uint8_t drift_code);
   Tile& TileAround(GridCell at);
 
   LikelihoodPyramidOptions options_;
@@ -148,8 +159,8 @@ class LikelihoodPyramid {
   std::unordered_map<std::uint64_t, Block> directory_;  // By Key().
   PagedPool<Tile, 4> tiles_;
   // Of the point inserted last; kept for their memory.
-  std::array<LikelihoodProfile, kLevels> columns_;  // By level.
-  std::array<LikelihoodProfile, kLevels> rows_;
+  Profiles columns_;
+  Profiles rows_;
   LikelihoodStamp stamp_;
   TileRange around_;  // The next point is mostly near.
 };

@@ -9,19 +9,19 @@
 
 namespace qwsm {
 
-/// A square of a LikelihoodPyramid: its cells at every level.
+/// A square of a LikelihoodPyramid: its cells at both levels.
 class LikelihoodTile {
  public:
-  static constexpr int kLevels = 3;
+  static constexpr int kLevels = 2;
   static constexpr std::uint8_t kUnmapped = std::numeric_limits<std::uint8_t>::max();
   static constexpr std::uint8_t kMapped = 60;  ///< A cell counts as mapped by a point from here on.
   static constexpr int kBits = 5;
   static constexpr int kSide = 1 << kBits;  ///< Side of a tile, in cells of level 0.
   /// A cell of a level is 2^ShiftOf(level) cells of level 0 wide.
-  static constexpr int ShiftOf(int level) { return level == 0 ? 0 : level + 2; }
+  static constexpr int ShiftOf(int level) { return level == 0 ? 0 : 2; }
   /// A cell of drift of a level is 2^DriftShiftOf(level) cells of level 0 wide: drift need not be
-  /// known as finely.
-  static constexpr int DriftShiftOf(int level) { return level == 0 ? 1 : level + 2; }
+  /// known as finely as likelihood.
+  static constexpr int DriftShiftOf(int level) { return level == 0 ? 1 : 4; }
 
   LikelihoodTile() { drift_codes_.fill(kUnmapped); }
 
@@ -34,8 +34,8 @@ class LikelihoodTile {
 
  private:
   // First cell of each level, and the number of all cells.
-  static constexpr std::array<std::size_t, kLevels + 1> kFirst = {0, 1024, 1040, 1044};
-  static constexpr std::array<std::size_t, kLevels + 1> kFirstDrift = {0, 256, 272, 276};
+  static constexpr std::array<std::size_t, kLevels + 1> kFirst = {0, 1024, 1088};
+  static constexpr std::array<std::size_t, kLevels + 1> kFirstDrift = {0, 256, 260};
   static std::size_t FirstOf(int level) { return kFirst[static_cast<std::size_t>(level)]; }
   static std::size_t FirstDriftOf(int level) {
     return kFirstDrift[static_cast<std::size_t>(level)];
