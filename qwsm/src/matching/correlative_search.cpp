@@ -127,6 +127,7 @@ class PoseSearch::BranchAndBound {
   void AddRoots(const HeadingGroup& group, const OffsetArea& area) {
     const auto beams = likelihoods_.BoundsOf(group.beam_ends, area.first);
     const auto sums = LikelihoodWindow::SumsOf(beams, area.rows);
+    const std::size_t before = roots_.size();
     for (int row = 0; row < area.rows; row += kBlocksOfRoot) {
       for (int column = 0; column < area.columns; column += kBlocksOfRoot) {
         AddRoot({.headings = group.headings,
@@ -140,6 +141,10 @@ class PoseSearch::BranchAndBound {
                 sums);
       }
     }
+    if (roots_.size() == before) return;
+    const auto kept = memory_.Take<LikelihoodWindow::Bounds>(beams.size());
+    std::ranges::copy(beams, kept.begin());
+    for (SearchBlock& root : std::span(roots_).subspan(before)) root.beams = kept;
   }
 
   // Those blocks of a root that may hold a better pose, if they are few; else the root.

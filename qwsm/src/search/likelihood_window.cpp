@@ -92,7 +92,7 @@ std::span<const LikelihoodWindow::Bounds> LikelihoodWindow::BoundsOf(std::span<c
   constexpr int kLast = kBlockSide - 1;  // Offset of a block.
   const GridCell to{offset.x - first_.x, offset.y - first_.y};
   const FourCells move{to.x, to.y, to.x + kLast, to.y + kLast};
-  const std::span<Bounds> bounds = memory_.Take<Bounds>(boxes.size());
+  bounds_.resize(boxes.size());
   const int columns = size_.x;
   Known* const* known_of = known_of_.data();
   for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -106,9 +106,9 @@ std::span<const LikelihoodWindow::Bounds> LikelihoodWindow::BoundsOf(std::span<c
       greatest = known == nullptr ? nullptr : known->greatest[shape];
       if (greatest == nullptr) greatest = &GreatestOf(tile.x, tile.y, shape);
     }
-    bounds[i].first_ = greatest->At(low.x & kMask, low.y & kMask);
+    bounds_[i].first_ = greatest->At(low.x & kMask, low.y & kMask);
   }
-  return bounds;
+  return bounds_;
 }
 
 // The smallest shape that holds so many coarse cells; kShapes where none does.

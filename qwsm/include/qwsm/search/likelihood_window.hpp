@@ -56,6 +56,7 @@ class LikelihoodWindow {
   };
   /// Those of many cells, one for each box. @param offset that the first block begins at.
   /// @pre all boxes are in the window when moved by it
+  /// @return valid until the next call
   std::span<const Bounds> BoundsOf(std::span<const CellBox> boxes, GridCell offset);
 
   /// Row by row.
@@ -144,6 +145,7 @@ class LikelihoodWindow {
   void CopyCoarse(const LikelihoodTile& tile, std::uint8_t* to) const;
 
   SearchMemory& memory_;
+  std::vector<Bounds> bounds_;
   std::uint8_t max_drift_code_;
   GridCell first_;  // Cell that the first tile begins with.
   GridCell size_;   // How many columns and rows of tiles there are.
