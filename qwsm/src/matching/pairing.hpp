@@ -81,6 +81,9 @@ class Pairing {
 
  private:
   struct Pair {
+    // Written, not defaulted: else all of it is set to 0 before its members are.
+    Pair() {}
+
     Eigen::Vector2d arm;        // The scan's point in map axes, from the robot.
     Eigen::Vector2d p_map;      // The same point in the map.
     double inflation_m2 = 0.0;  // Of the pair's error, while annealing.
