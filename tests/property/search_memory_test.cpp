@@ -22,8 +22,14 @@ TEST(SearchMemory, WhatIsTakenStaysAndOverlapsNothingElse) {
       // Some of it fits no page.
       const std::size_t most = i % 50 == 0 ? 100000 : 3000;
       const std::size_t count = std::uniform_int_distribution<std::size_t>(0, most)(random);
-      taken.push_back(memory.Take<std::uint32_t>(count, i));
+      const bool zeros = i % 2 == 0;
+      taken.push_back(zeros ? memory.TakeZeros<std::uint32_t>(count)
+                            : memory.Take<std::uint32_t>(count));
       ASSERT_EQ(taken.back().size(), count);
+      if (zeros) {
+        EXPECT_EQ(std::ranges::count(taken.back(), 0U), static_cast<std::ptrdiff_t>(count));
+      }
+      std::ranges::fill(taken.back(), i);
     }
     for (std::uint32_t i = 0; i < taken.size(); ++i) {
       EXPECT_EQ(std::ranges::count(taken[i], i), static_cast<std::ptrdiff_t>(taken[i].size()));
@@ -35,8 +41,10 @@ TEST(SearchMemory, WhatIsTakenStaysAndOverlapsNothingElse) {
 TEST(SearchMemory, SearchesAtATimeShareNothing) {
   SearchMemory first;
   SearchMemory second;
-  const auto ones = first.Take<int>(1000, 1);
-  const auto twos = second.Take<int>(1000, 2);
+  const auto ones = first.Take<int>(1000);
+  const auto twos = second.Take<int>(1000);
+  std::ranges::fill(ones, 1);
+  std::ranges::fill(twos, 2);
   EXPECT_EQ(std::ranges::count(ones, 1), 1000);
   EXPECT_EQ(std::ranges::count(twos, 2), 1000);
 }

@@ -41,7 +41,8 @@ class PoseSearch::BranchAndBound {
         ends_(map, points_robot_m, window, options.lever_m, memory_),
         likelihoods_(map, CellsRead(), window.max_drift_code, memory_),
         prior_cost_(window.predicted.covariance,
-                    CostOfSquaredSigma(points_robot_m.size(), options)) {}
+                    CostOfSquaredSigma(points_robot_m.size(), options)),
+        beams_(memory_.Take<LikelihoodWindow::Bounds>(ends_.count())) {}
 
   // The root of the highest bound is visited first, until none can hold a better pose.
   std::optional<FoundPose> Best(double min_score, const std::optional<ExcludedDisk>& excluded) {
@@ -114,9 +115,11 @@ class PoseSearch::BranchAndBound {
   // Of a group of headings, as many blocks at a time as are bounded at once.
   void AddRootsOf(const HeadingGroup& group, const OffsetArea& area) {
     constexpr int kAtOnce = LikelihoodWindow::kBlocks;
+    const auto places = likelihoods_.PlacesOf(group.beam_ends, area.first);
     for (int row = 0; row < area.rows; row += kAtOnce) {
       for (int column = 0; column < area.columns; column += kAtOnce) {
-        AddRoots(group,
+        likelihoods_.BoundsOf(places, {column / kAtOnce, row / kAtOnce}, beams_);
+        AddRoots(group.headings,
                  {.first = {area.first.x + column * kSide, area.first.y + row * kSide},
                   .columns = std::min(kAtOnce, area.columns - column),
                   .rows = std::min(kAtOnce, area.rows - row)});
@@ -124,16 +127,15 @@ class PoseSearch::BranchAndBound {
     }
   }
 
-  void AddRoots(const HeadingGroup& group, const OffsetArea& area) {
-    const auto beams = likelihoods_.BoundsOf(group.beam_ends, area.first);
-    const auto sums = LikelihoodWindow::SumsOf(beams, area.rows);
+  void AddRoots(HeadingRange headings, const OffsetArea& area) {
+    const auto sums = LikelihoodWindow::SumsOf(beams_, area.rows);
     const std::size_t before = roots_.size();
     for (int row = 0; row < area.rows; row += kBlocksOfRoot) {
       for (int column = 0; column < area.columns; column += kBlocksOfRoot) {
-        AddRoot({.headings = group.headings,
+        AddRoot({.headings = headings,
                  .first = {area.first.x + column * kSide, area.first.y + row * kSide},
                  .side = kBlocksOfRoot * kSide,
-                 .beams = beams,
+                 .beams = beams_,
                  .blocks = {.column = column,
                             .row = row,
                             .columns = std::min(kBlocksOfRoot, area.columns - column),
@@ -141,10 +143,8 @@ class PoseSearch::BranchAndBound {
                 sums);
       }
     }
-    if (roots_.size() == before) return;
-    const auto kept = memory_.Take<LikelihoodWindow::Bounds>(beams.size());
-    std::ranges::copy(beams, kept.begin());
-    for (SearchBlock& root : std::span(roots_).subspan(before)) root.beams = kept;
+    // The bounds of the next area are kept beside those of this one where roots look at these.
+    if (roots_.size() > before) beams_ = memory_.Take<LikelihoodWindow::Bounds>(ends_.count());
   }
 
   // Those blocks of a root that may hold a better pose, if they are few; else the root.
@@ -325,7 +325,8 @@ class PoseSearch::BranchAndBound {
   BeamEnds ends_;
   LikelihoodWindow likelihoods_;
   PriorCost prior_cost_;
-  std::vector<SearchBlock> roots_;  // Those with bounds above the floor below.
+  std::span<LikelihoodWindow::Bounds> beams_;  // Of all beams in the area being looked at.
+  std::vector<SearchBlock> roots_;             // Those with bounds above the floor below.
   double floor_of_roots_ = std::numeric_limits<double>::infinity();
   std::optional<ExcludedDisk> excluded_;
   double floor_ = 0.0;  // Score of the best pose met so far.

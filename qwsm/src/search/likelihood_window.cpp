@@ -72,19 +72,17 @@ LikelihoodWindow::LikelihoodWindow(const LikelihoodPyramid& pyramid,
   first_ = {first.x * Tile::kSide, first.y * Tile::kSide};
   size_ = {(read.high.x >> Tile::kBits) - first.x + 1, (read.high.y >> Tile::kBits) - first.y + 1};
   tiles_ = pyramid.FindTiles(first, size_);
-  known_of_ = memory.Take<Known*>(tiles_.size(), nullptr);
-  finest_of_ = memory.Take<const Finest*>(tiles_.size(), nullptr);
-  own_pairs_of_ = memory.Take<Pairs*>(tiles_.size(), nullptr);
-  pairs_of_ = memory.Take<const Pairs*>(tiles_.size(), nullptr);
+  known_of_ = memory.TakeZeros<Known*>(tiles_.size());
+  if (max_drift_code != Tile::kUnmapped) {
+    own_coarse_of_ = memory.TakeZeros<const OwnCoarse*>(tiles_.size());
+  }
+  finest_of_ = memory.TakeZeros<const Finest*>(tiles_.size());
+  own_pairs_of_ = memory.TakeZeros<Pairs*>(tiles_.size());
+  pairs_of_ = memory.TakeZeros<const Pairs*>(tiles_.size());
 }
 
-std::span<const LikelihoodWindow::Bounds> LikelihoodWindow::BoundsOf(std::span<const CellBox> boxes,
-                                                                     GridCell offset) {
-  static constexpr Greatest kAnything = [] {
-    Greatest anything{};
-    anything.cells.fill(255);
-    return anything;
-  }();
+std::span<const LikelihoodWindow::Place> LikelihoodWindow::PlacesOf(std::span<const CellBox> boxes,
+                                                                    GridCell offset) {
   using FourCells = std::int32_t __attribute__((vector_size(16)));
   static_assert(sizeof(CellBox) == sizeof(FourCells));
   constexpr int kTileShift = Tile::kBits - kCoarseShift;
@@ -92,31 +90,43 @@ std::span<const LikelihoodWindow::Bounds> LikelihoodWindow::BoundsOf(std::span<c
   constexpr int kLast = kBlockSide - 1;  // Offset of a block.
   const GridCell to{offset.x - first_.x, offset.y - first_.y};
   const FourCells move{to.x, to.y, to.x + kLast, to.y + kLast};
-  bounds_.resize(boxes.size());
+  places_.resize(boxes.size());
   const int columns = size_.x;
-  Known* const* known_of = known_of_.data();
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const FourCells coarse = (std::bit_cast<FourCells>(boxes[i]) + move) >> kCoarseShift;
     const GridCell low{coarse[0], coarse[1]};
-    const std::size_t shape = ShapeOf(coarse[2] - low.x + 1, coarse[3] - low.y + 1);
-    const GridCell tile{low.x >> kTileShift, low.y >> kTileShift};
-    const Known* known = known_of[tile.y * columns + tile.x];
-    const Greatest* greatest = &kAnything;
-    if (shape < kShapes) {
-      greatest = known == nullptr ? nullptr : known->greatest[shape];
-      if (greatest == nullptr) greatest = &GreatestOf(tile.x, tile.y, shape);
-    }
-    bounds_[i].first_ = greatest->At(low.x & kMask, low.y & kMask);
+    const int cell = (low.y & kMask) * Bounds::kSide + (low.x & kMask);
+    places_[i] = {.tile = (low.y >> kTileShift) * columns + (low.x >> kTileShift),
+                  .shape = ShapeOf(coarse[2] - low.x + 1, coarse[3] - low.y + 1),
+                  .cell = static_cast<std::uint16_t>(cell)};
   }
-  return bounds_;
+  return places_;
 }
 
-// The smallest shape that holds so many coarse cells; kShapes where none does.
-std::size_t LikelihoodWindow::ShapeOf(int width, int height) {
-  if (std::max(width, height) <= kOblong) {
-    return static_cast<std::size_t>((height - 1) * kOblong + width - 1);
+void LikelihoodWindow::BoundsOf(std::span<const Place> places,
+                                GridCell areas,
+                                std::span<Bounds> bounds) {
+  static_assert(kBlocks * kBlockSide == Tile::kSide);
+  const int further = areas.y * size_.x + areas.x;  // By an area, a box moves to the next tile.
+  Known* const* known_of = known_of_.data() + further;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto [tile, shape, cell] = places[i];
+    const Known* known = known_of[tile];
+    const Greatest* greatest = known == nullptr ? nullptr : known->greatest[shape];
+    if (greatest == nullptr) {
+      const int index = tile + further;
+      greatest = &GreatestOf(index % size_.x, index / size_.x, shape);
+    }
+    bounds[i].first_ = greatest->cells.data() + cell;
   }
-  std::size_t shape = kOblong * kOblong;
+}
+
+// The smallest shape that holds so many coarse cells.
+std::uint16_t LikelihoodWindow::ShapeOf(int width, int height) {
+  if (std::max(width, height) <= kOblong) {
+    return static_cast<std::uint16_t>((height - 1) * kOblong + width - 1);
+  }
+  std::uint16_t shape = kOblong * kOblong;
   for (const int side : kSquares) {
     if (std::max(width, height) <= side) break;
     ++shape;

@@ -51,12 +51,9 @@ std::uint64_t KeptOfRow(const Tile& tile, int row, std::uint8_t max_drift_code) 
   const std::uint8_t* below = above + kCodes;
   const auto kept = std::bit_cast<SixteenBytes>((LoadSixteen(above) <= max_drift_code) |
                                                 (LoadSixteen(below) <= max_drift_code));
-  const SixteenBytes of_pairs =
-      __builtin_shufflevector(kept, kept, 0, 2, 4, 6, 8, 10, 12, 14, 0, 0, 0, 0, 0, 0, 0, 0) |
-      __builtin_shufflevector(kept, kept, 1, 3, 5, 7, 9, 11, 13, 15, 0, 0, 0, 0, 0, 0, 0, 0);
-  std::uint64_t eight = 0;
-  std::memcpy(&eight, &of_pairs, sizeof(eight));
-  return eight;
+  using EightBytes = std::uint8_t __attribute__((vector_size(8)));
+  const auto pairs = std::bit_cast<EightSums>(kept);
+  return std::bit_cast<std::uint64_t>(__builtin_convertvector(pairs | (pairs >> 8), EightBytes));
 }
 
 // Of each of sixteen cells from one on, the maximum over it, the two beside it, and those below.
@@ -86,6 +83,10 @@ void FindGreatest(const std::uint8_t* cells, std::uint8_t* greatest) {
 }
 
 }  // namespace
+
+constinit const LikelihoodWindow::OwnCoarse LikelihoodWindow::kNoOwnCoarse{};
+constinit const LikelihoodWindow::Coarse LikelihoodWindow::kNoCoarse{};
+constinit const LikelihoodWindow::Greatest LikelihoodWindow::kNoGreatest{};
 
 // The finest cells of a tile and what is beside and below it.
 const LikelihoodWindow::Finest& LikelihoodWindow::MakeFinest(int column, int row) {
@@ -165,10 +166,15 @@ LikelihoodWindow::Pairs& LikelihoodWindow::OwnPairsOf(int column, int row) {
 const LikelihoodWindow::Greatest& LikelihoodWindow::GreatestOf(int column,
                                                                int row,
                                                                std::size_t shape) {
-  static constexpr Greatest kNothing{};
-  if (!HasTile(column, row)) return kNothing;
+  static constexpr Greatest kAnything = [] {
+    Greatest anything{};
+    anything.cells.fill(255);
+    return anything;
+  }();
+  if (shape == kAnyShape) return kAnything;
+  if (!HasTile(column, row)) return kNoGreatest;
   Known*& known = known_of_[IndexOf(column, row)];
-  if (known == nullptr) known = &memory_.Take<Known>(1, {}).front();
+  if (known == nullptr) known = &memory_.TakeZeros<Known>(1).front();
   const Greatest*& greatest = known->greatest[shape];
   if (greatest == nullptr) greatest = &MakeGreatest(column, row, shape);
   return *greatest;
@@ -184,59 +190,99 @@ const LikelihoodWindow::Greatest& LikelihoodWindow::MakeGreatest(int column,
   (std::make_index_sequence<std::size_t{kOblong * kOblong}>{});
   constexpr std::size_t kFirstSquare = kFindOblong.size();
   static_assert(kSquares.front() == kCoarseSide);
+  if (shape > kFirstSquare) return JoinGreatest(column, row, shape);
+  const Coarse& coarse = CoarseOf(column, row);
+  if (&coarse == &kNoCoarse) return kNoGreatest;
   Greatest& greatest = memory_.Take<Greatest>(1).front();
-  if (shape < kFirstSquare) {
-    kFindOblong[shape](CoarseOf(column, row).cells.data(), greatest.cells.data());
-  } else if (shape == kFirstSquare) {
-    FindGreatest<kCoarseSide, kCoarseSide, Coarse::kSide>(CoarseOf(column, row).cells.data(),
-                                                          greatest.cells.data());
-  } else {
-    JoinGreatest(column, row, shape, greatest);
-  }
+  const auto find = shape < kFirstSquare ? kFindOblong[shape]
+                                         : &FindGreatest<kCoarseSide, kCoarseSide, Coarse::kSide>;
+  find(coarse.cells.data(), greatest.cells.data());
   return greatest;
 }
 
 // A square as long as two tiles or more: of four squares of half the side.
-void LikelihoodWindow::JoinGreatest(int column, int row, std::size_t shape, Greatest& greatest) {
+const LikelihoodWindow::Greatest& LikelihoodWindow::JoinGreatest(int column,
+                                                                 int row,
+                                                                 std::size_t shape) {
   const int apart = kSquares[shape - kOblong * kOblong] / 2 / kCoarseSide;  // In tiles.
-  greatest.cells.fill(0);
+  const Greatest* joined = &kNoGreatest;
+  Greatest* own = nullptr;
   for (const int below : {0, apart}) {
     for (const int right : {0, apart}) {
       const Greatest& quarter = GreatestOf(column + right, row + below, shape - 1);
-      for (std::size_t i = 0; i < quarter.cells.size(); ++i) {
-        greatest.cells[i] = std::max(greatest.cells[i], quarter.cells[i]);
+      if (&quarter == &kNoGreatest) continue;
+      if (joined == &kNoGreatest) {
+        joined = &quarter;
+        continue;
       }
+      if (own == nullptr) own = &memory_.Take<Greatest>(1).front();
+      RaiseTo(*joined, quarter, *own);
+      joined = own;
     }
+  }
+  return *joined;
+}
+
+// The greater of each two.
+void LikelihoodWindow::RaiseTo(const Greatest& a, const Greatest& b, Greatest& greater) {
+  for (int y = 0; y < Greatest::kSide; ++y) {
+    const SixteenBytes row = GreaterOf(LoadSixteen(a.At(0, y)), LoadSixteen(b.At(0, y)));
+    std::memcpy(greater.At(0, y), &row, sizeof(row));
   }
 }
 
-// The coarse cells of a tile and of those beside and below it.
+// The coarse cells of a tile and of those beside and below it. Where none counts, as in much of what
+// is outdoors, nothing is made of them.
 const LikelihoodWindow::Coarse& LikelihoodWindow::CoarseOf(int column, int row) {
   const Coarse*& known = known_of_[IndexOf(column, row)]->coarse;
   if (known != nullptr) return *known;
+  std::array<const std::uint8_t*, std::size_t{kTilesOfCoarse} * kTilesOfCoarse> own;
+  auto next = own.begin();
+  for (int y = 0; y < kTilesOfCoarse; ++y) {
+    for (int x = 0; x < kTilesOfCoarse; ++x) *next++ = OwnCoarseOf(column + x, row + y);
+  }
+  const auto is_empty = [](const std::uint8_t* cells) { return cells == kNoOwnCoarse.At(0, 0); };
+  if (std::ranges::all_of(own, is_empty)) return *(known = &kNoCoarse);
   Coarse& coarse = memory_.Take<Coarse>(1).front();
   known = &coarse;
-  coarse.cells.fill(0);
+  next = own.begin();
   for (int y = 0; y < kTilesOfCoarse; ++y) {
     for (int x = 0; x < kTilesOfCoarse; ++x) {
-      const Tile* tile = TileAt(column + x, row + y);
-      if (tile != nullptr) CopyCoarse(*tile, coarse.At(x * kCoarseSide, y * kCoarseSide));
+      CopyCoarse(*next++, coarse.At(x * kCoarseSide, y * kCoarseSide));
     }
   }
   return coarse;
 }
 
-void LikelihoodWindow::CopyCoarse(const Tile& tile, std::uint8_t* to) const {
+// @param own coarse cells of one tile, row by row.
+void LikelihoodWindow::CopyCoarse(const std::uint8_t* own, std::uint8_t* to) {
+  for (int y = 0; y < kCoarseSide; ++y, own += kCoarseSide, to += Coarse::kSide) {
+    std::memcpy(to, own, kCoarseSide);
+  }
+}
+
+// Those of the tile itself, row by row; of kNoOwnCoarse where none counts.
+const std::uint8_t* LikelihoodWindow::OwnCoarseOf(int column, int row) {
+  const Tile* tile = TileAt(column, row);
+  if (tile == nullptr) return kNoOwnCoarse.At(0, 0);
+  if (max_drift_code_ == Tile::kUnmapped) return tile->likelihoods(1);
+  const OwnCoarse*& known = own_coarse_of_[IndexOf(column, row)];
+  if (known == nullptr) known = &MakeOwnCoarse(*tile);
+  return known->At(0, 0);
+}
+
+// Those in which something has drifted little enough.
+const LikelihoodWindow::OwnCoarse& LikelihoodWindow::MakeOwnCoarse(const Tile& tile) {
+  OwnCoarse own;
+  std::uint64_t any = 0;
   for (int row = 0; row < kCoarseSide; ++row) {
-    std::memcpy(to + row * Coarse::kSide, tile.likelihoods(1) + row * kCoarseSide, kCoarseSide);
-  }
-  if (max_drift_code_ == Tile::kUnmapped) return;
-  for (int row = 0; row < kCoarseSide; ++row, to += Coarse::kSide) {
     std::uint64_t eight = 0;
-    std::memcpy(&eight, to, sizeof(eight));
+    std::memcpy(&eight, tile.likelihoods(1) + row * kCoarseSide, sizeof(eight));
     eight &= KeptOfRow(tile, row, max_drift_code_);
-    std::memcpy(to, &eight, sizeof(eight));
+    std::memcpy(own.At(0, row), &eight, sizeof(eight));
+    any |= eight;
   }
+  return any == 0 ? kNoOwnCoarse : memory_.Take<OwnCoarse>(1).front() = own;
 }
 
 }  // namespace qwsm

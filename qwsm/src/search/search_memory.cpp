@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "qwsm/search/detail/search_memory.hpp"
 
+#include <cstring>
 #include <utility>
 
 namespace qwsm {
 namespace {
 
 constexpr std::size_t kPageBytes = std::size_t{1} << 17;
-constexpr std::size_t kMostSpare = 32;  // Pages: 4 MB.
+constexpr std::size_t kMostSpare = 64;  // Pages: 8 MB.
 
 }  // namespace
 
@@ -47,5 +48,7 @@ void* SearchMemory::TakeBytes(std::size_t bytes) {
   left_ -= bytes;
   return taken;
 }
+
+void SearchMemory::Clear(void* first, std::size_t bytes) { std::memset(first, 0, bytes); }
 
 }  // namespace qwsm

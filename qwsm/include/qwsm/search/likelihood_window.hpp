@@ -54,10 +54,19 @@ class LikelihoodWindow {
     friend class LikelihoodWindow;
     const std::uint8_t* first_ = nullptr;
   };
-  /// Those of many cells, one for each box. @param offset that the first block begins at.
-  /// @pre all boxes are in the window when moved by it
-  /// @return valid until the next call
-  std::span<const Bounds> BoundsOf(std::span<const CellBox> boxes, GridCell offset);
+  /// Where a box is: what is known of the tile it begins in, how large it is, and its first cell.
+  struct Place {
+    std::int32_t tile = 0;
+    std::uint16_t shape = 0;
+    std::uint16_t cell = 0;
+  };
+  /// Where boxes are when moved by an offset. @return valid until the next call
+  std::span<const Place> PlacesOf(std::span<const CellBox> boxes, GridCell offset);
+  /// The bounds of many cells, one for each box.
+  /// @param areas the first block begins so many times kBlocks blocks behind the places' offset.
+  /// @param bounds that are found, as many as places.
+  /// @pre all boxes are in the window when moved there
+  void BoundsOf(std::span<const Place> places, GridCell areas, std::span<Bounds> bounds);
 
   /// Row by row.
   using BlockSums = std::array<int, std::size_t{kBlocks} * kBlocks>;
@@ -105,7 +114,9 @@ class LikelihoodWindow {
   // Likewise of pairs by pairs of cells, the maximum over 2 c .. 2 c + 2 in each axis.
   static constexpr int kPairsOfTile = LikelihoodTile::kSide / kPairSide;
   using Pairs = Square<kPairsOfTile + kBlocks>;
-  // The coarse cells of a tile and of two more along each axis.
+  // The coarse cells of a tile that count.
+  using OwnCoarse = Square<kBlocks>;
+  // Those and the ones of two more tiles along each axis.
   static constexpr int kTilesOfCoarse = 3;
   using Coarse = Square<kTilesOfCoarse * kBlocks>;
   // Of each coarse cell of a tile and of the next one along each axis, the greatest of those of one
@@ -115,10 +126,15 @@ class LikelihoodWindow {
   static constexpr int kOblong = 6;
   static constexpr std::array kSquares = {8, 16, 32};
   static constexpr std::size_t kShapes = kOblong * kOblong + kSquares.size();
+  static constexpr std::size_t kAnyShape = kShapes;  // What is larger than these.
+  // What is made where none counts: one of each for all tiles.
+  static const OwnCoarse kNoOwnCoarse;
+  static const Coarse kNoCoarse;
+  static const Greatest kNoGreatest;
   // What is known of the coarse cells about a tile so far.
   struct Known {
     const Coarse* coarse = nullptr;
-    std::array<const Greatest*, kShapes> greatest{};  // By shape.
+    std::array<const Greatest*, kShapes + 1> greatest{};  // By shape.
   };
   using CellsAtATime = std::array<const std::uint8_t*, kCellsAtATime>;
 
@@ -137,21 +153,25 @@ class LikelihoodWindow {
   const Pairs& MakePairs(int column, int row);
   void CopyPairs(GridCell tile_at, GridCell to, Pairs& pairs);
   Pairs& OwnPairsOf(int column, int row);
-  static std::size_t ShapeOf(int width, int height);
+  static std::uint16_t ShapeOf(int width, int height);
   const Greatest& GreatestOf(int column, int row, std::size_t shape);
   const Greatest& MakeGreatest(int column, int row, std::size_t shape);
-  void JoinGreatest(int column, int row, std::size_t shape, Greatest& greatest);
+  const Greatest& JoinGreatest(int column, int row, std::size_t shape);
+  static void RaiseTo(const Greatest& a, const Greatest& b, Greatest& greater);
   const Coarse& CoarseOf(int column, int row);
-  void CopyCoarse(const LikelihoodTile& tile, std::uint8_t* to) const;
+  const std::uint8_t* OwnCoarseOf(int column, int row);
+  static void CopyCoarse(const std::uint8_t* own, std::uint8_t* to);
+  const OwnCoarse& MakeOwnCoarse(const LikelihoodTile& tile);
 
   SearchMemory& memory_;
-  std::vector<Bounds> bounds_;
+  std::vector<Place> places_;
   std::uint8_t max_drift_code_;
   GridCell first_;  // Cell that the first tile begins with.
   GridCell size_;   // How many columns and rows of tiles there are.
   // Of each tile, row by row; null where nothing is stored or nothing is known yet.
   std::vector<const LikelihoodTile*> tiles_;
   std::span<Known*> known_of_;
+  std::span<const OwnCoarse*> own_coarse_of_;  // Empty where all that is stored counts.
   std::span<const Finest*> finest_of_;
   std::span<Pairs*> own_pairs_of_;  // Only those of the tile itself are filled in.
   std::span<const Pairs*> pairs_of_;

@@ -26,11 +26,11 @@ class SearchMemory {
     static_assert(alignof(T) <= kAlignment);
     return {static_cast<T*>(TakeBytes(count * sizeof(T))), count};
   }
-  /// The same, all equal.
+  /// The same, all of it 0: numbers, and pointers to nothing.
   template <class T>
-  std::span<T> Take(std::size_t count, const T& value) {
+  std::span<T> TakeZeros(std::size_t count) {
     const std::span<T> elements = Take<T>(count);
-    for (T& element : elements) element = value;
+    Clear(elements.data(), elements.size_bytes());
     return elements;
   }
 
@@ -42,6 +42,8 @@ class SearchMemory {
   static std::vector<Page>& Spare();
   static Page NewPage();
   void* TakeBytes(std::size_t bytes);
+  // Not inline: what a compiler makes of a few hundred bytes takes longer than a call.
+  static void Clear(void* first, std::size_t bytes);
 
   std::vector<Page> pages_;
   std::vector<Page> large_;  // What fits no page.
