@@ -122,26 +122,13 @@ ReplayResult RunSession::Run(const std::string& task,
 ReplayResult RunSession::Run(const std::string& task,
                              ScanSource& source,
                              std::vector<MappingRun> runs) const {
-  ReplayResult result = Feed(task, source, std::move(runs));
-  for (const std::string& line : source.Describe()) messages::Info(line);
-  return result;
-}
-
-ReplayResult RunSession::LookThrough(const std::string& task,
-                                     ScanSource& source,
-                                     const Answer& answer) const {
-  return Feed(task, source, {{.answer = answer, .sinks = {}}});
-}
-
-ReplayResult RunSession::Feed(const std::string& task,
-                              ScanSource& source,
-                              std::vector<MappingRun> runs) const {
   ProgressDisplay progress(
       task, source, arguments_.verbosity.quiet ? ProgressStyle::kNone : StyleFor(stderr));
   runs.back().sinks.push_back(&progress);  // Once per scan.
   const Interruption interruption;
   ReplayResult result = Replay(source, runs, [&] { return interruption.requested(); });
   progress.Clear();
+  for (const std::string& line : source.Describe()) messages::Info(line);
   return result;
 }
 

@@ -79,20 +79,10 @@ class RunSession {
                              pipeline::ScanSource& source,
                              std::vector<pipeline::MappingRun> runs) const;
 
-  /// Runs all scans through a mapper whose answers nobody takes, with progress; what there is to be
-  /// told of the source is left to a run.
-  pipeline::ReplayResult LookThrough(const std::string& task,
-                                     pipeline::ScanSource& source,
-                                     const pipeline::Answer& answer) const;
-
   /// Tells what came out, if a person reads standard output.
   void Summarize(const pipeline::ResultsWriter& results, const ScanMap& map) const;
 
  private:
-  pipeline::ReplayResult Feed(const std::string& task,
-                              pipeline::ScanSource& source,
-                              std::vector<pipeline::MappingRun> runs) const;
-
   RunSession(RunArguments arguments, pipeline::ResultsFolder folder)
       : arguments_(std::move(arguments)), folder_(std::move(folder)) {}
 

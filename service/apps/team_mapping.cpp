@@ -9,7 +9,7 @@
 #include <memory>
 #include <utility>
 
-#include "qwsm/mapping/localizer.hpp"
+#include "qwsm/sensor/scan_points.hpp"
 #include "service/apps/output.hpp"
 #include "service/apps/saved_map.hpp"
 #include "service/apps/teammates.hpp"
@@ -26,19 +26,42 @@ namespace {
 
 constexpr const char* kTeamMap = "map.qwsm";
 
-/// A robot that has its place in the map of all, its results not yet finished.
+/// Keeps what a robot was answered until it is known where.
+class KeptSteps final : public pipeline::StepSink {
+ public:
+  void Take(const pipeline::TimedStep& timed) override {
+    steps_.push_back(timed);
+    steps_.back().scan = nullptr;  // It goes when this returns.
+    steps_.back().step.relevant_scan = {};
+  }
+
+  /// Passes all on to a sink, placed in another frame.
+  void PassOn(const UncertainPose2& map_own, pipeline::StepSink& next) {
+    for (pipeline::TimedStep& timed : steps_) {
+      timed.step.map_robot = map_own * timed.step.map_robot;
+      next.Take(timed);
+    }
+    steps_.clear();
+  }
+
+ private:
+  std::vector<pipeline::TimedStep> steps_;
+};
+
+/// What a robot has mapped alone, its results not yet finished.
 struct MappedRobot {
   std::string name;
   RunSession session;
   std::unique_ptr<pipeline::ResultsWriter> results;
+  std::unique_ptr<KeptSteps> steps;
+  pipeline::CorrectedRun alone;        ///< In a frame of its own. Without a graph, the map alone.
   std::size_t first_scan = 0;          ///< Its first one in the map of all.
   std::vector<StampedAnswer> answers;  ///< Its path in the map of all.
-  std::vector<MapEpoch> epochs;        ///< Corrections while it drove.
   Trajectory truth;                    ///< Empty where it is not known.
-  ExitCode code = ExitCode::kDone;     ///< How its drive ended.
 };
 
-/// The robots of a recording, mapped one after the other, and corrected together.
+/// The robots of a recording: each maps alone, their maps are joined where they go together, and
+/// corrected as one.
 class TeamMapping {
  public:
   TeamMapping(const RunArguments& arguments,
@@ -46,137 +69,55 @@ class TeamMapping {
               const RunSession& session)
       : arguments_(arguments), options_(options), session_(session), marks_(arguments.logs) {}
 
-  ExitCode Follow(const std::vector<std::string>& robots) {
-    const ExitCode code = FollowFirst(robots.front());
-    if (code != ExitCode::kDone) return code;
-    return FollowOthers({robots.begin() + 1, robots.end()});
-  }
-
-  /// Corrects paths and map, and leaves the results of all.
-  void Finish(const std::optional<std::filesystem::path>& save_map) {
+  /// Maps all robots, and leaves the results of all.
+  ExitCode Map(const std::vector<std::string>& names,
+               const std::optional<std::filesystem::path>& save_map) {
+    ExitCode code = MapEachAlone(names);
+    std::vector<MappedRobot> apart = JoinMaps();
     const std::vector<team::Mark> marks =
         Corrects(options_) ? FinishCorrected() : FinishAsAnswered();
-    if (const auto grid = pipeline::RenderOrWarn(map_, options_.rendering)) {
-      io::WriteRosMap(session_.folder() / "map.yaml", *grid);
-      if (session_.has_pictures()) io::WriteMapPicture(session_.folder() / "map.png", *grid);
+    WriteMap(marks, save_map);
+    for (MappedRobot& robot : apart) {
+      FinishAlone(robot);
+      messages::Error("{}: is not in the map of the others, but in one of its own", robot.name);
+      if (code == ExitCode::kDone) code = ExitCode::kFailed;
     }
-    pipeline::WriteMarks(session_.folder().path(), marks);
-    pipeline::SaveMap(session_.folder() / kTeamMap, map_, marks);
-    if (save_map) pipeline::SaveMap(*save_map, map_, marks);
-  }
-
- private:
-  ExitCode FollowFirst(const std::string& name) {
-    const auto source = Open(name);
-    MappedRobot robot = Begin(name);
-    const pipeline::ReplayResult end =
-        Corrects(options_) ? FollowCorrecting(*source, robot) : FollowIncrementally(*source, robot);
-    Keep(std::move(robot), *source, end);
-    return Conclude(end);
-  }
-
-  pipeline::ReplayResult FollowIncrementally(pipeline::ScanSource& source, MappedRobot& robot) {
-    Mapper mapper(options_.mapper);
-    const auto end = robot.session.Run("map",
-                                       source,
-                                       WithoutTeammates(std::bind_front(&Mapper::Process, &mapper)),
-                                       {robot.results.get(), &marks_});
-    map_ = mapper.map();
-    robot.answers = pipeline::AnswersOf(robot.results->path());
-    return end;
-  }
-
-  /// The others are looked for in a map that is corrected.
-  pipeline::ReplayResult FollowCorrecting(pipeline::ScanSource& source, MappedRobot& robot) {
-    pipeline::ShareMemoryAmongThreads();
-    SelfCorrectingMapper mapper(options_.mapper, pipeline::BeginOnAnotherThread);
-    const auto end = robot.session.Run(
-        "map",
-        source,
-        WithoutTeammates(std::bind_front(&SelfCorrectingMapper::Process, &mapper)),
-        {robot.results.get(), &marks_});
-    pipeline::CorrectedRun corrected = pipeline::CorrectAtTheEnd(mapper);
-    map_ = std::move(corrected.map);
-    robot.answers = pipeline::AnswersOf(robot.results->path());
-    for (std::size_t i = 0; i < robot.answers.size(); ++i) {
-      robot.answers[i].map_robot = corrected.correction.map_robot[i];
-    }
-    robot.epochs = std::move(corrected.epochs);
-    return end;
-  }
-
-  /// Those who have been where the first one has, or others of them.
-  ExitCode FollowOthers(std::vector<std::string> robots) {
-    std::vector<ScanMap> maps{map_};
-    for (const std::string& name : robots) {
-      const ExitCode code = MapAlone(name, maps.emplace_back());
-      if (code != ExitCode::kDone) return code;
-    }
-    messages::Info("looking for where they meet");
-    for (const team::MeetingPlace& place : team::FindMeetingPlaces(maps, options_.mapper)) {
-      const RelevantScan& first = maps[place.map].scans().front();
-      const ExitCode code = FollowInMap(robots[place.map - 1], place.first_map * first.map_robot);
-      if (code != ExitCode::kDone && code != ExitCode::kFailed) return code;
-    }
-    std::erase_if(robots, [this](const std::string& name) { return IsMapped(name); });
-    for (const std::string& name : robots) {
-      messages::Error("{0}: is not in the map of the others; --robot {0} maps it alone", name);
-    }
-    const bool all_are_done = std::ranges::all_of(
-        robots_, [](const MappedRobot& robot) { return robot.code == ExitCode::kDone; });
-    return robots.empty() && all_are_done ? ExitCode::kDone : ExitCode::kFailed;
-  }
-
-  /// @param map what the robot maps by itself, in a frame of its own.
-  ExitCode MapAlone(const std::string& name, ScanMap& map) const {
-    messages::Info("mapping {} alone", name);
-    io::LogOptions log = LogOptionsOf(LogOf(name));
-    log.on_fault = {};  // Faults are told when the robot is mapped with the others.
-    pipeline::LogSource source(arguments_.logs, log, options_.log.mirrored);
-    SelfCorrectingMapper mapper(options_.mapper, pipeline::BeginOnAnotherThread);
-    const pipeline::ReplayResult end = session_.LookThrough(
-        "map", source, WithoutTeammates(std::bind_front(&SelfCorrectingMapper::Process, &mapper)));
-    map = pipeline::CorrectAtTheEnd(mapper).map;
-    return end.end == pipeline::ReplayEnd::kInterrupted ? ExitCode::kInterrupted : ExitCode::kDone;
-  }
-
-  ExitCode FollowInMap(const std::string& name, const UncertainPose2& start) {
-    const auto source = Open(name);
-    MappedRobot robot = Begin(name);
-    robot.first_scan = map_.scans().size();
-    Localizer localizer(options_.mapper, std::move(map_), start);
-    pipeline::LostAndFound lost_and_found(localizer, {robot.results.get()});
-    const pipeline::ReplayResult end =
-        robot.session.Run("map",
-                          *source,
-                          WithoutTeammates(std::bind_front(&Localizer::Process, &localizer)),
-                          {&lost_and_found});
-    map_ = localizer.map();
-    robot.answers = pipeline::AnswersOf(robot.results->path());
-    robot.code = ConcludeDrive(end, localizer, lost_and_found);
-    const ExitCode code = robot.code;
-    const bool was_found = !robot.answers.empty();
-    if (was_found) Keep(std::move(robot), *source, end);
     return code;
   }
 
-  options::LogOptions LogOf(const std::string& robot) const {
-    options::LogOptions log = options_.log;
-    log.robot = robot;
-    return log;
+ private:
+  ExitCode MapEachAlone(const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+      const ExitCode code = MapAlone(name);
+      if (code != ExitCode::kDone) return code;
+    }
+    return ExitCode::kDone;
   }
 
-  std::unique_ptr<pipeline::LogSource> Open(const std::string& robot) const {
-    return OpenLogs(arguments_, LogOf(robot));
+  ExitCode MapAlone(const std::string& name) {
+    messages::Info("mapping {}", name);
+    options::LogOptions log = options_.log;
+    log.robot = name;
+    const auto source = OpenLogs(arguments_, log);
+    MappedRobot robot = Begin(name);
+    std::vector<pipeline::StepSink*> sinks{robot.steps.get()};
+    if (robots_.empty()) sinks.push_back(&marks_);  // Whose moments are those of the first robot.
+    const pipeline::ReplayResult end = Corrects(options_)
+                                           ? MapCorrecting(*source, std::move(sinks), robot)
+                                           : MapIncrementally(*source, std::move(sinks), robot);
+    robot.results->SetTitle(robot.session.Title("map", end));
+    robot.truth = source->truth();
+    robots_.push_back(std::move(robot));
+    return Conclude(end);
   }
 
   MappedRobot Begin(const std::string& name) const {
-    messages::Info("mapping {}", name);
     MappedRobot robot{.name = name,
                       .session = session_.Part(name),
                       .results = {},
+                      .steps = std::make_unique<KeptSteps>(),
+                      .alone = {.correction = {}, .map = ScanMap(), .epochs = {}},
                       .answers = {},
-                      .epochs = {},
                       .truth = {}};
     robot.results = std::make_unique<pipeline::ResultsWriter>(
         robot.session.folder(),
@@ -186,20 +127,84 @@ class TeamMapping {
     return robot;
   }
 
-  void Keep(MappedRobot robot,
-            const pipeline::ScanSource& source,
-            const pipeline::ReplayResult& end) {
-    robot.results->SetTitle(robot.session.Title("map", end));
-    robot.truth = source.truth();
-    robots_.push_back(std::move(robot));
+  static pipeline::ReplayResult Feed(const RunSession& session,
+                                     pipeline::ScanSource& source,
+                                     pipeline::Answer answer,
+                                     std::vector<pipeline::StepSink*> sinks) {
+    return session.Run(
+        "map",
+        source,
+        {{.answer = WithoutTeammates(std::move(answer)), .sinks = std::move(sinks)}});
   }
 
-  bool IsMapped(const std::string& name) const {
-    return std::ranges::find(robots_, name, &MappedRobot::name) != robots_.end();
+  pipeline::ReplayResult MapIncrementally(pipeline::ScanSource& source,
+                                          std::vector<pipeline::StepSink*> sinks,
+                                          MappedRobot& robot) const {
+    Mapper mapper(options_.mapper);
+    const auto end =
+        Feed(robot.session, source, std::bind_front(&Mapper::Process, &mapper), std::move(sinks));
+    robot.alone.map = mapper.map();
+    return end;
+  }
+
+  pipeline::ReplayResult MapCorrecting(pipeline::ScanSource& source,
+                                       std::vector<pipeline::StepSink*> sinks,
+                                       MappedRobot& robot) const {
+    pipeline::ShareMemoryAmongThreads();
+    SelfCorrectingMapper mapper(options_.mapper, pipeline::BeginOnAnotherThread);
+    const auto end = Feed(robot.session,
+                          source,
+                          std::bind_front(&SelfCorrectingMapper::Process, &mapper),
+                          std::move(sinks));
+    robot.alone = pipeline::CorrectAtTheEnd(mapper);
+    return end;
+  }
+
+  /// Joins the maps of all who have been where the first robot has, or others of them.
+  /// @return the robots that have not.
+  std::vector<MappedRobot> JoinMaps() {
+    messages::Info("looking for where robots have met");
+    std::vector<ScanMap> maps;
+    for (const MappedRobot& robot : robots_) maps.push_back(robot.alone.map);
+    std::vector<team::MeetingPlace> places = team::FindMeetingPlaces(maps, options_.mapper);
+    places.insert(places.begin(), team::MeetingPlace{});
+    std::vector<MappedRobot> joined;
+    for (const team::MeetingPlace& place : places) {
+      joined.push_back(std::move(robots_[place.map]));
+      Join(place.first_map, joined.back());
+    }
+    std::erase_if(robots_, [](const MappedRobot& robot) { return robot.results == nullptr; });
+    std::swap(robots_, joined);
+    return joined;
+  }
+
+  void Join(const UncertainPose2& map_own, MappedRobot& robot) {
+    PlaceAnswers(map_own, robot);
+    robot.first_scan = map_.scans().size();
+    if (robot.first_scan == 0) {
+      map_ = robot.alone.map;
+      return;
+    }
+    for (const RelevantScan& scan : robot.alone.map.scans()) {
+      map_.Insert(scan.scan, ToPoints(scan.scan), map_own * scan.map_robot);
+    }
+  }
+
+  /// Of a corrected map, where the path ended up in it.
+  void PlaceAnswers(const UncertainPose2& map_own, MappedRobot& robot) const {
+    robot.steps->PassOn(map_own, *robot.results);
+    robot.answers = pipeline::AnswersOf(robot.results->path());
+    const std::vector<UncertainPose2>& corrected = robot.alone.correction.map_robot;
+    for (std::size_t i = 0; i < corrected.size(); ++i) {
+      robot.answers[i].map_robot = map_own * corrected[i];
+    }
+    for (MapEpoch& epoch : robot.alone.epochs) {
+      for (UncertainPose2& map_node : epoch.map_node) map_node = map_own * map_node;
+    }
   }
 
   std::vector<team::Mark> FinishAsAnswered() {
-    for (MappedRobot& robot : robots_) {
+    for (const MappedRobot& robot : robots_) {
       robot.results->Finish(map_, options_.mapper.matcher, options_.rendering, robot.truth);
       Summarize(robot, map_);
     }
@@ -219,12 +224,36 @@ class TeamMapping {
     for (std::size_t i = 0; i < robots_.size(); ++i) {
       MappedRobot& robot = robots_[i];
       run.correction.map_robot = joint.map_robot[i];
-      run.epochs = std::move(robot.epochs);
+      run.epochs = std::move(robot.alone.epochs);
       robot.results->Finish(map_, options_.mapper.matcher, run, options_.rendering, robot.truth);
       Summarize(robot, run.map);
     }
     map_ = std::move(run.map);
     return marks_.Placed(joint.map_robot.front());
+  }
+
+  /// Leaves the results of a robot in a map of its own.
+  void FinishAlone(MappedRobot& robot) const {
+    PlaceAnswers({}, robot);
+    const ScanMap& map = robot.alone.map;
+    if (Corrects(options_)) {
+      robot.results->Finish(
+          map, options_.mapper.matcher, robot.alone, options_.rendering, robot.truth);
+    } else {
+      robot.results->Finish(map, options_.mapper.matcher, options_.rendering, robot.truth);
+    }
+    Summarize(robot, map);
+  }
+
+  void WriteMap(const std::vector<team::Mark>& marks,
+                const std::optional<std::filesystem::path>& save_map) const {
+    if (const auto grid = pipeline::RenderOrWarn(map_, options_.rendering)) {
+      io::WriteRosMap(session_.folder() / "map.yaml", *grid);
+      if (session_.has_pictures()) io::WriteMapPicture(session_.folder() / "map.png", *grid);
+    }
+    pipeline::WriteMarks(session_.folder().path(), marks);
+    pipeline::SaveMap(session_.folder() / kTeamMap, map_, marks);
+    if (save_map) pipeline::SaveMap(*save_map, map_, marks);
   }
 
   void Summarize(const MappedRobot& robot, const ScanMap& map) const {
@@ -250,9 +279,7 @@ ExitCode MapTeam(const RunArguments& arguments,
   }
   const RunSession session(arguments, options);
   messages::Info("several robots are mapped as a team; --robot NAME maps one of them");
-  TeamMapping mapping(arguments, options, session);
-  const ExitCode code = mapping.Follow(team.robots);
-  mapping.Finish(team.save_map);
+  const ExitCode code = TeamMapping(arguments, options, session).Map(team.robots, team.save_map);
   if (!arguments.verbosity.quiet) Print("results        {}\n", session.folder().path().string());
   return code;
 }

@@ -17,11 +17,11 @@ struct RecordedTeam {
   std::optional<std::filesystem::path> save_map;  ///< Where the map of all is kept, too.
 };
 
-/// Maps the robots of a recording into one map: each first alone, which tells where their maps go
-/// together and so where each robot starts in that of the first one; then each of the others in
-/// what is there, extending it. In the end map and paths of all are corrected by one graph. Leaves
-/// a folder of results for each robot, and beside them the map of all.
-/// @returns kFailed where a robot is found nowhere, or is lost in the end, which is told.
+/// Maps the robots of a recording into one map: each alone, whatever moves as a robot does left
+/// out. Maps are joined where all that two of them show says that they go together, and in the end
+/// map and paths of all are corrected by one graph. Leaves a folder of results for each robot, and
+/// beside them the map of all; a robot that is found nowhere has its results in a map of its own.
+/// @returns kFailed where a robot is found nowhere, which is told.
 ExitCode MapTeam(const RunArguments& arguments,
                  const options::ProgramOptions& options,
                  const RecordedTeam& team);
