@@ -17,6 +17,7 @@
 #include "service/io/pictures/map_picture.hpp"
 #include "service/pipeline/results/marks_list.hpp"
 #include "service/pipeline/results/marks_of_map.hpp"
+#include "service/pipeline/run/interruption.hpp"
 #include "service/pipeline/run/parallel.hpp"
 #include "service/pipeline/text/messages.hpp"
 #include "service/team/atlas/meeting_places.hpp"
@@ -73,7 +74,7 @@ class TeamMapping {
   ExitCode Map(const std::vector<std::string>& names,
                const std::optional<std::filesystem::path>& save_map) {
     ExitCode code = MapEachAlone(names);
-    std::vector<MappedRobot> apart = JoinMaps();
+    std::vector<MappedRobot> apart = JoinMaps(code);
     const std::vector<team::Mark> marks =
         Corrects(options_) ? FinishCorrected() : FinishAsAnswered();
     WriteMap(marks, save_map);
@@ -161,12 +162,20 @@ class TeamMapping {
   }
 
   /// Joins the maps of all who have been where the first robot has, or others of them.
-  /// @return the robots that have not.
-  std::vector<MappedRobot> JoinMaps() {
+  /// @param code of mapping; once it is interrupted, nobody is looked for any more.
+  /// @return the robots that have not, or were not found.
+  std::vector<MappedRobot> JoinMaps(ExitCode& code) {
     messages::Info("looking for where robots have met");
+    const pipeline::Interruption interruption(
+        "interrupted: who was not found yet stays in a map of its own; again to quit at once\n");
+    const auto is_interrupted = [&] {
+      if (interruption.requested()) code = ExitCode::kInterrupted;
+      return code == ExitCode::kInterrupted;
+    };
     std::vector<ScanMap> maps;
     for (const MappedRobot& robot : robots_) maps.push_back(robot.alone.map);
-    std::vector<team::MeetingPlace> places = team::FindMeetingPlaces(maps, options_.mapper);
+    std::vector<team::MeetingPlace> places =
+        team::FindMeetingPlaces(maps, options_.mapper, is_interrupted);
     places.insert(places.begin(), team::MeetingPlace{});
     std::vector<MappedRobot> joined;
     for (const team::MeetingPlace& place : places) {

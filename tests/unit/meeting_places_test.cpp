@@ -71,6 +71,11 @@ TEST_F(MeetingPlaces, AreNoneWhereRobotsNeverMet) {
   EXPECT_TRUE(FindMeetingPlaces(std::vector{MapFrom(0), other}, {}).empty());
 }
 
+TEST_F(MeetingPlaces, AreThoseFoundUntilItIsStopped) {
+  const std::vector maps{MapFrom(0), MapFrom(60)};
+  EXPECT_TRUE(FindMeetingPlaces(maps, {}, [] { return true; }).empty());
+}
+
 TEST_F(MeetingPlaces, AreNoneWithoutMaps) {
   EXPECT_TRUE(FindMeetingPlaces({}, {}).empty());
   EXPECT_TRUE(FindMeetingPlaces(std::vector{MapFrom(0), ScanMap{}}, {}).empty());

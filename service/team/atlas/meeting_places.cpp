@@ -23,9 +23,12 @@ struct Apart {
 /// The maps that have a place, and the search for the others'.
 class MeetingSearch {
  public:
-  MeetingSearch(std::span<const ScanMap> maps, const MapperOptions& options)
+  MeetingSearch(std::span<const ScanMap> maps,
+                const MapperOptions& options,
+                const std::function<bool()>& stop)
       : maps_(maps),
         options_(options),
+        stop_(stop),
         agreement_(options.locator, options.free_space),
         joined_(maps.front()) {}
 
@@ -54,6 +57,7 @@ class MeetingSearch {
   std::optional<UncertainPose2> LookInto(const MeetingPlace& other, Apart& apart) const {
     PlaceFinder finder(options_);
     for (const RelevantScan& scan : maps_[apart.map].scans()) {
+      if (stop_()) return std::nullopt;
       const Pose2& T_own_robot = scan.map_robot.T_a_b;
       const std::optional<Pose2> T_own_looked = finder.T_local_looked();
       const PlaceBelief& belief = finder.Look(maps_[other.map], ToPoints(scan.scan), T_own_robot);
@@ -83,6 +87,7 @@ class MeetingSearch {
 
   std::span<const ScanMap> maps_;
   const MapperOptions& options_;
+  const std::function<bool()>& stop_;
   MapAgreement agreement_;
   ScanMap joined_;  // Of all that have a place.
   std::vector<MeetingPlace> places_{{.map = 0, .first_map = {}}};
@@ -91,9 +96,10 @@ class MeetingSearch {
 }  // namespace
 
 std::vector<MeetingPlace> FindMeetingPlaces(std::span<const ScanMap> maps,
-                                            const MapperOptions& options) {
+                                            const MapperOptions& options,
+                                            const std::function<bool()>& stop) {
   if (maps.empty()) return {};
-  MeetingSearch search(maps, options);
+  MeetingSearch search(maps, options, stop);
   std::vector<Apart> apart;
   for (std::size_t map = 1; map < maps.size(); ++map) apart.push_back({.map = map});
   while (std::erase_if(apart, [&](Apart& one) { return search.Joins(one); }) > 0) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -21,9 +22,12 @@ struct MeetingPlace {
 /// by what its scans look like in the others' maps, and is by all that both have mapped. What a
 /// place has for it counts no more than the building repeats itself. Maps that are found in none
 /// but each other have no place in the first's.
+/// @param stop asked before each look; when true, it is left at what was found.
 /// @return the places of all others that have one, in the order in which they were found: each by
 /// the first map and those before.
-std::vector<MeetingPlace> FindMeetingPlaces(std::span<const ScanMap> maps,
-                                            const MapperOptions& options);
+std::vector<MeetingPlace> FindMeetingPlaces(
+    std::span<const ScanMap> maps,
+    const MapperOptions& options,
+    const std::function<bool()>& stop = [] { return false; });
 
 }  // namespace qwsm::team
