@@ -4,17 +4,17 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 #include <functional>
 #include <memory>
 #include <utility>
 
-#include "qwsm/sensor/scan_points.hpp"
 #include "service/apps/output.hpp"
-#include "service/apps/saved_map.hpp"
 #include "service/apps/teammates.hpp"
 #include "service/io/maps/ros_map_file.hpp"
 #include "service/io/pictures/map_picture.hpp"
+#include "service/pipeline/results/journal_marks.hpp"
+#include "service/pipeline/results/kept_steps.hpp"
 #include "service/pipeline/results/marks_list.hpp"
 #include "service/pipeline/results/marks_of_map.hpp"
 #include "service/pipeline/run/interruption.hpp"
@@ -27,34 +27,12 @@ namespace {
 
 constexpr const char* kTeamMap = "map.qwsm";
 
-/// Keeps what a robot was answered until it is known where.
-class KeptSteps final : public pipeline::StepSink {
- public:
-  void Take(const pipeline::TimedStep& timed) override {
-    steps_.push_back(timed);
-    steps_.back().scan = nullptr;  // It goes when this returns.
-    steps_.back().step.relevant_scan = {};
-  }
-
-  /// Passes all on to a sink, placed in another frame.
-  void PassOn(const UncertainPose2& map_own, pipeline::StepSink& next) {
-    for (pipeline::TimedStep& timed : steps_) {
-      timed.step.map_robot = map_own * timed.step.map_robot;
-      next.Take(timed);
-    }
-    steps_.clear();
-  }
-
- private:
-  std::vector<pipeline::TimedStep> steps_;
-};
-
 /// What a robot has mapped alone, its results not yet finished.
 struct MappedRobot {
   std::string name;
   RunSession session;
   std::unique_ptr<pipeline::ResultsWriter> results;
-  std::unique_ptr<KeptSteps> steps;
+  std::unique_ptr<pipeline::KeptSteps> steps;
   pipeline::CorrectedRun alone;        ///< In a frame of its own. Without a graph, the map alone.
   std::size_t first_scan = 0;          ///< Its first one in the map of all.
   std::vector<StampedAnswer> answers;  ///< Its path in the map of all.
@@ -116,7 +94,7 @@ class TeamMapping {
     MappedRobot robot{.name = name,
                       .session = session_.Part(name),
                       .results = {},
-                      .steps = std::make_unique<KeptSteps>(),
+                      .steps = std::make_unique<pipeline::KeptSteps>(),
                       .alone = {.correction = {}, .map = ScanMap(), .epochs = {}},
                       .answers = {},
                       .truth = {}};
@@ -172,36 +150,25 @@ class TeamMapping {
       if (interruption.requested()) code = ExitCode::kInterrupted;
       return code == ExitCode::kInterrupted;
     };
-    std::vector<ScanMap> maps;
-    for (const MappedRobot& robot : robots_) maps.push_back(robot.alone.map);
-    std::vector<team::MeetingPlace> places =
-        team::FindMeetingPlaces(maps, options_.mapper, is_interrupted);
-    places.insert(places.begin(), team::MeetingPlace{});
+    std::vector<const ScanMap*> maps;
+    for (const MappedRobot& robot : robots_) maps.push_back(&robot.alone.map);
+    team::MetMaps met = team::FindMeetingPlaces(maps, options_.mapper, is_interrupted);
+    map_ = std::move(met.map);
     std::vector<MappedRobot> joined;
-    for (const team::MeetingPlace& place : places) {
-      joined.push_back(std::move(robots_[place.map]));
-      Join(place.first_map, joined.back());
+    std::size_t first_scan = 0;
+    for (const team::MeetingPlace& place : met.places) {
+      MappedRobot& robot = joined.emplace_back(std::move(robots_[place.map]));
+      PlaceAnswers(place.first_map, robot);
+      robot.first_scan = std::exchange(first_scan, first_scan + robot.alone.map.scans().size());
     }
     std::erase_if(robots_, [](const MappedRobot& robot) { return robot.results == nullptr; });
     std::swap(robots_, joined);
     return joined;
   }
 
-  void Join(const UncertainPose2& map_own, MappedRobot& robot) {
-    PlaceAnswers(map_own, robot);
-    robot.first_scan = map_.scans().size();
-    if (robot.first_scan == 0) {
-      map_ = robot.alone.map;
-      return;
-    }
-    for (const RelevantScan& scan : robot.alone.map.scans()) {
-      map_.Insert(scan.scan, ToPoints(scan.scan), map_own * scan.map_robot);
-    }
-  }
-
   /// Of a corrected map, where the path ended up in it.
   void PlaceAnswers(const UncertainPose2& map_own, MappedRobot& robot) const {
-    robot.steps->PassOn(map_own, *robot.results);
+    robot.steps->PassOn(map_own, std::array<pipeline::StepSink*, 1>{robot.results.get()});
     robot.answers = pipeline::AnswersOf(robot.results->path());
     const std::vector<UncertainPose2>& corrected = robot.alone.correction.map_robot;
     for (std::size_t i = 0; i < corrected.size(); ++i) {

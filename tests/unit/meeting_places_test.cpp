@@ -47,39 +47,50 @@ class MeetingPlaces : public testing::Test {
 };
 
 TEST_F(MeetingPlaces, AreWhereBothRobotsHaveBeen) {
-  const std::vector<MeetingPlace> places =
-      FindMeetingPlaces(std::vector{MapFrom(0), MapFrom(60)}, {});
-  ASSERT_EQ(places.size(), 1U);
-  EXPECT_EQ(places.front().map, 1U);
-  ExpectToBeRight(places.front(), 60);
+  const ScanMap first = MapFrom(0);
+  const ScanMap second = MapFrom(60);
+  const MetMaps met = FindMeetingPlaces(std::vector{&first, &second}, {});
+  ASSERT_EQ(met.places.size(), 2U);
+  EXPECT_EQ(met.places[0].map, 0U);
+  EXPECT_EQ(met.places[1].map, 1U);
+  ExpectToBeRight(met.places[1], 60);
+  EXPECT_EQ(met.map.scans().size(), first.scans().size() + second.scans().size());
 }
 
 TEST_F(MeetingPlaces, AreFoundByWayOfAThirdRobot) {
+  const ScanMap first = MapFrom(0);
+  const ScanMap second = MapFrom(160);
+  const ScanMap third = MapFrom(80);
   const std::vector<MeetingPlace> places =
-      FindMeetingPlaces(std::vector{MapFrom(0), MapFrom(160), MapFrom(80)}, {});
-  ASSERT_EQ(places.size(), 2U);
-  EXPECT_EQ(places[0].map, 2U);
-  ExpectToBeRight(places[0], 80);
-  EXPECT_EQ(places[1].map, 1U);
-  ExpectToBeRight(places[1], 160);
+      FindMeetingPlaces(std::vector{&first, &second, &third}, {}).places;
+  ASSERT_EQ(places.size(), 3U);
+  EXPECT_EQ(places[1].map, 2U);
+  ExpectToBeRight(places[1], 80);
+  EXPECT_EQ(places[2].map, 1U);
+  ExpectToBeRight(places[2], 160);
 }
 
 TEST_F(MeetingPlaces, AreNoneWhereRobotsNeverMet) {
   const test::SimulatedDrive elsewhere =
       test::DriveThrough(test::FurnishedRoom(), {.scan_period_s = 0.5});
+  const ScanMap first = MapFrom(0);
   const ScanMap other = MapOfDrive(elsewhere, 0, std::min(kScans, elsewhere.observations.size()));
-  EXPECT_TRUE(FindMeetingPlaces(std::vector{MapFrom(0), other}, {}).empty());
+  EXPECT_EQ(FindMeetingPlaces(std::vector{&first, &other}, {}).places.size(), 1U);
 }
 
 TEST_F(MeetingPlaces, AreThoseFoundUntilItIsStopped) {
-  const std::vector maps{MapFrom(0), MapFrom(60)};
-  EXPECT_TRUE(FindMeetingPlaces(maps, {}, [] { return true; }).empty());
+  const ScanMap first = MapFrom(0);
+  const ScanMap second = MapFrom(60);
+  const auto stop = [] { return true; };
+  EXPECT_EQ(FindMeetingPlaces(std::vector{&first, &second}, {}, stop).places.size(), 1U);
 }
 
 TEST_F(MeetingPlaces, AreNoneWithoutMaps) {
-  EXPECT_TRUE(FindMeetingPlaces({}, {}).empty());
-  EXPECT_TRUE(FindMeetingPlaces(std::vector{MapFrom(0), ScanMap{}}, {}).empty());
-  EXPECT_TRUE(FindMeetingPlaces(std::vector{ScanMap{}, MapFrom(0)}, {}).empty());
+  const ScanMap one = MapFrom(0);
+  const ScanMap empty;
+  EXPECT_TRUE(FindMeetingPlaces({}, {}).places.empty());
+  EXPECT_EQ(FindMeetingPlaces(std::vector{&one, &empty}, {}).places.size(), 1U);
+  EXPECT_EQ(FindMeetingPlaces(std::vector{&empty, &one}, {}).places.size(), 1U);
 }
 
 }  // namespace

@@ -70,6 +70,7 @@ TEST(TeamService, ThinsScansThatAreTooHeavyAndSaysSoOnce) {
     heavy.geometry.bearing_step_rad /= 50.0F;
     EXPECT_TRUE(service.robots().TakeScan("robot1", heavy));
   }
+  service.WaitUntilIdle();
   Give(service, "robot2", 0, 1);
   service.WaitUntilIdle();
   EXPECT_EQ(StatusOf(service, "robot1").counts.answered, 5U);

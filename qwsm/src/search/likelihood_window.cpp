@@ -179,40 +179,40 @@ std::array<int, 4> LikelihoodWindow::SumsOfPair(std::span<const GridCell> cells,
   return sums;
 }
 
-// Tells where cells are, moved by an offset.
 void LikelihoodWindow::FindFinest(std::span<const GridCell> cells,
                                   GridCell offset,
                                   CellsAtATime& finest) {
-  constexpr int kMask = Tile::kSide - 1;
-  const int x = offset.x - first_.x;
-  const int y = offset.y - first_.y;
-  const int columns = size_.x;
-  const Finest* const* finest_of = finest_of_.data();
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const int column = cells[i].x + x;
-    const int row = cells[i].y + y;
-    const int index = (row >> Tile::kBits) * columns + (column >> Tile::kBits);
-    const Finest* of_tile = finest_of[index];
-    if (of_tile == nullptr) of_tile = &MakeFinest(column >> Tile::kBits, row >> Tile::kBits);
-    finest[i] = of_tile->At(column & kMask, row & kMask);
-  }
+  Find<1>(finest_of_, cells, offset, finest, [this](int column, int row) -> const Finest& {
+    return MakeFinest(column, row);
+  });
 }
 
 void LikelihoodWindow::FindPairs(std::span<const GridCell> cells,
                                  GridCell offset,
                                  CellsAtATime& pairs) {
+  Find<kPairSide>(pairs_of_, cells, offset, pairs, [this](int column, int row) -> const Pairs& {
+    return MakePairs(column, row);
+  });
+}
+
+template <int kCellSide, class SquareOfTile, class Make>
+void LikelihoodWindow::Find(std::span<const SquareOfTile*> square_of,
+                            std::span<const GridCell> cells,
+                            GridCell offset,
+                            CellsAtATime& found,
+                            const Make& make) {
   constexpr int kMask = Tile::kSide - 1;
   const int x = offset.x - first_.x;
   const int y = offset.y - first_.y;
   const int columns = size_.x;
-  const Pairs* const* pairs_of = pairs_of_.data();
+  const SquareOfTile* const* of_tiles = square_of.data();
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const int column = cells[i].x + x;
     const int row = cells[i].y + y;
     const int index = (row >> Tile::kBits) * columns + (column >> Tile::kBits);
-    const Pairs* of_tile = pairs_of[index];
-    if (of_tile == nullptr) of_tile = &MakePairs(column >> Tile::kBits, row >> Tile::kBits);
-    pairs[i] = of_tile->At((column & kMask) / kPairSide, (row & kMask) / kPairSide);
+    const SquareOfTile* of_tile = of_tiles[index];
+    if (of_tile == nullptr) of_tile = &make(column >> Tile::kBits, row >> Tile::kBits);
+    found[i] = of_tile->At((column & kMask) / kCellSide, (row & kMask) / kCellSide);
   }
 }
 

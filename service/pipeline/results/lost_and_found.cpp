@@ -21,31 +21,17 @@ std::string PoseText(const Pose2& pose) {
 
 void LostAndFound::Take(const TimedStep& timed) {
   if (timed.step.status == StepStatus::kLost) {
-    if (held_.empty()) messages::Info("the robot is looked for in the whole map");
-    held_.push_back(timed);
-    held_.back().scan = nullptr;  // It goes when this returns.
+    if (held() == 0) messages::Info("the robot is looked for in the whole map");
+    held_.Take(timed);
     return;
   }
-  if (!held_.empty()) {
-    messages::Info("found at {} with scan {} of the search",
-                   PoseText(timed.step.map_robot.T_a_b),
-                   held_.size() + 1);
-    Place();
+  if (held() > 0) {
+    messages::Info(
+        "found at {} with scan {} of the search", PoseText(timed.step.map_robot.T_a_b), held() + 1);
+    // What the robot did meanwhile is known as well as if it had been tracked, but for where.
+    held_.PassOn(localizer_.map_local(), next_);
   }
-  PassOn(timed);
-}
-
-void LostAndFound::PassOn(const TimedStep& timed) const {
   for (StepSink* sink : next_) sink->Take(timed);
-}
-
-// What the robot did while it was lost is known as well as if it had been tracked, but for where.
-void LostAndFound::Place() {
-  for (TimedStep& timed : held_) {
-    timed.step.map_robot = localizer_.map_local() * timed.step.map_robot;
-    PassOn(timed);
-  }
-  held_.clear();
 }
 
 std::string PlacesText(const PlaceBelief& belief) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "qwsm/mapping/localizer.hpp"
+#include "service/pipeline/results/kept_steps.hpp"
 #include "service/pipeline/run/step_sink.hpp"
 
 namespace qwsm::pipeline {
@@ -26,12 +27,9 @@ class LostAndFound final : public StepSink {
   std::size_t held() const { return held_.size(); }
 
  private:
-  void Place();
-  void PassOn(const TimedStep& timed) const;
-
   const Localizer& localizer_;
   std::vector<StepSink*> next_;
-  std::vector<TimedStep> held_;
+  KeptSteps held_;
 };
 
 /// The places where a robot may be, as `x y heading (48 %)`, in metres and degrees.

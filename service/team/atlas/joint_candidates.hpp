@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <stop_token>
@@ -22,9 +21,6 @@ class JointCandidates {
  public:
   /// Places of at least this probability, as a robot sees it, are worth being proposed.
   static constexpr double kWorthALook = 0.1;
-  /// Robots may be confronted that look around at about the same time: in this time none moves
-  /// farther than its body is long.
-  static constexpr std::chrono::milliseconds kSameTime{300};
 
   /// Takes a place that a robot thought of. @param T_b_robot where the robot was.
   void Propose(const UncertainPose2& a_b, const Pose2& T_b_robot);

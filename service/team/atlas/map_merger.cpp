@@ -10,6 +10,9 @@
 namespace qwsm::team {
 namespace {
 
+// A robot moves no farther in this time than its body is long.
+constexpr std::chrono::milliseconds kSameTime{300};
+
 // A map that has grown by no more than this is searched as it was.
 constexpr double kOutgrown = 1.1;
 
@@ -99,7 +102,7 @@ void MapMerger::Confront(const Sighting& sighting,
   const RobotSight own{sighting.points, sighting.map_robot.T_a_b};
   for (const auto& [robot, there] : all) {
     if (there.component.map != other.map) continue;
-    if (std::chrono::abs(there.stamp - sighting.stamp) > JointCandidates::kSameTime) continue;
+    if (std::chrono::abs(there.stamp - sighting.stamp) > kSameTime) continue;
     const RobotSight its{there.points, there.map_robot.T_a_b};
     const auto [in_into, in_from] = IntoAndFrom(sighting.component, own, other, its);
     candidates.Confront(in_into, in_from);

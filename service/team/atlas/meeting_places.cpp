@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/team/atlas/meeting_places.hpp"
 
-#include <chrono>
 #include <optional>
+#include <utility>
 
 #include "qwsm/mapping/place_finder.hpp"
 #include "qwsm/sensor/scan_points.hpp"
@@ -23,44 +23,43 @@ struct Apart {
 /// The maps that have a place, and the search for the others'.
 class MeetingSearch {
  public:
-  MeetingSearch(std::span<const ScanMap> maps,
+  MeetingSearch(std::span<const ScanMap* const> maps,
                 const MapperOptions& options,
                 const std::function<bool()>& stop)
       : maps_(maps),
         options_(options),
         stop_(stop),
         agreement_(options.locator, options.free_space),
-        joined_(maps.front()) {}
+        met_{.places = {MeetingPlace{}}, .map = *maps.front()} {}
 
   /// Looks around in all maps that have a place, and have got one since it was done last.
   /// @return whether the map has a place now.
   bool Joins(Apart& apart) {
-    while (apart.places_looked_into < places_.size()) {
-      const MeetingPlace& other = places_[apart.places_looked_into++];
+    while (apart.places_looked_into < met_.places.size()) {
+      const MeetingPlace& other = met_.places[apart.places_looked_into++];
       const std::optional<UncertainPose2> place = LookInto(other, apart);
       if (!place) continue;
-      for (const RelevantScan& scan : maps_[apart.map].scans()) {
-        joined_.Insert(scan.scan, ToPoints(scan.scan), *place * scan.map_robot);
+      for (const RelevantScan& scan : maps_[apart.map]->scans()) {
+        met_.map.Insert(scan.scan, ToPoints(scan.scan), *place * scan.map_robot);
       }
-      places_.push_back({.map = apart.map, .first_map = *place});
+      met_.places.push_back({.map = apart.map, .first_map = *place});
       return true;
     }
     return false;
   }
 
-  /// The places of all but the first.
-  std::vector<MeetingPlace> places() const { return {places_.begin() + 1, places_.end()}; }
+  MetMaps Take() && { return std::move(met_); }
 
  private:
   // As soon as the robot by itself would think that it is found, all that both have mapped is
   // asked; and in the end.
   std::optional<UncertainPose2> LookInto(const MeetingPlace& other, Apart& apart) const {
     PlaceFinder finder(options_);
-    for (const RelevantScan& scan : maps_[apart.map].scans()) {
+    for (const RelevantScan& scan : maps_[apart.map]->scans()) {
       if (stop_()) return std::nullopt;
       const Pose2& T_own_robot = scan.map_robot.T_a_b;
       const std::optional<Pose2> T_own_looked = finder.T_local_looked();
-      const PlaceBelief& belief = finder.Look(maps_[other.map], ToPoints(scan.scan), T_own_robot);
+      const PlaceBelief& belief = finder.Look(*maps_[other.map], ToPoints(scan.scan), T_own_robot);
       if (finder.T_local_looked() == T_own_looked) continue;
       Propose(belief, T_own_robot, other.first_map, apart.candidates);
       if (belief.verdict != PlaceVerdict::kFound) continue;
@@ -82,29 +81,28 @@ class MeetingSearch {
   }
 
   std::optional<UncertainPose2> Decide(Apart& apart) const {
-    return apart.candidates.Decide(agreement_, joined_, maps_[apart.map], {});
+    return apart.candidates.Decide(agreement_, met_.map, *maps_[apart.map], {});
   }
 
-  std::span<const ScanMap> maps_;
+  std::span<const ScanMap* const> maps_;
   const MapperOptions& options_;
   const std::function<bool()>& stop_;
   MapAgreement agreement_;
-  ScanMap joined_;  // Of all that have a place.
-  std::vector<MeetingPlace> places_{{.map = 0, .first_map = {}}};
+  MetMaps met_;
 };
 
 }  // namespace
 
-std::vector<MeetingPlace> FindMeetingPlaces(std::span<const ScanMap> maps,
-                                            const MapperOptions& options,
-                                            const std::function<bool()>& stop) {
-  if (maps.empty()) return {};
+MetMaps FindMeetingPlaces(std::span<const ScanMap* const> maps,
+                          const MapperOptions& options,
+                          const std::function<bool()>& stop) {
+  if (maps.empty()) return {.places = {}, .map = ScanMap()};
   MeetingSearch search(maps, options, stop);
   std::vector<Apart> apart;
   for (std::size_t map = 1; map < maps.size(); ++map) apart.push_back({.map = map});
   while (std::erase_if(apart, [&](Apart& one) { return search.Joins(one); }) > 0) {
   }
-  return search.places();
+  return std::move(search).Take();
 }
 
 }  // namespace qwsm::team

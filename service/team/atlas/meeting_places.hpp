@@ -18,15 +18,21 @@ struct MeetingPlace {
   UncertainPose2 first_map;
 };
 
+/// Maps that are one.
+struct MetMaps {
+  /// Their places, that of the first one first, in the order in which they were found: each by
+  /// those before.
+  std::vector<MeetingPlace> places;
+  ScanMap map;  ///< The scans of all, in that order.
+};
+
 /// Finds where maps that robots made, each alone, lie in that of the first one: where each may be
 /// by what its scans look like in the others' maps, and is by all that both have mapped. What a
 /// place has for it counts no more than the building repeats itself. Maps that are found in none
 /// but each other have no place in the first's.
 /// @param stop asked before each look; when true, it is left at what was found.
-/// @return the places of all others that have one, in the order in which they were found: each by
-/// the first map and those before.
-std::vector<MeetingPlace> FindMeetingPlaces(
-    std::span<const ScanMap> maps,
+MetMaps FindMeetingPlaces(
+    std::span<const ScanMap* const> maps,
     const MapperOptions& options,
     const std::function<bool()>& stop = [] { return false; });
 

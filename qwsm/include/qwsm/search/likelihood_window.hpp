@@ -146,6 +146,14 @@ class LikelihoodWindow {
   const LikelihoodTile* TileAt(int column, int row) const {
     return HasTile(column, row) ? tiles_[IndexOf(column, row)] : nullptr;
   }
+  // Tells where cells are, moved by an offset, in the squares of their tiles.
+  // @param make makes those that are not there yet.
+  template <int kCellSide, class SquareOfTile, class Make>
+  void Find(std::span<const SquareOfTile*> square_of,
+            std::span<const GridCell> cells,
+            GridCell offset,
+            CellsAtATime& found,
+            const Make& make);
   void FindFinest(std::span<const GridCell> cells, GridCell offset, CellsAtATime& finest);
   const Finest& MakeFinest(int column, int row);
   void CopyFinest(GridCell tile_at, GridCell to, Finest& finest);

@@ -7,8 +7,8 @@ namespace {
 
 // Rows that are left out at once, where pages of the database are damaged, at most.
 constexpr std::int64_t kLongestStride = std::int64_t{1} << 40;
-// Messages of a topic that are read at once: SQLite locks and unlocks the file for each query, which
-// takes longer than to read a scan.
+// Messages of a topic that are read at once: SQLite locks and unlocks the file for each query,
+// which takes longer than to read a scan.
 constexpr std::size_t kAheadBytes = std::size_t{1} << 16;
 
 }  // namespace
@@ -84,8 +84,11 @@ bool SqliteBag::GoAround(const std::string& problem) {
 std::string_view SqliteBag::Read(const MessageAddress& address) {
   RowsAhead& ahead = ahead_[address.container];
   const auto row = static_cast<std::int64_t>(address.at);
-  if (!ahead.contains(row)) ahead = ReadAhead(static_cast<std::int64_t>(address.container), row);
-  const auto found = ahead.find(row);
+  auto found = ahead.find(row);
+  if (found == ahead.end()) {
+    ahead = ReadAhead(static_cast<std::int64_t>(address.container), row);
+    found = ahead.find(row);
+  }
   return found == ahead.end() ? std::string_view() : found->second;
 }
 
