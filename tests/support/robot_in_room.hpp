@@ -66,6 +66,15 @@ class RobotInRoom {
     }
     return heard;
   }
+  /// As DriveUntilAnswered(), and hears until nothing comes any more: what comes after that answers
+  /// later scans.
+  /// @returns whether so many were answered.
+  bool DriveUntilAllAreAnswered(std::size_t scans) {
+    const bool answered = DriveUntilAnswered(scans).size() >= scans;
+    while (!Hear(std::chrono::milliseconds(300)).empty()) {
+    }
+    return answered;
+  }
 
   /// Relevant scans that services offer, since the last call.
   std::vector<team::TeamScan> TakeSharedScans() const {
