@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace qwsm {
@@ -18,25 +20,28 @@ constexpr double kMaxSigmas = 1.0;
 // It is asked again and again while a robot drives: chance has many tries.
 constexpr double kMinSigmas = 5.0;
 
-// One scan where it is thought to have been taken.
-struct PlacedScan {
+// A scan that is asked, where it is thought to have been taken.
+struct Witness {
+  const LaserScan* scan;
   Pose2 T_map_robot;
-  std::vector<ScanPoint> points;
   FreeRangeImage seen_free;
 };
 
-std::vector<PlacedScan> Placed(std::span<const ScanNode> nodes,
-                               std::span<const Pose2> T_map_node,
-                               const FreeSpaceOptions& options) {
-  std::vector<PlacedScan> placed;
-  placed.reserve(nodes.size() / kStep + 1);
+std::vector<Witness> WitnessesAmong(std::span<const ScanNode> nodes,
+                                    std::span<const Pose2> T_map_node,
+                                    const FreeSpaceOptions& options) {
+  std::vector<Witness> witnesses;
+  witnesses.reserve(nodes.size() / kStep + 1);
+  std::shared_ptr<const BeamsByDirection> beams;
   for (std::size_t i = 0; i < nodes.size(); i += kStep) {
-    const Pose2& T_map_robot = T_map_node[i];
-    placed.push_back({.T_map_robot = T_map_robot,
-                      .points = ThinOut(ToPoints(nodes[i].scan), kPointSpacing_m),
-                      .seen_free = FreeRangeImage(nodes[i].scan, T_map_robot, options)});
+    const LaserScan& scan = nodes[i].scan;
+    if (beams && !beams->Fit(scan)) beams = nullptr;
+    witnesses.push_back({.scan = &scan,
+                         .T_map_robot = T_map_node[i],
+                         .seen_free = FreeRangeImage(scan, T_map_node[i], options, beams)});
+    beams = witnesses.back().seen_free.beams();
   }
-  return placed;
+  return witnesses;
 }
 
 // Both counts scatter as those of rare events do; one of none might have been one.
@@ -66,16 +71,18 @@ bool IsMostlyResolved(const Contradiction& after, const Contradiction& before) {
 Contradiction ContradictionAt(std::span<const ScanNode> nodes,
                               std::span<const Pose2> T_map_node,
                               const FreeSpaceOptions& options) {
-  const std::vector<PlacedScan> scans = Placed(nodes, T_map_node, options);
+  const std::vector<Witness> witnesses = WitnessesAmong(nodes, T_map_node, options);
   Contradiction contradiction;
-  std::vector<std::uint8_t> marks;
-  for (const PlacedScan& from : scans) {
-    for (const PlacedScan& at : scans) {
+  for (const Witness& at : witnesses) {
+    const PointColumns points(ThinOut(ToPoints(*at.scan), kPointSpacing_m));
+    const RigidTransform2 map_robot(at.T_map_robot);
+    std::vector<std::uint8_t> marks(points.size());
+    for (const Witness& from : witnesses) {
       const Eigen::Vector2d apart_m =
           from.T_map_robot.translation_m() - at.T_map_robot.translation_m();
       if (&from == &at || apart_m.squaredNorm() > kNear_m * kNear_m) continue;
-      marks.assign(at.points.size(), 0);
-      from.seen_free.MarkSeenThrough(at.points, at.T_map_robot, marks);
+      std::ranges::fill(marks, 0);
+      from.seen_free.MarkSeenThrough(points, map_robot, marks);
       contradiction.looked_at += marks.size();
       contradiction.seen_through += static_cast<std::size_t>(std::ranges::count(marks, 1));
     }

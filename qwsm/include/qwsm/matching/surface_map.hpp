@@ -158,7 +158,7 @@ class SurfaceMap {
   SurfaceMapOptions options_;
   PointQuadtree quadtree_;
   std::optional<LikelihoodPyramid> likelihood_;
-  PagedPool<Neighborhood, 10> neighborhoods_;  // By PointId.
+  PagedPool<Neighborhood, 8> neighborhoods_;  // By PointId.
 };
 
 }  // namespace qwsm

@@ -170,7 +170,7 @@ class PointQuadtree {
   double origin_x_cells_ = 0.0;  ///< Corner of the largest square; whole numbers.
   double origin_y_cells_ = 0.0;
   quadtree::CellQuadtree tree_;
-  PagedPool<Record, 10> points_;
+  PagedPool<Record, 8> points_;
   quadtree::MergeLedger ledger_;
   quadtree::Revision revision_;
 };

@@ -14,7 +14,7 @@ namespace qwsm {
 ///
 /// Growing never moves an element, so that inserting into a large map has no pauses, and never
 /// holds more than one page of spare room. Freed indices are handed out again, the latest first.
-template <class T, int kPageBits = 8>
+template <class T, int kPageBits = 6>
 class PagedPool {
  public:
   using Index = std::uint32_t;
