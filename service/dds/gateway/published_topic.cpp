@@ -18,7 +18,7 @@ std::string RosTypeOf(std::string_view dds_type) {
     if (name.ends_with('_')) name.pop_back();
   }
   for (std::size_t at = name.find("::"); at != std::string::npos; at = name.find("::")) {
-    name.replace(at, 2, "/");
+    name.replace(at, 2, 1, '/');
   }
   return name;
 }
