@@ -12,7 +12,7 @@
 #include "service/apps/output.hpp"
 #include "service/apps/teammates.hpp"
 #include "service/io/maps/ros_map_file.hpp"
-#include "service/io/pictures/map_picture.hpp"
+#include "service/io/pictures/team_picture.hpp"
 #include "service/pipeline/results/journal_marks.hpp"
 #include "service/pipeline/results/kept_steps.hpp"
 #include "service/pipeline/results/marks_list.hpp"
@@ -203,6 +203,9 @@ class TeamMapping {
       run.epochs = std::move(robot.alone.epochs);
       robot.results->Finish(map_, options_.mapper.matcher, run, options_.rendering, robot.truth);
       Summarize(robot, run.map);
+      for (std::size_t k = 0; k < robot.answers.size(); ++k) {
+        robot.answers[k].map_robot = run.correction.map_robot[k];
+      }
     }
     map_ = std::move(run.map);
     return marks_.Placed(joint.map_robot.front());
@@ -225,11 +228,23 @@ class TeamMapping {
                 const std::optional<std::filesystem::path>& save_map) const {
     if (const auto grid = pipeline::RenderOrWarn(map_, options_.rendering)) {
       io::WriteRosMap(session_.folder() / "map.yaml", *grid);
-      if (session_.has_pictures()) io::WriteMapPicture(session_.folder() / "map.png", *grid);
+      if (session_.has_pictures()) {
+        io::WriteTeamPicture(session_.folder() / "map.png", *grid, Paths());
+      }
     }
     pipeline::WriteMarks(session_.folder().path(), marks);
     pipeline::SaveMap(session_.folder() / kTeamMap, map_, marks);
     if (save_map) pipeline::SaveMap(*save_map, map_, marks);
+  }
+
+  std::vector<io::RobotPath> Paths() const {
+    std::vector<io::RobotPath> paths;
+    for (const MappedRobot& robot : robots_) {
+      Trajectory path;
+      for (const auto& [stamp, map_robot] : robot.answers) path.push_back({stamp, map_robot.T_a_b});
+      paths.push_back({.robot = robot.name, .path = std::move(path)});
+    }
+    return paths;
   }
 
   void Summarize(const MappedRobot& robot, const ScanMap& map) const {

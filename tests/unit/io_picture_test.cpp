@@ -19,6 +19,7 @@
 #include "service/io/pictures/map_image.hpp"
 #include "service/io/pictures/map_picture.hpp"
 #include "service/io/pictures/residual_plot.hpp"
+#include "service/io/pictures/team_picture.hpp"
 #include "service/io/pictures/trajectory_picture.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -196,6 +197,29 @@ TEST(Pictures, AreDrawnOfMuchAndOfNothing) {
   }
   EXPECT_EQ(pictures.size(), 3U);  // Without a path it is the map.
   for (const std::string& picture : pictures) EXPECT_EQ(SizeOfPng(picture).first, 832);
+}
+
+TEST(Pictures, ShowThePathsOfAllWhoHaveOne) {
+  const TemporaryFolder folder;
+  const OccupancyGrid grid = HalfKnownGrid(0.05);
+  WriteMapPicture(folder.path() / "map.png", grid);
+  const std::string map = ReadFile(folder.path() / "map.png");
+  const auto picture_of = [&](std::vector<RobotPath> robots) {
+    WriteTeamPicture(folder.path() / "team.png", grid, robots);
+    return ReadFile(folder.path() / "team.png");
+  };
+  EXPECT_TRUE(picture_of({}) == map);
+  EXPECT_TRUE(picture_of({{.robot = "nowhere", .path = {}}}) == map);
+  const Trajectory path = TrajectoryOf(OverlayOf(100).path);
+  std::vector<RobotPath> robots;
+  std::set<std::string> pictures = {map};
+  for (const std::string robot : {"", "robot_1", "robot_2"}) {
+    robots.push_back({.robot = robot, .path = path});
+    for (StampedPose2& pose : robots.back().path)
+      pose.T_map_robot.y_m += 0.1 * static_cast<double>(robots.size());
+    pictures.insert(picture_of(robots));
+  }
+  EXPECT_EQ(pictures.size(), 4U);
 }
 
 TEST(Pictures, AreTheSameForTheSameInput) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <span>
 #include <string>
 #include <utility>
@@ -13,13 +12,13 @@
 #include "service/io/pictures/axis.hpp"
 #include "service/io/pictures/covariance_ellipse.hpp"
 #include "service/io/pictures/map_frame.hpp"
+#include "service/io/pictures/path_drawing.hpp"
 
 namespace qwsm::io {
 namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
 
-constexpr LineStyle kHalo{.color = {1.0, 1.0, 1.0, 0.75}, .width_px = 6.0};
 // Wider than the path, which is drawn on it: where the two agree the path has dark edges.
 constexpr LineStyle kTruthStyle{.color = FromBytes(60, 60, 60), .width_px = 5.0};
 constexpr LineStyle kOdometryStyle{
@@ -30,8 +29,6 @@ constexpr LineStyle kRefusedStyle{.color = FromBytes(225, 20, 30, 0.8), .width_p
 constexpr LineStyle kEllipseStyle{.color = FromBytes(150, 0, 140), .width_px = 1.1};
 constexpr Color kEllipseFill = FromBytes(150, 0, 140, 0.12);
 constexpr Color kDeadReckoned = FromBytes(225, 20, 30);
-constexpr Color kStartFill = FromBytes(255, 200, 0);
-constexpr Color kStartEdge = FromBytes(90, 70, 0);
 constexpr double kPathWidth_px = 2.8;
 constexpr double kDot_px = 3.0;
 
@@ -54,20 +51,6 @@ Color ColorAlongPath(double share) {
 void DrawDot(Canvas& canvas, const Eigen::Vector2d& center_px) {
   canvas.FillPolygon(EllipseOutline(center_px, kDot_px * Eigen::Matrix2d::Identity()),
                      kDeadReckoned);
-}
-
-// An arrow of fixed size, pointing where the robot looks; y points down on the canvas.
-void DrawArrow(Canvas& canvas, const Eigen::Vector2d& at_px, double heading_rad) {
-  const Eigen::Vector2d ahead(std::cos(heading_rad), -std::sin(heading_rad));
-  const Eigen::Vector2d left(-ahead.y(), ahead.x());
-  const std::array<Eigen::Vector2d, 4> corners_px = {at_px + 14.0 * ahead,
-                                                     at_px - 8.0 * ahead + 9.0 * left,
-                                                     at_px - 4.0 * ahead,
-                                                     at_px - 8.0 * ahead - 9.0 * left};
-  canvas.FillPolygon(corners_px, kStartFill);
-  Points outline_px(corners_px.begin(), corners_px.end());
-  outline_px.push_back(outline_px.front());
-  canvas.Stroke(outline_px, {.color = kStartEdge, .width_px = 1.2});
 }
 
 std::string MinutesAndSeconds(Timestamp time) {
@@ -118,14 +101,6 @@ LegendItem TimeItem(const std::vector<PathPose>& path) {
           }};
 }
 
-LegendItem StartItem() {
-  return {.label = "start",
-          .sample_width_px = 22.0,
-          .draw_sample = [](Canvas& canvas, const Eigen::Vector2d& left_px) {
-            DrawArrow(canvas, left_px + Eigen::Vector2d(8.0, 0.0), 0.0);
-          }};
-}
-
 LegendItem DeadReckonedItem(std::ptrdiff_t count, std::size_t of) {
   return {.label = "dead-reckoned (" + std::to_string(count) + " of " + std::to_string(of) + ")",
           .sample_width_px = 2.0 * kDot_px,
@@ -167,14 +142,10 @@ class OverlayPainter {
     StrokePath(overlay_.answered, kAnsweredStyle);
     PaintLoops();
     PaintEllipses();
-    if (overlay_.truth.empty()) StrokePath(overlay_.path, kHalo);
+    if (overlay_.truth.empty()) StrokePath(overlay_.path, kPathHalo);
     StrokePath(overlay_.truth, kTruthStyle);
     PaintPath();
-    if (!overlay_.path.empty()) {
-      const Pose2& T_map_robot = overlay_.path.front().map_robot.T_a_b;
-      DrawArrow(
-          frame_.canvas(), frame_.ToCanvas(T_map_robot.translation_m()), T_map_robot.theta_rad);
-    }
+    if (!overlay_.path.empty()) DrawStart(frame_, overlay_.path.front().map_robot.T_a_b);
     frame_.canvas().Unclip();
   }
 
@@ -219,19 +190,12 @@ class OverlayPainter {
     }
   }
 
-  // Without the poses that are within a pixel of the one before: a robot that waits has thousands.
   template <class Pose>
   Points ToCanvas(std::span<const Pose> path) const {
-    constexpr double kLeastStep_px = 1.0;
-    Points points_px;
-    for (const Pose& pose : path) {
-      const Eigen::Vector2d point_px = frame_.ToCanvas(PositionOf(pose));
-      const bool is_last = &pose == &path.back();
-      if (points_px.empty() || is_last || (point_px - points_px.back()).norm() >= kLeastStep_px) {
-        points_px.push_back(point_px);
-      }
-    }
-    return points_px;
+    Points places_m;
+    places_m.reserve(path.size());
+    for (const Pose& pose : path) places_m.push_back(PositionOf(pose));
+    return OnCanvas(frame_, places_m);
   }
 
   template <class Pose>
@@ -285,6 +249,15 @@ MapView ViewOf(const OccupancyGrid& grid, const MapOverlay& overlay) {
 }
 
 }  // namespace
+
+Trajectory TrajectoryOf(std::span<const PathPose> path) {
+  Trajectory trajectory;
+  trajectory.reserve(path.size());
+  for (const PathPose& pose : path) {
+    trajectory.push_back({.stamp = pose.stamp, .T_map_robot = pose.map_robot.T_a_b});
+  }
+  return trajectory;
+}
 
 void WriteTrajectoryPicture(const std::filesystem::path& path,
                             const OccupancyGrid& grid,

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include "qwsm/mapping/mapper.hpp"
@@ -18,6 +19,8 @@ struct PathPose {
   UncertainPose2 map_robot;
   StepStatus status = StepStatus::kMatched;
 };
+
+Trajectory TrajectoryOf(std::span<const PathPose> path);
 
 /// A place that was recognised: where the robot was, and where it had been before.
 struct LoopLine {

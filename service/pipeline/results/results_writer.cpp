@@ -19,15 +19,6 @@ namespace {
 
 constexpr const char* kKittiFile = "trajectory.kitti";
 
-Trajectory TrajectoryOf(std::span<const io::PathPose> path) {
-  Trajectory trajectory;
-  trajectory.reserve(path.size());
-  for (const io::PathPose& pose : path) {
-    trajectory.push_back({.stamp = pose.stamp, .T_map_robot = pose.map_robot.T_a_b});
-  }
-  return trajectory;
-}
-
 }  // namespace
 
 ResultsWriter::ResultsWriter(const ResultsFolder& folder, const ResultsOptions& options)
@@ -50,7 +41,7 @@ void ResultsWriter::Finish(const ScanMap& map,
                            const Trajectory& truth) {
   trajectory_.Commit();
   table_.Commit();
-  io::WriteKittiFile(folder_ / kKittiFile, TrajectoryOf(history_.path()));
+  io::WriteKittiFile(folder_ / kKittiFile, io::TrajectoryOf(history_.path()));
   WriteFigures({.map = map, .matcher = matcher, .path = history_.path(), .loops = {}}, truth);
   Draw({.map = map, .overlay = history_.Overlay()}, rendering);
 }
@@ -65,11 +56,11 @@ void ResultsWriter::Finish(const ScanMap& map_live,
   const Correction& correction = corrected.correction;
   Drawing drawing{.map = corrected.map, .overlay = history_.Overlay(), .correction = &correction};
   io::MapOverlay& overlay = drawing.overlay;
-  overlay.answered = TrajectoryOf(overlay.path);
+  overlay.answered = io::TrajectoryOf(overlay.path);
   overlay.path = CorrectedPath(correction);
   overlay.loops = LoopLines(correction);
   AddCorrectedPoses(folder_ / "scans.csv", correction.map_robot);
-  const Trajectory trajectory = TrajectoryOf(overlay.path);
+  const Trajectory trajectory = io::TrajectoryOf(overlay.path);
   io::WriteTumFile(folder_ / "trajectory.tum", trajectory);
   io::WriteKittiFile(folder_ / kKittiFile, trajectory);
   WriteLoops(folder_, corrected);

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 
 #include "qwsm/mapping/occupancy_grid.hpp"
@@ -16,8 +16,8 @@
 namespace qwsm::pipeline {
 
 /// Leaves what `qwsm map` leaves, for every robot of a team: paths and tables as it goes, pictures
-/// at the end. A robot without a namespace has the folder itself, others a folder of their name in
-/// it.
+/// at the end, each map with the paths of all who are in it. A robot without a namespace has the
+/// folder itself, others a folder of their name in it.
 ///
 /// Where the disk is full the results end there, with a message; the service goes on.
 class TeamResults final : public team::TeamSink {
@@ -34,9 +34,12 @@ class TeamResults final : public team::TeamSink {
 
  private:
   class RobotResults;
+  struct DrawnMap;
 
   RobotResults& ResultsOf(const std::string& robot);
-  std::optional<OccupancyGrid> Draw(team::TeamService& service, const std::string& robot) const;
+  DrawnMap Draw(team::TeamService& service,
+                const std::string& robot,
+                const std::filesystem::path& folder) const;
 
   ResultsFolder folder_;
   OccupancyGridOptions rendering_;

@@ -21,20 +21,12 @@
 #include "qwsm/mapping/scan_map.hpp"
 #include "service/team/map/robot_positions.hpp"
 #include "service/team/map/twin_state.hpp"
+#include "service/team/scans/map_version.hpp"
 #include "service/team/scans/team_scan.hpp"
 
 namespace qwsm::team {
 
 class TeamMap;
-
-/// Which map it was, and how often it was corrected by then. Scans keep their ids where only that
-/// changes.
-struct MapVersion {
-  std::uint64_t map = 0;
-  std::uint32_t epoch = 0;
-
-  friend bool operator==(const MapVersion&, const MapVersion&) = default;
-};
 
 /// A map of a team: many robots match against it while others extend it, and none waits for
 /// another. All functions may be called from any thread.

@@ -75,6 +75,7 @@ void RobotSession::Answer(Work& work, const std::optional<Pose2>& claimed_mounti
   const RobotAnswer answer{.robot = name(),
                            .step = AsTold(step),
                            .component = ComponentName(),
+                           .version = version_,
                            .T_odom_robot = work.T_odom_robot,
                            .told = easing_.Tell(step, work.T_odom_robot),
                            .matching = answered - begun,

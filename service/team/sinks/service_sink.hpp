@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "service/team/scans/map_version.hpp"
 #include "service/team/scans/sensor_kind.hpp"
 #include "service/team/sinks/team_status.hpp"
 
@@ -21,6 +22,7 @@ struct Answer {
   std::string robot;
   typename Kind::Step step;
   std::string component{};  ///< Of the team's map, that the step's pose is in.
+  MapVersion version{};     ///< Of that map, where robots share one.
   std::optional<typename Kind::Pose> T_odom_robot{};  ///< Odometry at the scan's stamp.
   /// Where who drives by it is told that the robot is, as long as a correction of the map has not
   /// reached it in full; nothing where that is the answer.
