@@ -54,9 +54,13 @@ class Drive {
  public:
   explicit Drive(double body_x_m, Timestamp step = kStep) : step_(step), body_m_(body_x_m, -0.7) {}
 
+  /// Lets odometry turn, though the robot does not.
+  void LetOdometryTurn(double rate_radps) { odometry_radps_ = rate_radps; }
+
   void For(Timestamp duration, double body_mps) {
     for (Timestamp end = stamp_ + duration; stamp_ < end; stamp_ += step_) {
-      found_m_ = bodies_.Follow(ScanAt(x_m_, {body_m_}, stamp_), Pose2{.x_m = x_m_});
+      found_m_ = bodies_.Follow(ScanAt(x_m_, {body_m_}, stamp_),
+                                Pose2{.x_m = x_m_, .theta_rad = odometry_rad_});
       off_m_ = std::numeric_limits<double>::infinity();
       for (const Eigen::Vector2d& found_m : found_m_) {
         off_m_ = std::min(off_m_, (found_m + Eigen::Vector2d(x_m_, 0.0) - body_m_).norm());
@@ -64,6 +68,7 @@ class Drive {
       const double step_s = std::chrono::duration<double>(step_).count();
       x_m_ += step_s * kSpeed_mps;
       body_m_.x() += step_s * body_mps;
+      odometry_rad_ += step_s * odometry_radps_;
     }
   }
 
@@ -75,6 +80,8 @@ class Drive {
   Timestamp step_;
   Timestamp stamp_{};
   double x_m_ = 0.0;
+  double odometry_radps_ = 0.0;
+  double odometry_rad_ = 0.0;
   Eigen::Vector2d body_m_;
   std::vector<Eigen::Vector2d> found_m_;
   double off_m_ = 0.0;
@@ -92,6 +99,23 @@ TEST(MovingBodies, AreFoundWhereOneDrivesAhead) {
   Drive drive(3.0);
   drive.For(3s, kSpeed_mps);
   EXPECT_TRUE(drive.IsBodyFound());
+}
+
+TEST(MovingBodies, AreFoundWhereOneDrivesAlongside) {
+  Drive drive(1.0);
+  drive.For(3s, kSpeed_mps);
+  EXPECT_TRUE(drive.IsBodyFound());
+}
+
+// Seven metres off this is 0.35 m in a second.
+TEST(MovingBodies, AreNotThoseThatErringOdometryTurns) {
+  for (const double rate_radps : {-0.05, 0.05}) {
+    SCOPED_TRACE(rate_radps);
+    Drive drive(7.0);
+    drive.LetOdometryTurn(rate_radps);
+    drive.For(3s, 0.0);
+    EXPECT_EQ(drive.found(), 0U);
+  }
 }
 
 TEST(MovingBodies, AreNoneUntilItIsKnownThatTheyStand) {

@@ -43,7 +43,7 @@ class MovingBodies {
   };
 
   Body& BodyAt(const Sighting& seen);
-  static bool Moves(const Body& body);
+  static bool Moves(const Body& body, const Eigen::Vector2d& robot_m);
 
   std::vector<Body> bodies_;
   std::optional<Timestamp> last_;  // Of the scan before.
