@@ -7,6 +7,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "service/apps/output.hpp"
@@ -179,8 +180,15 @@ class TeamMapping {
     }
   }
 
+  /// The map lies in the world as its first robot began, for all in it.
+  void ShareWorld(const MappedRobot& robot) const {
+    const std::optional<Pose2>& T_world_map = robots_.front().results->T_world_map();
+    if (T_world_map) robot.results->SetMapInWorld(*T_world_map);
+  }
+
   std::vector<team::Mark> FinishAsAnswered() {
     for (const MappedRobot& robot : robots_) {
+      ShareWorld(robot);
       robot.results->Finish(map_, options_.mapper.matcher, options_.rendering, robot.truth);
       Summarize(robot, map_);
     }
@@ -201,6 +209,7 @@ class TeamMapping {
       MappedRobot& robot = robots_[i];
       run.correction.map_robot = joint.map_robot[i];
       run.epochs = std::move(robot.alone.epochs);
+      ShareWorld(robot);
       robot.results->Finish(map_, options_.mapper.matcher, run, options_.rendering, robot.truth);
       Summarize(robot, run.map);
       for (std::size_t k = 0; k < robot.answers.size(); ++k) {

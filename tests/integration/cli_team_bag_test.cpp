@@ -104,6 +104,7 @@ TEST_F(TeamBag, IsMappedIntoOneMapTheSameEachTime) {
     EXPECT_TRUE(fs::exists(first / name)) << name;
   }
   EXPECT_LT(ErrorOf_m(first, "trajectory.tum"), 0.01);
+  EXPECT_LT(ErrorOf_m(first, "truth.tum"), 1e-5);  // All in one frame.
 
   const fs::path second = folder_ / "second";
   ASSERT_EQ(Map(second, {"--save-map", folder_ / "team.qwsm"}).exit_code, 0);

@@ -80,8 +80,9 @@ std::vector<io::PathPose> ResultsWriter::CorrectedPath(const Correction& correct
 }
 
 void ResultsWriter::WriteFigures(const Outcome& outcome, const Trajectory& truth) {
-  truth_in_map_ = TruthInMap(outcome.path, truth);
-  truth_report_ = CompareWithTruth(outcome.path, truth);
+  if (!T_world_map_) T_world_map_ = TrueMapInWorld(outcome.path, truth);
+  if (T_world_map_) truth_in_map_ = TruthInMap(truth, *T_world_map_);
+  truth_report_ = CompareWithTruth(outcome.path, truth_in_map_);
   loops_ = outcome.loops;
   if (!truth_in_map_.empty()) io::WriteTumFile(folder_ / "truth.tum", truth_in_map_);
   metrics_ = MetricsJson(statistics_, outcome.map, outcome.matcher, truth_report_, outcome.loops);

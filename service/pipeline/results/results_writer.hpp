@@ -43,8 +43,12 @@ class ResultsWriter final : public StepSink {
   /// Says what was run, before Finish(): a run that is not named leaves no report.
   void SetTitle(RunTitle title) { title_ = std::move(title); }
 
+  /// Says, before Finish(), where the map lies in the world of the truth: as the first robot in it
+  /// began. Else it is as this one did.
+  void SetMapInWorld(const Pose2& T_world_map) { T_world_map_ = T_world_map; }
+
   /// Writes what can only be known at the end. Whatever cannot be drawn is warned of.
-  /// @param truth of the robot in a frame of its own; empty where it is not known.
+  /// @param truth of the robot in the world; empty where it is not known.
   void Finish(const ScanMap& map,
               MatcherKind matcher,
               const OccupancyGridOptions& rendering,
@@ -64,6 +68,9 @@ class ResultsWriter final : public StepSink {
   const std::optional<LoopCounts>& loops() const { return loops_; }
   /// The report on the truth, after Finish(), where the truth is known.
   const std::optional<TruthReport>& truth_report() const { return truth_report_; }
+  /// Where the map lies in the world of the truth: as it was set, or, after Finish(), as this robot
+  /// began, where its truth is known.
+  const std::optional<Pose2>& T_world_map() const { return T_world_map_; }
 
  private:
   // What is known at the end of a run.
@@ -95,6 +102,7 @@ class ResultsWriter final : public StepSink {
   RunHistory history_;
   DoubtfulScans doubtful_;
   Json metrics_;
+  std::optional<Pose2> T_world_map_;
   Trajectory truth_in_map_;
   std::optional<TruthReport> truth_report_;
   std::optional<LoopCounts> loops_;

@@ -20,15 +20,6 @@ struct Comparison {
   Pose2 T_map_true;
 };
 
-/// @pre `truth` is sorted by stamp
-std::optional<Pose2> TrueMapInWorld(std::span<const io::PathPose> path, const Trajectory& truth) {
-  for (const io::PathPose& pose : path) {
-    const auto nearest = NearestIndex(truth, pose.stamp, kTolerance);
-    if (nearest) return truth[*nearest].T_map_robot * pose.map_robot.T_a_b.Inverse();
-  }
-  return std::nullopt;
-}
-
 std::vector<Comparison> Pairs(std::span<const io::PathPose> path, const Trajectory& true_in_map) {
   std::vector<Comparison> pairs;
   for (const io::PathPose& pose : path) {
@@ -40,18 +31,25 @@ std::vector<Comparison> Pairs(std::span<const io::PathPose> path, const Trajecto
 
 }  // namespace
 
-Trajectory TruthInMap(std::span<const io::PathPose> path, const Trajectory& truth) {
+std::optional<Pose2> TrueMapInWorld(std::span<const io::PathPose> path, const Trajectory& truth) {
+  const Trajectory sorted = SortedByStamp(truth);
+  for (const io::PathPose& pose : path) {
+    const auto nearest = NearestIndex(sorted, pose.stamp, kTolerance);
+    if (nearest) return sorted[*nearest].T_map_robot * pose.map_robot.T_a_b.Inverse();
+  }
+  return std::nullopt;
+}
+
+Trajectory TruthInMap(const Trajectory& truth, const Pose2& T_world_map) {
   Trajectory in_map = SortedByStamp(truth);
-  const std::optional<Pose2> T_world_map = TrueMapInWorld(path, in_map);
-  if (!T_world_map) return {};
-  const Pose2 T_map_world = T_world_map->Inverse();
+  const Pose2 T_map_world = T_world_map.Inverse();
   for (StampedPose2& pose : in_map) pose.T_map_robot = T_map_world * pose.T_map_robot;
   return in_map;
 }
 
 std::optional<TruthReport> CompareWithTruth(std::span<const io::PathPose> path,
-                                            const Trajectory& truth) {
-  const std::vector<Comparison> compared = Pairs(path, TruthInMap(path, truth));
+                                            const Trajectory& truth_in_map) {
+  const std::vector<Comparison> compared = Pairs(path, truth_in_map);
   if (compared.size() < 2) return std::nullopt;
 
   std::vector<PosePair> pairs;
