@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -18,11 +19,16 @@ namespace qwsm::team {
 namespace {
 
 /// What a robot maps between two moments of a drive through an office, in the frame it begins in.
-ScanMap MapOfDrive(const test::SimulatedDrive& drive, std::size_t first, std::size_t last) {
+/// @param begun when it did; at the same time as another one if not told.
+ScanMap MapOfDrive(const test::SimulatedDrive& drive,
+                   std::size_t first,
+                   std::size_t last,
+                   Timestamp begun = {}) {
   const Pose2 T_own_world = drive.T_world_robot[first].Inverse();
   ScanMap map;
   for (std::size_t i = first; i < last; i += 5) {
-    const LaserScan& scan = drive.observations[i].scan;
+    LaserScan scan = drive.observations[i].scan;
+    scan.stamp += begun - drive.observations[first].scan.stamp;
     map.Insert(scan,
                ToPoints(scan),
                UncertainPose2::WithSigmas(T_own_world * drive.T_world_robot[i], 0.005, 0.002));
@@ -34,7 +40,10 @@ class MeetingPlaces : public testing::Test {
  protected:
   static constexpr std::size_t kScans = 120;
 
-  ScanMap MapFrom(std::size_t first) const { return MapOfDrive(drive_, first, first + kScans); }
+  ScanMap MapFrom(std::size_t first, Timestamp begun) const {
+    return MapOfDrive(drive_, first, first + kScans, begun);
+  }
+  ScanMap MapFrom(std::size_t first) const { return MapFrom(first, std::chrono::hours(first)); }
 
   void ExpectToBeRight(const MeetingPlace& place, std::size_t first) const {
     const Pose2 T_truth = drive_.T_world_robot[0].Inverse() * drive_.T_world_robot[first];
@@ -55,6 +64,16 @@ TEST_F(MeetingPlaces, AreWhereBothRobotsHaveBeen) {
   EXPECT_EQ(met.places[1].map, 1U);
   ExpectToBeRight(met.places[1], 60);
   EXPECT_EQ(met.map.scans().size(), first.scans().size() + second.scans().size());
+}
+
+// Who is where the other one is at the same time, and sees nobody, is in a place that looks alike.
+TEST_F(MeetingPlaces, AreNoneWhereRobotsWouldHaveSeenEachOther) {
+  constexpr std::size_t kFew = 60;  // Of much more that agrees, one is sure all the same.
+  const ScanMap first = MapOfDrive(drive_, 60, 60 + kFew, std::chrono::hours(1));
+  const ScanMap meanwhile = MapOfDrive(drive_, 61, 61 + kFew, std::chrono::hours(1));
+  const ScanMap later = MapOfDrive(drive_, 61, 61 + kFew, std::chrono::hours(2));
+  EXPECT_EQ(FindMeetingPlaces(std::vector{&first, &meanwhile}, {}).places.size(), 1U);
+  EXPECT_EQ(FindMeetingPlaces(std::vector{&first, &later}, {}).places.size(), 2U);
 }
 
 TEST_F(MeetingPlaces, AreFoundByWayOfAThirdRobot) {

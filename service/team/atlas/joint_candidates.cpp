@@ -54,6 +54,10 @@ void JointCandidates::Confront(const RobotSight& in_a, const RobotSight& in_b) {
   }
 }
 
+void JointCandidates::ForgetSights() {
+  for (Candidate& candidate : candidates_) candidate.unseen_nats = 0.0;
+}
+
 std::optional<UncertainPose2> JointCandidates::Decide(const MapAgreement& agreement,
                                                       const ScanMap& a,
                                                       const ScanMap& b,

@@ -28,6 +28,8 @@ class JointCandidates {
   /// Takes where two robots were at a time, one in each map, and what they saw: were the maps one
   /// there, they would have seen each other.
   void Confront(const RobotSight& in_a, const RobotSight& in_b);
+  /// Takes back all of that, to confront all candidates with the same sights.
+  void ForgetSights();
 
   /// Weighs all places anew of which the maps may show more than they did.
   /// @return the place where the two lie beyond doubt, leading all others; none once it is stopped.

@@ -10,9 +10,6 @@
 namespace qwsm::team {
 namespace {
 
-// A robot moves no farther in this time than its body is long.
-constexpr std::chrono::milliseconds kSameTime{300};
-
 // A map that has grown by no more than this is searched as it was.
 constexpr double kOutgrown = 1.1;
 

@@ -2,13 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/team/atlas/meeting_places.hpp"
 
+#include <algorithm>
+#include <chrono>
+#include <iterator>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "qwsm/mapping/place_finder.hpp"
 #include "qwsm/sensor/scan_points.hpp"
 #include "service/team/atlas/joint_candidates.hpp"
 #include "service/team/atlas/map_agreement.hpp"
+#include "service/team/atlas/teammate_sight.hpp"
 
 namespace qwsm::team {
 namespace {
@@ -19,6 +24,17 @@ struct Apart {
   JointCandidates candidates{};        // Where it may.
   std::size_t places_looked_into = 0;  // Of those known.
 };
+
+// Scans were added in the order of time.
+const RelevantScan* NearestInTime(std::span<const RelevantScan> scans, Timestamp stamp) {
+  const auto stamp_of = [](const RelevantScan& scan) { return scan.scan.stamp; };
+  const auto after = std::ranges::lower_bound(scans, stamp, {}, stamp_of);
+  if (after == scans.begin()) return scans.empty() ? nullptr : &*after;
+  const auto before = std::prev(after);
+  const bool is_before =
+      after == scans.end() || stamp - stamp_of(*before) < stamp_of(*after) - stamp;
+  return is_before ? &*before : &*after;
+}
 
 /// The maps that have a place, and the search for the others'.
 class MeetingSearch {
@@ -81,7 +97,22 @@ class MeetingSearch {
   }
 
   std::optional<UncertainPose2> Decide(Apart& apart) const {
+    apart.candidates.ForgetSights();
+    for (const MeetingPlace& other : met_.places) Confront(other, apart);
     return apart.candidates.Decide(agreement_, met_.map, *maps_[apart.map], {});
+  }
+
+  // With what both robots saw at about the same time.
+  void Confront(const MeetingPlace& other, Apart& apart) const {
+    const std::span<const RelevantScan> others = maps_[other.map]->scans();
+    for (const RelevantScan& own : maps_[apart.map]->scans()) {
+      const RelevantScan* const there = NearestInTime(others, own.scan.stamp);
+      if (!there || std::chrono::abs(there->scan.stamp - own.scan.stamp) > kSameTime) continue;
+      const std::vector<ScanPoint> seen_there = ToPoints(there->scan);
+      const std::vector<ScanPoint> seen = ToPoints(own.scan);
+      apart.candidates.Confront({seen_there, other.first_map.T_a_b * there->map_robot.T_a_b},
+                                {seen, own.map_robot.T_a_b});
+    }
   }
 
   std::span<const ScanMap* const> maps_;

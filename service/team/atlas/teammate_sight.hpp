@@ -3,12 +3,16 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <chrono>
 #include <span>
 
 #include "qwsm/geometry/pose2.hpp"
 #include "qwsm/sensor/scan_points.hpp"
 
 namespace qwsm::team {
+
+/// A robot moves no farther in this time than its body is long.
+inline constexpr std::chrono::milliseconds kSameTime{300};
 
 /// What a robot sees, and where it is in its map.
 struct RobotSight {
