@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/team/team_results.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -74,7 +75,8 @@ class TeamResults::RobotResults {
     io::MapOverlay overlay = history_.Overlay();
     const Trajectory answered = io::TrajectoryOf(overlay.path);
     if (path.empty() || io::TrajectoryOf(path) == answered) return overlay;
-    const Pose2 T_now_then = path.front().map_robot.T_a_b * answered.front().T_map_robot.Inverse();
+    const auto then = std::ranges::find(answered, path.front().stamp, &StampedPose2::stamp);
+    const Pose2 T_now_then = path.front().map_robot.T_a_b * then->T_map_robot.Inverse();
     for (StampedPose2& pose : overlay.odometry) pose.T_map_robot = T_now_then * pose.T_map_robot;
     overlay.answered = answered;
     overlay.path = std::move(path);
