@@ -42,6 +42,7 @@ std::vector<Line> LinesOf(std::span<const RobotPath> robots) {
                           .dash_px = is_again ? 7.0 : 0.0};
     lines.push_back({.robot = &robot, .style = style});
   }
+  if (lines.size() < 2) lines.clear();
   return lines;
 }
 

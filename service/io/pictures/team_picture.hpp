@@ -18,7 +18,8 @@ struct RobotPath {
 };
 
 /// Draws the map and over it the path of each robot in a colour of its own, with its name in the
-/// legend; after so many as there are colours they come again, dashed. Who has no path is left out.
+/// legend; after so many as there are colours they come again, dashed. Who has no path is left out,
+/// and one robot alone is no team: the map is as WriteMapPicture() draws it.
 /// @throws std::invalid_argument for a name that ends in neither .png nor .svg, WriteError where
 /// the file cannot be written.
 void WriteTeamPicture(const std::filesystem::path& path,

@@ -16,8 +16,8 @@
 namespace qwsm::pipeline {
 
 /// Leaves what `qwsm map` leaves, for every robot of a team: paths and tables as it goes, pictures
-/// at the end, each map with the paths of all who are in it. A robot without a namespace has the
-/// folder itself, others a folder of their name in it.
+/// at the end, each map with the paths of all where several are in it. A robot without a namespace
+/// has the folder itself, others a folder of their name in it.
 ///
 /// Where the disk is full the results end there, with a message; the service goes on.
 class TeamResults final : public team::TeamSink {
