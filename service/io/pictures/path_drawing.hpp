@@ -13,9 +13,6 @@
 
 namespace qwsm::io {
 
-/// Drawn under a path, so that it can be told from the map.
-inline constexpr LineStyle kPathHalo{.color = {1.0, 1.0, 1.0, 0.75}, .width_px = 6.0};
-
 /// Where the places of a path are on the canvas, but for those within a pixel of the one before: a
 /// robot that waits has thousands.
 std::vector<Eigen::Vector2d> OnCanvas(const MapFrame& frame,

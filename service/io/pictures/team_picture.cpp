@@ -29,8 +29,18 @@ constexpr std::array kWidths_px = {8.8, 6.8, 4.8, 2.8};
 // A robot's path, and how it is drawn.
 struct Line {
   const RobotPath* robot;
+  std::vector<Eigen::Vector2d> places_m;
   LineStyle style;
 };
+
+std::vector<Eigen::Vector2d> PositionsAlong(const RobotPath& robot) {
+  std::vector<Eigen::Vector2d> places_m;
+  places_m.reserve(robot.path.size());
+  for (const StampedPose2& pose : robot.path) {
+    places_m.push_back(pose.T_map_robot.translation_m());
+  }
+  return places_m;
+}
 
 std::vector<Line> LinesOf(std::span<const RobotPath> robots) {
   std::vector<Line> lines;
@@ -40,7 +50,7 @@ std::vector<Line> LinesOf(std::span<const RobotPath> robots) {
     const LineStyle style{.color = kRobotColors[lines.size() % kRobotColors.size()],
                           .width_px = kWidths_px[lines.size() % kWidths_px.size()],
                           .dash_px = is_again ? 7.0 : 0.0};
-    lines.push_back({.robot = &robot, .style = style});
+    lines.push_back({.robot = &robot, .places_m = PositionsAlong(robot), .style = style});
   }
   if (lines.size() < 2) lines.clear();
   return lines;
@@ -56,20 +66,11 @@ std::vector<LegendItem> ItemsOf(std::span<const Line> lines) {
   return items;
 }
 
-std::vector<Eigen::Vector2d> PositionsAlong(const RobotPath& robot) {
-  std::vector<Eigen::Vector2d> places_m;
-  places_m.reserve(robot.path.size());
-  for (const StampedPose2& pose : robot.path) {
-    places_m.push_back(pose.T_map_robot.translation_m());
-  }
-  return places_m;
-}
-
 MapView ViewOfTeam(const OccupancyGrid& grid, std::span<const Line> lines) {
   Eigen::Vector2d low_m = grid.origin_map_m;
   Eigen::Vector2d high_m = grid.origin_map_m;
   for (const Line& line : lines) {
-    for (const Eigen::Vector2d& place_m : PositionsAlong(*line.robot)) {
+    for (const Eigen::Vector2d& place_m : line.places_m) {
       low_m = low_m.cwiseMin(place_m);
       high_m = high_m.cwiseMax(place_m);
     }
@@ -88,7 +89,7 @@ void WriteTeamPicture(const std::filesystem::path& path,
   for (const double width_px : kWidths_px) {
     for (const Line& line : lines) {
       if (line.style.width_px != width_px) continue;
-      frame.canvas().Stroke(OnCanvas(frame, PositionsAlong(*line.robot)), line.style);
+      frame.canvas().Stroke(OnCanvas(frame, line.places_m), line.style);
     }
   }
   for (const Line& line : lines) DrawStart(frame, line.robot->path.front().T_map_robot);

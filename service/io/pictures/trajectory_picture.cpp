@@ -19,6 +19,7 @@ namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
 
+constexpr LineStyle kHalo{.color = {1.0, 1.0, 1.0, 0.75}, .width_px = 6.0};
 // Wider than the path, which is drawn on it: where the two agree the path has dark edges.
 constexpr LineStyle kTruthStyle{.color = FromBytes(60, 60, 60), .width_px = 5.0};
 constexpr LineStyle kOdometryStyle{
@@ -142,7 +143,7 @@ class OverlayPainter {
     StrokePath(overlay_.answered, kAnsweredStyle);
     PaintLoops();
     PaintEllipses();
-    if (overlay_.truth.empty()) StrokePath(overlay_.path, kPathHalo);
+    if (overlay_.truth.empty()) StrokePath(overlay_.path, kHalo);
     StrokePath(overlay_.truth, kTruthStyle);
     PaintPath();
     if (!overlay_.path.empty()) DrawStart(frame_, overlay_.path.front().map_robot.T_a_b);
