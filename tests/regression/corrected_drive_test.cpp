@@ -79,5 +79,14 @@ TEST(CorrectedDrive, IsRecognisedAsFarOffAsItMayBe) {
   EXPECT_LT(LastError_m(Corrected(sim::testing::Park(95))), 0.2);
 }
 
+// Among these trees the robot turns with none in view, and the one that comes into view then is like
+// another: its sigmas were one thirtieth of its errors.
+TEST(CorrectedDrive, IsNoSurerThanASingleTrunkTells) {
+  for (const int seed : {77, 98, 197}) {
+    SCOPED_TRACE(seed);
+    EXPECT_LT(MeanNees(Corrected(sim::testing::Park(seed))), 15.0);
+  }
+}
+
 }  // namespace
 }  // namespace qwsm::test

@@ -35,10 +35,6 @@ Eigen::Matrix3d InformationAmong(const Eigen::Matrix3d& surfaces, const Eigen::M
   return 0.5 * (information + information.transpose());
 }
 
-bool IsFound(const MatchResult& match) {
-  return match.status == MatchStatus::kConverged || match.status == MatchStatus::kIterationLimit;
-}
-
 UncertainPose2 AtLeast(const UncertainPose2& pose, double sigma_m, double sigma_rad) {
   UncertainPose2 wider = pose;
   wider.covariance += UncertainPose2::WithSigmas({}, sigma_m, sigma_rad).covariance;
@@ -187,7 +183,7 @@ ScanChains::Attachment ScanChains::Attach(NodeId id,
     prior.start_error = kStartError;
     match = matcher_.Match(reference.surfaces(), points, prior);
   }
-  if (!IsFound(match)) {
+  if (!HasMatched(match)) {
     predicted = AtLeast(predicted, kSlipSigma_m, kSlipSigma_rad);
     match = LocateAmong(reference, points, predicted, locator_, matcher_);
     if (!IsRecognised(match, kMinOverlapWithLast)) {

@@ -97,10 +97,8 @@ PlaceFit PlaceEvidence::Weigh(const ScanMap& map,
                               std::span<const ScanPoint> points,
                               const MatchResult& match,
                               const Counts& counts) {
-  const bool is_matched =
-      match.status == MatchStatus::kConverged || match.status == MatchStatus::kIterationLimit;
   return {.told = Told(points),
-          .explained = is_matched ? match.overlap : 0.0,
+          .explained = HasMatched(match) ? match.overlap : 0.0,
           .seen_through = ShareSeenThrough(map, points, match.T_ref_cur, counts)};
 }
 

@@ -2,14 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "qwsm/mapping/robot_tracker.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "pose_in_map.hpp"
 #include "qwsm/geometry/position.hpp"
 #include "qwsm/mapping/place_evidence.hpp"
+#include "qwsm/matching/mode_probability.hpp"
 
 namespace qwsm {
 namespace {
@@ -38,17 +39,6 @@ bool IsConvincinglyBetter(std::span<const ScanPoint> points, double overlap, dou
 // is, and need not be sought.
 bool MayBeBeaten(std::span<const ScanPoint> points, const MatchResult& match) {
   return IsConvincinglyBetter(points, 1.0, match.overlap);
-}
-
-// Covariance of a matched pose: as uncertain as the part of the map it was matched to, plus what is
-// left of its uncertainty relative to that part. Where the pairs say nothing, as along a corridor,
-// that is all of the prediction's.
-Eigen::Matrix3d FuseWithReference(const Eigen::Matrix3d& reference,
-                                  const Eigen::Matrix3d& predicted,
-                                  const Eigen::Matrix3d& motion,
-                                  const Eigen::Matrix3d& pair_information) {
-  const Eigen::Matrix3d relative = PositivePart(predicted - motion - reference) + motion;
-  return reference + (pair_information + relative.inverse()).inverse();
 }
 
 UncertainPose2 PoseOf(const MatchResult& match) {
@@ -180,7 +170,7 @@ void RobotTracker::Locate(const ScanMap& map, Sighting& sighting) const {
   step.local_covariance = (local_last_ * last_robot.conservative).covariance;
   const UncertainPose2 last_in_map{.T_a_b = map_last_.T_a_b};
   Judge(map, points, (last_in_map * last_robot.conservative).covariance, step);
-  if (was_held_back) {
+  if (was_held_back && step.status != StepStatus::kDeadReckoned) {
     step.reason = "held back before: where odometry has it";
     step.closed_loop = true;
   }
@@ -273,27 +263,32 @@ void RobotTracker::Judge(const ScanMap& map,
                          const Eigen::Matrix3d& motion_covariance,
                          MappingStep& step) const {
   const MatchResult& match = step.match;
-  const bool found =
-      match.status == MatchStatus::kConverged || match.status == MatchStatus::kIterationLimit;
-  if (!found) {
-    step.status = StepStatus::kDeadReckoned;
+  step.status = StepStatus::kDeadReckoned;
+  if (!HasMatched(match)) {
     step.reason = Name(match.status);
+    return;
+  }
+  // What the baselines find they believe.
+  const double probability = options_.matcher == MatcherKind::kQWsm
+                                 ? ProbabilityOfMode(map.surfaces().likelihood(), points, match)
+                                 : 1.0;
+  if (probability < 0.5) {
+    step.reason = "may as well be elsewhere";
     return;
   }
   step.status = StatusOf(match);
   step.reason =
       step.status == StepStatus::kExtended ? "much of the scan is new" : "agrees with the map";
-
-  const FrameCovariance reference = map.CovarianceUnder(points, match.T_ref_cur);
-  step.map_robot.covariance = FuseWithReference(reference.At(match.T_ref_cur.translation_m()),
-                                                step.map_robot.covariance,
-                                                motion_covariance,
-                                                match.pair_information);
+  const UncertainPose2 predicted = step.map_robot;
+  const UncertainPose2 locally_predicted{.T_a_b = predicted.T_a_b,
+                                         .covariance = step.local_covariance};
+  UncertainPose2 found = InMap(map, points, predicted.covariance, motion_covariance, match);
   const double floor_m2 = options_.match_floor_m * options_.match_floor_m;
   const double floor_rad2 = options_.match_floor_rad * options_.match_floor_rad;
-  step.map_robot.covariance.diagonal() += Eigen::Vector3d(floor_m2, floor_m2, floor_rad2);
-  step.map_robot.T_a_b = match.T_ref_cur;
-  step.local_covariance = match.covariance;
+  found.covariance.diagonal() += Eigen::Vector3d(floor_m2, floor_m2, floor_rad2);
+  step.map_robot = {.T_a_b = found.T_a_b,
+                    .covariance = CovarianceOfEither(found, probability, predicted)};
+  step.local_covariance = CovarianceOfEither(PoseOf(match), probability, locally_predicted);
 }
 
 StepStatus RobotTracker::StatusOf(const MatchResult& match) const {

@@ -23,6 +23,10 @@ std::string_view Name(MatchStatus status) {
   return "unknown";
 }
 
+bool HasMatched(const MatchResult& match) {
+  return match.status == MatchStatus::kConverged || match.status == MatchStatus::kIterationLimit;
+}
+
 Degeneracy DegeneracyOf(const Eigen::Matrix3d& information) {
   const Eigen::Vector2d cross = information.topRightCorner<2, 1>();
   const Eigen::Matrix2d of_position =

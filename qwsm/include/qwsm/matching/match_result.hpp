@@ -50,6 +50,9 @@ struct [[nodiscard]] MatchResult {
   double reduced_chi2 = 1.0;
 };
 
+/// Whether the pose is one that pairs tell.
+bool HasMatched(const MatchResult& match);
+
 /// In which direction of the plane information about a pose is least, and how degenerate it is
 /// (Zhang, Kaess & Singh 2016): along a corridor the walls tell next to nothing.
 struct Degeneracy {
