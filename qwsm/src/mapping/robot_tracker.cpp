@@ -283,9 +283,8 @@ void RobotTracker::Judge(const ScanMap& map,
   const UncertainPose2 locally_predicted{.T_a_b = predicted.T_a_b,
                                          .covariance = step.local_covariance};
   UncertainPose2 found = InMap(map, points, predicted.covariance, motion_covariance, match);
-  const double floor_m2 = options_.match_floor_m * options_.match_floor_m;
-  const double floor_rad2 = options_.match_floor_rad * options_.match_floor_rad;
-  found.covariance.diagonal() += Eigen::Vector3d(floor_m2, floor_m2, floor_rad2);
+  found.covariance +=
+      UncertainPose2::WithSigmas({}, options_.match_floor_m, options_.match_floor_rad).covariance;
   step.map_robot = {.T_a_b = found.T_a_b,
                     .covariance = CovarianceOfEither(found, probability, predicted)};
   step.local_covariance = CovarianceOfEither(PoseOf(match), probability, locally_predicted);

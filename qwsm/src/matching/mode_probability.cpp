@@ -72,9 +72,9 @@ class NormalLaw {
     return root_.triangularView<Eigen::Lower>().solve(away).squaredNorm();
   }
 
-  // Up to a factor that all laws share.
-  double Density(const Pose2& pose) const {
-    return std::exp(-0.5 * SquaredSigmas(pose)) / root_.diagonal().prod();
+  // So many squared sigmas away from the mean, up to a factor that all laws share.
+  double Density(double squared_sigmas) const {
+    return std::exp(-0.5 * squared_sigmas) / root_.diagonal().prod();
   }
 
  private:
@@ -129,10 +129,11 @@ double ProbabilityOfMode(const LikelihoodPyramid& map,
   for (const NormalLaw& law : {predicted, answer}) {
     for (const Eigen::Vector3d& standard : kStandardNormal) {
       const Pose2 pose = law.At(standard);
-      const double prior = predicted.Density(pose);
+      const double prior = predicted.Density(predicted.SquaredSigmas(pose));
+      const double from_answer = answer.SquaredSigmas(pose);
       const double weight =
-          LikelihoodOf(points, map, pose) * prior / (prior + answer.Density(pose));
-      (answer.SquaredSigmas(pose) < kSameMode_chi2 ? there : elsewhere) += weight;
+          LikelihoodOf(points, map, pose) * prior / (prior + answer.Density(from_answer));
+      (from_answer < kSameMode_chi2 ? there : elsewhere) += weight;
     }
   }
   return there / (there + elsewhere);
