@@ -50,9 +50,7 @@ UncertainPose2 Since(const UncertainPose2& map_earlier, const UncertainPose2& ma
 }
 
 double SquaredMahalanobisDistance(const UncertainPose2& a, const UncertainPose2& b) {
-  const Eigen::Vector3d apart(a.T_a_b.x_m - b.T_a_b.x_m,
-                              a.T_a_b.y_m - b.T_a_b.y_m,
-                              NormalizeAngle(a.T_a_b.theta_rad - b.T_a_b.theta_rad));
+  const Eigen::Vector3d apart = Difference(a.T_a_b, b.T_a_b);
   return apart.dot((a.covariance + b.covariance).inverse() * apart);
 }
 

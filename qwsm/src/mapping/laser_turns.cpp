@@ -22,10 +22,6 @@ constexpr double kSmallestScale = 1e-3;
 // What next to nothing is told of: a position within metres.
 Eigen::Matrix3d NextToNothing() { return Eigen::Vector3d(0.1, 0.1, 1.0).asDiagonal(); }
 
-Eigen::Vector3d Away(const Pose2& a, const Pose2& b) {
-  return {a.x_m - b.x_m, a.y_m - b.y_m, NormalizeAngle(a.theta_rad - b.theta_rad)};
-}
-
 Pose2 Shifted(const Pose2& pose, const Eigen::Vector3d& step) {
   return {pose.x_m + step.x(), pose.y_m + step.y(), NormalizeAngle(pose.theta_rad + step.z())};
 }
@@ -41,7 +37,7 @@ bool HasFoundPose(const MappingStep& step) {
 UncertainPose2 Fused(const UncertainPose2& a, const UncertainPose2& b) {
   const Eigen::Matrix3d of_b = b.covariance.inverse();
   const Eigen::Matrix3d covariance = (a.covariance.inverse() + of_b).inverse();
-  return {.T_a_b = Shifted(a.T_a_b, covariance * of_b * Away(b.T_a_b, a.T_a_b)),
+  return {.T_a_b = Shifted(a.T_a_b, covariance * of_b * Difference(b.T_a_b, a.T_a_b)),
           .covariance = covariance};
 }
 
@@ -134,7 +130,7 @@ std::optional<LaserTurns::Look> LaserTurns::LookOf(const Observation& observatio
   const Eigen::Matrix3d covariance =
       (PositivePart(match.covariance.inverse() - predicted) + NextToNothing()).inverse();
   const Eigen::Vector3d away =
-      covariance * predicted * Away(match.T_ref_cur, match.predicted.T_a_b);
+      covariance * predicted * Difference(match.T_ref_cur, match.predicted.T_a_b);
   return Look{.map_robot = {.T_a_b = Shifted(match.T_ref_cur, away), .covariance = covariance},
               .T_odom_robot = *observation.T_odom_robot};
 }

@@ -24,9 +24,7 @@ UncertainPose2 InMap(const ScanMap& map,
 Eigen::Matrix3d CovarianceOfEither(const UncertainPose2& pose,
                                    double probability,
                                    const UncertainPose2& other) {
-  const Eigen::Vector3d apart(other.T_a_b.x_m - pose.T_a_b.x_m,
-                              other.T_a_b.y_m - pose.T_a_b.y_m,
-                              NormalizeAngle(other.T_a_b.theta_rad - pose.T_a_b.theta_rad));
+  const Eigen::Vector3d apart = Difference(other.T_a_b, pose.T_a_b);
   return probability * pose.covariance +
          (1.0 - probability) * (other.covariance + apart * apart.transpose());
 }

@@ -25,12 +25,6 @@ Pose2 MotionIn(std::chrono::nanoseconds time, const Eigen::Vector3d& velocity) {
   return {moved.x(), moved.y(), moved.z()};
 }
 
-// A pose as seen from another one, by its numbers.
-Eigen::Vector3d Missed(const Pose2& found, const Pose2& told) {
-  return {
-      found.x_m - told.x_m, found.y_m - told.y_m, NormalizeAngle(found.theta_rad - told.theta_rad)};
-}
-
 }  // namespace
 
 StillScan SlipEstimator::Mended(const Observation& observation) const {
@@ -75,11 +69,11 @@ void SlipEstimator::Learn(const Observation& observation,
 void SlipEstimator::Learn(const Look& before, const Look& now, double elapsed_s) {
   const Pose2 found = before.T_map_robot.Inverse() * now.T_map_robot;
   const Eigen::Vector3d noise = (before.variances + now.variances) / (elapsed_s * elapsed_s);
-  velocity_.Learn(Missed(found, {}) / elapsed_s, noise, elapsed_s);
+  velocity_.Learn(Difference(found, {}) / elapsed_s, noise, elapsed_s);
   if (!before.T_odom_robot || !now.T_odom_robot) return;
   Pose2 told = before.T_odom_robot->Inverse() * *now.T_odom_robot;
   if (before.gyro_rad && now.gyro_rad) told.theta_rad = *now.gyro_rad - *before.gyro_rad;
-  slip_.Learn(Missed(found, told) / elapsed_s, noise, elapsed_s);
+  slip_.Learn(Difference(found, told) / elapsed_s, noise, elapsed_s);
 }
 
 void SlipEstimator::Velocity::Learn(const Eigen::Vector3d& seen,

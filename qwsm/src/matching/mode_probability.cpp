@@ -66,10 +66,7 @@ class NormalLaw {
   }
 
   double SquaredSigmas(const Pose2& pose) const {
-    const Eigen::Vector3d away(pose.x_m - mean_.x_m,
-                               pose.y_m - mean_.y_m,
-                               NormalizeAngle(pose.theta_rad - mean_.theta_rad));
-    return root_.triangularView<Eigen::Lower>().solve(away).squaredNorm();
+    return root_.triangularView<Eigen::Lower>().solve(Difference(pose, mean_)).squaredNorm();
   }
 
   // So many squared sigmas away from the mean, up to a factor that all laws share.

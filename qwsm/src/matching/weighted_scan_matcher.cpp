@@ -89,10 +89,6 @@ Eigen::Matrix3d InformationByScatter(const NormalEquations& pairs, const Eigen::
   return 0.5 * (information + information.transpose());
 }
 
-Eigen::Vector3d Difference(const Pose2& a, const Pose2& b) {
-  return {a.x_m - b.x_m, a.y_m - b.y_m, NormalizeAngle(a.theta_rad - b.theta_rad)};
-}
-
 Pose2 Moved(const Pose2& pose, const Eigen::Vector3d& step) {
   return {pose.x_m + step.x(), pose.y_m + step.y(), NormalizeAngle(pose.theta_rad + step.z())};
 }

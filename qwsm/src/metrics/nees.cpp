@@ -42,9 +42,7 @@ std::optional<double> Nees(const UncertainPose2& estimate, const Pose2& truth) {
   const Eigen::Matrix3d correlation = scale.asDiagonal() * estimate.covariance * scale.asDiagonal();
   const Eigen::LLT<Eigen::Matrix3d> root(correlation);
   if (root.info() != Eigen::Success) return std::nullopt;
-  const Eigen::Vector3d error(estimate.T_a_b.x_m - truth.x_m,
-                              estimate.T_a_b.y_m - truth.y_m,
-                              NormalizeAngle(estimate.T_a_b.theta_rad - truth.theta_rad));
+  const Eigen::Vector3d error = Difference(estimate.T_a_b, truth);
   return root.matrixL().solve(scale.cwiseProduct(error)).squaredNorm();
 }
 

@@ -28,6 +28,11 @@ Pose2 operator*(const Pose2& T_a_b, const Pose2& T_b_c);
 /// p_a = T_a_b * p_b, in metres.
 Eigen::Vector2d operator*(const Pose2& T_a_b, const Eigen::Vector2d& p_b_m);
 
+/// Number by number: (x, y, theta) of the first less that of the second, as covariances are of.
+inline Eigen::Vector3d Difference(const Pose2& a, const Pose2& b) {
+  return {a.x_m - b.x_m, a.y_m - b.y_m, NormalizeAngle(a.theta_rad - b.theta_rad)};
+}
+
 /// Whether all three numbers are finite.
 bool IsFinite(const Pose2& pose);
 
