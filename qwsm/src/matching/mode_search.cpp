@@ -20,15 +20,15 @@ constexpr double kFarthestModePoint_m = 25.0;  // The farther points reach, the 
 // Poses so near to each other are one mode: the exact search around one finds the other.
 constexpr double kSameMode_m = 0.3;
 constexpr double kSameMode_rad = 0.1;
-constexpr double kHighScore = 0.85;  // Of most scans in their place.
+constexpr double kHighScore = 0.75;  // Of most scans in their place.
 constexpr double kLower = 0.8;
 constexpr int kLevelsOfMode = 2;             // Blocks of higher levels are wider than that.
 constexpr std::size_t kMostModes = 64;       // More are no knowledge.
-constexpr std::size_t kMostBlocks = 200000;  // Where everything is alike, the search is given up.
+constexpr std::size_t kMostBlocks = 150000;  // Where everything is alike, the search is given up.
 
-// Poses with the robot in a square of positions and the heading in an interval. Of a level of
-// CoarseLikelihood that has cells of side s, it is s / 2 wide, and turning to either end of the
-// interval moves no point by more than s / 4: a cell's maximum, which is over s offsets, bounds it.
+// Poses with the robot in a square of positions, as wide as a level of CoarseLikelihood says, and
+// the heading in an interval: turning to either end of it moves no point by more than half the
+// width.
 struct PoseBlock {
   double bound = 0.0;
   int level = 0;
@@ -72,13 +72,17 @@ class BlockQueue {
   int highest_ = -1;  // Step of the highest bound.
 };
 
-int WidthOf(int level) { return CoarseLikelihood::SideOf(level) / 2; }
+int WidthOf(int level) { return CoarseLikelihood::WidthOf(level); }
 
 // Where the beams end in the frame of the robot turned to the headings of one level.
 class TurnedPoints {
  public:
-  TurnedPoints(std::span<const Eigen::Vector2d> points_m, int headings, double cell_m)
-      : points_(points_m.size()), headings_(headings) {
+  // @param points_m so many near ones first, which a turn moves half as far as it may.
+  TurnedPoints(std::span<const Eigen::Vector2d> points_m,
+               std::size_t near,
+               int headings,
+               double cell_m)
+      : points_(points_m.size()), near_(near), headings_(headings) {
     cells_.reserve(points_ * static_cast<std::size_t>(headings));
     for (int heading = 0; heading < headings; ++heading) {
       const Eigen::Matrix2d R = Eigen::Rotation2Dd(Middle_rad(heading)).toRotationMatrix();
@@ -92,12 +96,15 @@ class TurnedPoints {
   int headings() const { return headings_; }
   double HalfWidth_rad() const { return std::numbers::pi / headings_; }
   double Middle_rad(int heading) const { return (2 * heading + 1) * HalfWidth_rad(); }
-  std::span<const GridCell> At(int heading) const {
-    return std::span(cells_).subspan(static_cast<std::size_t>(heading) * points_, points_);
+  CoarseLikelihood::Cells At(int heading) const {
+    const auto cells =
+        std::span(cells_).subspan(static_cast<std::size_t>(heading) * points_, points_);
+    return {.near = cells.first(near_), .far = cells.subspan(near_)};
   }
 
  private:
   std::size_t points_;
+  std::size_t near_;
   int headings_;
   std::vector<GridCell> cells_;
 };
@@ -137,9 +144,7 @@ Eigen::AlignedBox2d AreaAround(std::span<const Eigen::Vector2d> places_m, double
 
 constexpr int kTop = CoarseLikelihood::kLevels - 1;
 
-double CoarsestCell_m(const LikelihoodPyramid& map) {
-  return CoarseLikelihood::SideOf(kTop) * map.cell_size_m();
-}
+double WidestBlock_m(const LikelihoodPyramid& map) { return WidthOf(kTop) * map.cell_size_m(); }
 
 class ModeSearch {
  public:
@@ -148,10 +153,14 @@ class ModeSearch {
              std::vector<Eigen::Vector2d> points_m,
              const ModeSearchLimits& limits)
       : map_(map), area_(area), points_m_(std::move(points_m)), limits_(limits) {
-    const double half_width_rad = 0.25 * CoarsestCell_m(map) / FarthestOf(points_m_);
+    const double lever_m = FarthestOf(points_m_);
+    const double half_width_rad = 0.5 * WidestBlock_m(map) / lever_m;
     int headings = static_cast<int>(std::ceil(std::numbers::pi / half_width_rad));
+    const auto far = std::ranges::partition(
+        points_m_, [&](const Eigen::Vector2d& p_m) { return p_m.norm() <= 0.5 * lever_m; });
+    const std::size_t near = points_m_.size() - far.size();
     for (int level = kTop; level >= 0; --level, headings *= 2) {
-      turned_.emplace_back(points_m_, headings, map.cell_size_m());
+      turned_.emplace_back(points_m_, near, headings, map.cell_size_m());
     }
     std::ranges::reverse(turned_);
   }
@@ -214,32 +223,43 @@ class ModeSearch {
             std::uint64_t{static_cast<std::uint32_t>(x)} << 32 | static_cast<std::uint32_t>(y);
         if (!seen.insert(key).second) continue;
         for (int heading = 0; heading < turned_.back().headings(); ++heading) {
-          Push({.level = kTop,
-                .district = district,
-                .heading = heading,
-                .x = x * width,
-                .y = y * width});
+          const PoseBlock block{.level = kTop,
+                                .district = district,
+                                .heading = heading,
+                                .x = x * width,
+                                .y = y * width};
+          Push(block, BoundsOfFour(block).front());
         }
       }
     }
   }
 
-  void Push(PoseBlock block) {
-    const auto ends = turned_[static_cast<std::size_t>(block.level)].At(block.heading);
-    block.bound = area_.districts()[block.district].likelihood->Bound(
-        block.level, ends, {block.x, block.y}, threshold_);
-    if (block.bound <= threshold_) return;
+  void Push(PoseBlock block, double bound) {
+    if (bound <= threshold_) return;
+    block.bound = bound;
     queue_.Push(block);
   }
 
+  CoarseLikelihood::FourBounds BoundsOfFour(const PoseBlock& first) const {
+    const TurnedPoints& turned = turned_[static_cast<std::size_t>(first.level)];
+    return area_.districts()[first.district].likelihood->BoundsOfFour(
+        first.level, turned.At(first.heading), {first.x, first.y}, threshold_);
+  }
+
+  // The two halves of its headings in the four quarters of its square.
   void PushParts(const PoseBlock& block) {
-    const int width = WidthOf(block.level - 1);
-    for (int part = 0; part < 8; ++part) {
-      Push({.level = block.level - 1,
-            .district = block.district,
-            .heading = 2 * block.heading + (part & 1),
-            .x = block.x + ((part >> 1) & 1) * width,
-            .y = block.y + ((part >> 2) & 1) * width});
+    const int level = block.level - 1;
+    const int width = WidthOf(level);
+    for (int half = 0; half < 2; ++half) {
+      PoseBlock part = block;
+      part.level = level;
+      part.heading = 2 * block.heading + half;
+      const CoarseLikelihood::FourBounds bounds = BoundsOfFour(part);
+      for (int quarter = 0; quarter < 4; ++quarter) {
+        part.x = block.x + (quarter & 1) * width;
+        part.y = block.y + (quarter >> 1) * width;
+        Push(part, bounds[static_cast<std::size_t>(quarter)]);
+      }
     }
   }
 
@@ -270,7 +290,7 @@ class ModeSearch {
   }
 
   static bool IsSameMode(const Pose2& a, const Pose2& b) {
-    return (a.translation_m() - b.translation_m()).norm() < kSameMode_m &&
+    return (a.translation_m() - b.translation_m()).squaredNorm() < kSameMode_m * kSameMode_m &&
            std::abs(NormalizeAngle(a.theta_rad - b.theta_rad)) < kSameMode_rad;
   }
 
@@ -305,7 +325,7 @@ ModeSearchArea::ModeSearchArea(const LikelihoodPyramid& map,
                                std::span<const Eigen::Vector2d> places_m,
                                double reach_m)
     : reach_m_(reach_m) {
-  const double around_m = reach_m + kFarthestModePoint_m + 2.0 * CoarsestCell_m(map);
+  const double around_m = reach_m + kFarthestModePoint_m + 4.0 * WidestBlock_m(map);
   for (std::vector<Eigen::Vector2d>& of_district_m : ByDistrict(places_m)) {
     const Eigen::AlignedBox2d box = AreaAround(of_district_m, around_m);
     districts_.push_back(

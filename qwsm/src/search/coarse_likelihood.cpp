@@ -3,25 +3,16 @@
 #include "qwsm/search/coarse_likelihood.hpp"
 
 #include <algorithm>
-#include <array>
+#include <bit>
+#include <cstring>
 #include <limits>
+
+#include "short_sums.hpp"
 
 namespace qwsm {
 namespace {
 
 constexpr int kTileSide = LikelihoodTile::kSide;
-
-// Cells of the next finer level, from the one that begins with it on, that together reach as far as
-// a cell of a level does. Up to level 2 both have the same stride, then the coarser one's is twice
-// as long; what lies between the cells named they reach over themselves.
-std::span<const int> PartsOf(int level) {
-  static constexpr std::array<int, 2> kOfSecond = {0, 1};
-  static constexpr std::array<int, 2> kOfThird = {0, 2};
-  static constexpr std::array<int, 3> kOfOthers = {0, 4, 5};
-  if (level == 1) return kOfSecond;
-  if (level == 2) return kOfThird;
-  return kOfOthers;
-}
 
 // Raises the cells of a row to those of another one, as far as that has any; or to every second one
 // of them.
@@ -36,12 +27,95 @@ void RaiseRow(std::span<std::uint8_t> row, std::span<const std::uint8_t> by, int
   }
 }
 
+// Cells of a plane, so many strides apart, that together reach as far as is wanted.
+std::vector<int> PartsOf(int reach, int stride, int wanted_reach) {
+  const int last = (wanted_reach - reach) / stride;
+  std::vector<int> parts;
+  for (int part = 0; part < last; part += reach / stride) parts.push_back(part);
+  parts.push_back(last);
+  return parts;
+}
+
+// So that four bytes may be read wherever there is one.
+constexpr std::size_t kReadAhead = sizeof(std::uint32_t) - 1;
+
+// Where a square of offsets is in a plane.
+struct SquareInPlane {
+  const std::uint8_t* cells;
+  int width;       // Of the plane.
+  int shift;       // Of the plane.
+  GridCell first;  // Level-0 cell of the square.
+  int next;        // So many cells on is the next square.
+
+  const std::uint8_t* At(const GridCell& cell) const {
+    const int x = (cell.x + first.x) >> shift;
+    const int y = (cell.y + first.y) >> shift;
+    return cells + y * width + x;
+  }
+};
+
+// Sums over a scan at a square of offsets and at its neighbours.
+class FourSums {
+ public:
+  FourSums(std::size_t points, double needed) : left_(kFull * static_cast<int>(points)) {
+    full_ = left_;
+    needed_ = static_cast<int>(needed * full_);
+  }
+
+  // Adds points until none of the sums can be as large as needed any more.
+  void Add(std::span<const GridCell> points, const SquareInPlane& square) {
+    constexpr std::size_t kAtOnce = 16;
+    while (!points.empty() && MayReach()) {
+      const auto next = points.first(std::min(points.size(), kAtOnce));
+      points = points.subspan(next.size());
+      left_ -= kFull * static_cast<int>(next.size());
+      AddSome(next, square);
+    }
+  }
+
+  CoarseLikelihood::FourBounds Means() const {
+    CoarseLikelihood::FourBounds means;
+    for (std::size_t i = 0; i < sums_.size(); ++i) means[i] = sums_[i] / static_cast<double>(full_);
+    return means;
+  }
+
+ private:
+  static constexpr int kFull = std::numeric_limits<std::uint8_t>::max();
+
+  bool MayReach() const { return *std::ranges::max_element(sums_) + left_ >= needed_; }
+
+  void AddSome(std::span<const GridCell> points, const SquareInPlane& square) {
+    EightSums sums{};  // Of four cells, and of the four above.
+    for (const GridCell& point : points) {
+      const std::uint8_t* const at = square.At(point);
+      std::uint32_t row = 0;
+      std::uint32_t row_above = 0;
+      std::memcpy(&row, at, sizeof(row));
+      std::memcpy(&row_above, at + square.next * square.width, sizeof(row_above));
+      using Words = std::uint64_t __attribute__((vector_size(16)));
+      const Words rows{row | std::uint64_t{row_above} << 32, 0};
+      sums += WidenedFirst(std::bit_cast<SixteenBytes>(rows));
+    }
+    sums_[0] += sums[0];
+    sums_[1] += sums[square.next];
+    sums_[2] += sums[4];
+    sums_[3] += sums[4 + square.next];
+  }
+
+  std::array<int, 4> sums_{};
+  int full_;
+  int left_;  // What the points may add that are not yet added.
+  int needed_;
+};
+
 }  // namespace
 
-CoarseLikelihood::Plane::Plane(int columns, int rows)
-    : width(columns),
+CoarseLikelihood::Plane::Plane(int of_side, int of_shift, int columns, int rows)
+    : side(of_side),
+      shift(of_shift),
+      width(columns),
       height(rows),
-      cells(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows)) {}
+      cells(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) + kReadAhead) {}
 
 CoarseLikelihood::CoarseLikelihood(const LikelihoodPyramid& map, const Eigen::AlignedBox2d& area) {
   const GridCell low = map.CellAt(area.min());
@@ -50,73 +124,72 @@ CoarseLikelihood::CoarseLikelihood(const LikelihoodPyramid& map, const Eigen::Al
   const GridCell tiles{(high.x >> LikelihoodTile::kBits) - first.x + 1,
                        (high.y >> LikelihoodTile::kBits) - first.y + 1};
   first_ = {first.x * kTileSide, first.y * kTileSide};
-  const int stride = 1 << StrideShiftOf(0);
-  planes_.emplace_back(tiles.x * kTileSide / stride, tiles.y * kTileSide / stride);
-  const std::vector<const LikelihoodTile*> found = map.FindTiles(first, tiles);
-  auto tile = found.begin();
-  for (int row = 0; row < tiles.y; ++row) {
-    for (int column = 0; column < tiles.x; ++column, ++tile) {
-      if (*tile != nullptr) Raise(**tile, {column, row});
-    }
+  planes_.push_back(Coarsened(FinestPlane(map, first, tiles), 2, 0));
+  planes_.push_back(Coarsened(planes_.back(), 4, 1));
+  for (int level = 2; level < kLevels; ++level) {
+    const int width = WidthOf(level);
+    planes_.push_back(Coarsened(planes_.back(), width + width / 2, level - 1));
+    planes_.push_back(Coarsened(planes_.back(), 2 * width, level - 1));
   }
-  for (int level = 1; level < kLevels; ++level) planes_.push_back(Coarsened(planes_.back(), level));
 }
 
-// The finest level: cell c holds the maximum over 2 c .. 2 c + 2.
-void CoarseLikelihood::Raise(const LikelihoodTile& tile, GridCell at) {
-  Plane& plane = planes_.front();
-  const std::uint8_t* likelihood = tile.likelihoods(0);
-  for (int y = at.y * kTileSide; y < (at.y + 1) * kTileSide; ++y) {
-    for (int x = at.x * kTileSide; x < (at.x + 1) * kTileSide; ++x, ++likelihood) {
-      if (*likelihood == 0) continue;
-      for (int row = std::max(0, (y - 1) >> 1); row <= y >> 1; ++row) {
-        for (int column = std::max(0, (x - 1) >> 1); column <= x >> 1; ++column) {
-          plane.At(column, row) = std::max(plane.At(column, row), *likelihood);
-        }
+// As they are in the pyramid.
+CoarseLikelihood::Plane CoarseLikelihood::FinestPlane(const LikelihoodPyramid& map,
+                                                      GridCell first,
+                                                      GridCell tiles) {
+  Plane plane(1, 0, tiles.x * kTileSide, tiles.y * kTileSide);
+  const std::vector<const LikelihoodTile*> found = map.FindTiles(first, tiles);
+  auto tile = found.begin();
+  for (int row = 0; row < plane.height; row += kTileSide) {
+    for (int column = 0; column < plane.width; column += kTileSide, ++tile) {
+      if (*tile == nullptr) continue;
+      const std::uint8_t* likelihoods = (*tile)->likelihoods(0);
+      for (int y = 0; y < kTileSide; ++y, likelihoods += kTileSide) {
+        std::copy_n(likelihoods, kTileSide, &plane.cells[plane.Index(column, row + y)]);
       }
     }
   }
+  return plane;
 }
 
 // One axis after the other: the maximum in a square is that of its columns' maxima.
-CoarseLikelihood::Plane CoarseLikelihood::Coarsened(const Plane& fine, int level) {
-  const int shift = StrideShiftOf(level) - StrideShiftOf(level - 1);
-  Plane rows(fine.width, (fine.height + shift) >> shift);
-  for (const int part : PartsOf(level)) {
-    for (int y = 0; y < rows.height && (y << shift) + part < fine.height; ++y) {
-      RaiseRow(rows.Row(y), fine.Row((y << shift) + part), 1);
+CoarseLikelihood::Plane CoarseLikelihood::Coarsened(const Plane& fine, int side, int shift) {
+  const int halvings = shift - fine.shift;
+  const std::vector<int> parts = PartsOf(fine.reach(), fine.stride(), (1 << shift) + side - 1);
+  Plane rows(side, shift, fine.width, (fine.height + halvings) >> halvings);
+  for (const int part : parts) {
+    for (int y = 0; y < rows.height && (y << halvings) + part < fine.height; ++y) {
+      RaiseRow(rows.Row(y), fine.Row((y << halvings) + part), 1);
     }
   }
-  Plane coarse((fine.width + shift) >> shift, rows.height);
-  for (const int part : PartsOf(level)) {
+  Plane coarse(side, shift, (fine.width + halvings) >> halvings, rows.height);
+  for (const int part : parts) {
     for (int y = 0; y < coarse.height; ++y) {
-      RaiseRow(coarse.Row(y), rows.Row(y).subspan(static_cast<std::size_t>(part)), 1 << shift);
+      RaiseRow(coarse.Row(y), rows.Row(y).subspan(static_cast<std::size_t>(part)), 1 << halvings);
     }
   }
   return coarse;
 }
 
-double CoarseLikelihood::Bound(int level,
-                               std::span<const GridCell> cells,
-                               GridCell offset,
-                               double needed) const {
-  constexpr std::size_t kStride = 16;  // Points after which to ask whether to go on.
-  constexpr int kFull = std::numeric_limits<std::uint8_t>::max();
-  const Plane& plane = planes_[static_cast<std::size_t>(level)];
-  const int shift = StrideShiftOf(level);
-  const int quarter = (SideOf(level) + 3) / 4;
-  const int x = offset.x - first_.x - quarter;
-  const int y = offset.y - first_.y - quarter;
-  const double full = kFull * static_cast<double>(cells.size());
-  const auto needed_sum = static_cast<int>(needed * full);
-  int sum = 0;
-  while (!cells.empty()) {
-    const auto next = cells.first(std::min(cells.size(), kStride));
-    cells = cells.subspan(next.size());
-    for (const GridCell& cell : next) sum += plane.At((cell.x + x) >> shift, (cell.y + y) >> shift);
-    if (sum + kFull * static_cast<int>(cells.size()) < needed_sum) break;
-  }
-  return sum / full;
+// A square's bounds and those of its neighbours to the right stand in one row of a plane, those of
+// the ones above in another.
+CoarseLikelihood::FourBounds CoarseLikelihood::BoundsOfFour(int level,
+                                                            const Cells& cells,
+                                                            GridCell offset,
+                                                            double needed) const {
+  FourSums sums(cells.near.size() + cells.far.size(), needed);
+  const auto add = [&](std::span<const GridCell> points, const Plane& plane) {
+    const int margin = (plane.side - WidthOf(level) + 1) / 2;
+    sums.Add(points,
+             {.cells = plane.cells.data(),
+              .width = plane.width,
+              .shift = plane.shift,
+              .first = {offset.x - first_.x - margin, offset.y - first_.y - margin},
+              .next = WidthOf(level) >> plane.shift});
+  };
+  add(cells.near, NearPlane(level));
+  add(cells.far, FarPlane(level));
+  return sums.Means();
 }
 
 }  // namespace qwsm

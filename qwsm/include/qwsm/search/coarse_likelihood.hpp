@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -17,51 +18,65 @@ namespace qwsm {
 /// date, but one cell reaches over twice the offsets that it bounds, and to a search that begins
 /// with nothing every wall seems to be everywhere.
 ///
-/// A level bounds squares of `s` offsets to a side, s = 2, 4, 8 ..., in level-0 cells of the
-/// pyramid. Its cells are `t` apart, a quarter of s where s is 8 or more, and cell c holds the
-/// maximum over the level-0 cells c t .. c t + t + s - 2 in each axis.
+/// A level bounds squares of `w` offsets to a side, w = 1, 2, 4 ... in level-0 cells of the
+/// pyramid, of a scan that is turned by up to so much that its far points move by w / 2, its near
+/// ones by w / 4: for these, which are most, the bounds are the closer. (Half a cell, where w is 1,
+/// may lead into the cell before; the one after is not counted, or the finest bounds would tell
+/// little.)
 class CoarseLikelihood {
  public:
   static constexpr int kLevels = 6;
   /// Side of the squares of offsets that a level bounds.
-  static constexpr int SideOf(int level) { return 1 << (level + 1); }
+  static constexpr int WidthOf(int level) { return 1 << level; }
+
+  /// Where the points of a scan are. The order within each group does not matter.
+  struct Cells {
+    std::span<const GridCell> near;
+    std::span<const GridCell> far;
+  };
+  /// Of a square of offsets, and of those right of it, above it, and right above it.
+  using FourBounds = std::array<double, 4>;
 
   /// @param area in metres; outside of it nothing may be asked for.
   CoarseLikelihood(const LikelihoodPyramid& map, const Eigen::AlignedBox2d& area);
 
-  /// Upper bound of the mean likelihood, 0..1, of cells that are moved by an offset, by up to half
-  /// the level's side more along both axes, and each by up to a quarter of it in any direction.
-  /// @param needed where the bound is lower than that, any lower value may be returned.
-  double Bound(int level, std::span<const GridCell> cells, GridCell offset, double needed) const;
+  /// Upper bounds of the mean likelihood, 0..1, of cells that are moved by any offset of a square.
+  /// @param offset the first one of the square. @param needed where all four bounds are lower than
+  /// that, any lower values may be returned.
+  FourBounds BoundsOfFour(int level, const Cells& cells, GridCell offset, double needed) const;
 
  private:
-  // The cells of a level, row by row.
+  // The maxima over squares of `side` offsets. Its cells are 2^shift level-0 cells apart, and cell
+  // c holds the maximum over the level-0 cells c 2^shift .. (c + 1) 2^shift + side - 2 in each
+  // axis.
   struct Plane {
-    Plane(int columns, int rows);
-    std::uint8_t& At(int x, int y) { return cells[Index(x, y)]; }
-    std::uint8_t At(int x, int y) const { return cells[Index(x, y)]; }
+    Plane(int of_side, int of_shift, int columns, int rows);
     std::span<std::uint8_t> Row(int y) {
       return std::span(cells).subspan(Index(0, y), static_cast<std::size_t>(width));
     }
     std::span<const std::uint8_t> Row(int y) const {
       return std::span(cells).subspan(Index(0, y), static_cast<std::size_t>(width));
     }
+    std::size_t Index(int x, int y) const { return static_cast<std::size_t>(y * width + x); }
+    int stride() const { return 1 << shift; }
+    int reach() const { return stride() + side - 1; }
 
+    int side;
+    int shift;
     int width;
     int height;
     std::vector<std::uint8_t> cells;
-
-   private:
-    std::size_t Index(int x, int y) const { return static_cast<std::size_t>(y * width + x); }
   };
 
-  // A cell is 2^StrideShiftOf(level) level-0 cells apart from the next.
-  static constexpr int StrideShiftOf(int level) { return level < 3 ? 1 : level - 1; }
-  void Raise(const LikelihoodTile& tile, GridCell at);
-  static Plane Coarsened(const Plane& fine, int level);
+  static Plane FinestPlane(const LikelihoodPyramid& map, GridCell first, GridCell tiles);
+  static Plane Coarsened(const Plane& fine, int side, int shift);
+  const Plane& At(int plane) const { return planes_[static_cast<std::size_t>(plane)]; }
+  // The finest levels have one plane for all points.
+  const Plane& NearPlane(int level) const { return At(level < 2 ? level : 2 * level - 2); }
+  const Plane& FarPlane(int level) const { return At(level < 1 ? 0 : 2 * level - 1); }
 
   GridCell first_;             // Level-0 cell that all planes begin with.
-  std::vector<Plane> planes_;  // By level.
+  std::vector<Plane> planes_;  // From the finest level on, each for near points and for far.
 };
 
 }  // namespace qwsm
