@@ -123,7 +123,7 @@ TEST(MapCorrector, HasNothingToCorrectWithoutScans) {
 
 TEST(MapCorrector, InsertsScansAnewWhereTheyBelong) {
   const std::vector<MappingStep> steps = Drive(FurnishedRoom()).steps;
-  const MapCorrector corrector = Fed(steps);
+  MapCorrector corrector = Fed(steps);
   std::vector<UncertainPose2> moved = corrector.Correct().map_node;
   const double x_m = moved.back().T_a_b.x_m;
   for (UncertainPose2& map_node : moved) map_node.T_a_b = Pose2{.x_m = 5.0} * map_node.T_a_b;

@@ -101,7 +101,7 @@ JointCorrection CorrectJointly(const ScanMap& map,
   const bool is_extended = !drives.empty() && drives.front().first_scan < scans;
   JointCorrection joint;
   if (is_extended) {
-    const MapCorrector corrector = CorrectorOf(map, drives, options);
+    MapCorrector corrector = CorrectorOf(map, drives, options);
     joint.correction = corrector.Correct();
     joint.map = corrector.MapAt(joint.correction.map_node);
   } else {

@@ -218,10 +218,9 @@ ScanMap MapCorrector::MapAt(std::span<const UncertainPose2> map_node) const {
   return map;
 }
 
-Correction MapCorrector::Correct() const {
-  const State& state = *state_;
-  RecentSurfaces recent;
-  const LoopFinder finder(state.options, state.nodes, state.chains, recent);
+Correction MapCorrector::Correct() {
+  State& state = *state_;
+  const LoopFinder finder(state.options, state.nodes, state.chains, state.recent);
   const LastSearch search{.found = state.loops, .end = state.EndOfSettled()};
   std::vector<FoundLoop> found = finder.Find(0, AnsweredPoses(state.nodes), search);
   std::optional<SolvedGraph> solved;
@@ -231,6 +230,7 @@ Correction MapCorrector::Correct() const {
     solved = state.Solve(found);
     if (!solved) return state.Refused(std::move(found));
   }
+  state.recent = {};  // Room for the covariances of all nodes.
   // The map is the judge: poses that are right explain at least what the answers explain.
   if (IsWorse(state.ContradictionAt(solved->graph.T_map_node),
               state.ContradictionAt(PosesOf(state.nodes)))) {

@@ -64,7 +64,7 @@ struct GraphCovariance::Factor {
   // Three columns of the inverse, those of a node.
   Eigen::MatrixXd ColumnsOf(NodeId node) const {
     Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(equations.rows(), 3);
-    if (node > 0) unit.middleRows<3>(NormalMatrix::RowOf(node)).setIdentity();
+    if (node > 0) unit.middleRows<3>(equations.RowOf(node)).setIdentity();
     return equations.factor().solve(unit);
   }
 };
@@ -81,16 +81,14 @@ GraphCovariance::GraphCovariance(GraphCovariance&&) noexcept = default;
 GraphCovariance& GraphCovariance::operator=(GraphCovariance&&) noexcept = default;
 
 std::vector<Eigen::Matrix3d> GraphCovariance::Marginals() const {
-  const NormalMatrix::Factor& factor = factor_->equations.factor();
+  const NormalMatrix& equations = factor_->equations;
+  const NormalMatrix::Factor& factor = equations.factor();
   const InverseOnPattern Z(factor.matrixL().nestedExpression(), factor.vectorD());
-  const auto& order = factor.permutationP().indices();
   std::vector<Eigen::Matrix3d> marginals(T_map_node_.size(), Eigen::Matrix3d::Zero());
   for (NodeId node = 1; node < T_map_node_.size(); ++node) {
-    const Eigen::Index row = NormalMatrix::RowOf(node);
+    const Eigen::Index row = equations.RowOf(node);
     for (Eigen::Index r = 0; r < 3; ++r) {
-      for (Eigen::Index c = 0; c < 3; ++c) {
-        marginals[node](r, c) = Z.At(order(row + r), order(row + c));
-      }
+      for (Eigen::Index c = 0; c < 3; ++c) marginals[node](r, c) = Z.At(row + r, row + c);
     }
   }
   return marginals;
@@ -104,8 +102,9 @@ std::vector<Eigen::Matrix3d> GraphCovariance::RelativeTo(
     if (node == from) continue;
     const EdgeLinearization linear =
         Linearize({.from = from, .to = node, .T_from_to = {}}, T_map_node_);
-    const Eigen::Matrix3d cross = node > 0 ? columns.middleRows<3>(NormalMatrix::RowOf(node)).eval()
-                                           : Eigen::Matrix3d::Zero();
+    const Eigen::Matrix3d cross = node > 0
+                                      ? columns.middleRows<3>(factor_->equations.RowOf(node)).eval()
+                                      : Eigen::Matrix3d::Zero();
     const Eigen::Matrix3d mixed = linear.J_to * cross * linear.J_from.transpose();
     relative[node] = linear.J_from * marginals[from] * linear.J_from.transpose() +
                      linear.J_to * marginals[node] * linear.J_to.transpose() + mixed +

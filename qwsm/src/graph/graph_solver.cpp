@@ -13,9 +13,11 @@ namespace {
 // By how much the loss becomes less convex from one step to the next (Yang et al. 2020).
 constexpr double kLessConvex = 1.4;
 
-void Move(const Eigen::VectorXd& step, std::vector<Pose2>& T_map_node) {
+void Move(const NormalMatrix& equations,
+          const Eigen::VectorXd& step,
+          std::vector<Pose2>& T_map_node) {
   for (NodeId node = 1; node < T_map_node.size(); ++node) {
-    const auto of_node = step.segment<3>(NormalMatrix::RowOf(node));
+    const auto of_node = step.segment<3>(equations.RowOf(node));
     Pose2& pose = T_map_node[node];
     pose.x_m += of_node.x();
     pose.y_m += of_node.y();
@@ -65,7 +67,7 @@ GraphSolution SparseGraphSolver::Solve(const PoseGraph& graph) const {
     equations.Linearize(graph, solution.T_map_node, solution.weights);
     if (!equations.Factorize()) return solution;
     const Eigen::VectorXd step = equations.Step();
-    Move(step, solution.T_map_node);
+    Move(equations, step, solution.T_map_node);
     solution.is_converged = convexity == 1.0 && IsWithinTolerance(step, options_);
     convexity = std::max(1.0, convexity / kLessConvex);
   }

@@ -13,11 +13,13 @@
 namespace qwsm {
 
 /// The normal equations H d = -g of a graph: three rows per node but the first, which is fixed.
-/// Which blocks of H there are follows from the edges and is found out once.
+/// Which blocks of H there are follows from the edges and is found out once. Nodes stand in an
+/// order that fills the factor in little: it is nodes that are ordered (Amestoy, Davis and Duff
+/// 1996), a ninth of the work of ordering rows, and H needs no copy to be factorised.
 class NormalMatrix {
  public:
   using Sparse = Eigen::SparseMatrix<double>;
-  using Factor = Eigen::SimplicialLDLT<Sparse, Eigen::Lower>;
+  using Factor = Eigen::SimplicialLDLT<Sparse, Eigen::Upper, Eigen::NaturalOrdering<int>>;
 
   explicit NormalMatrix(const PoseGraph& graph);
 
@@ -33,12 +35,14 @@ class NormalMatrix {
   const Factor& factor() const { return factor_; }
   Eigen::Index rows() const { return hessian_.rows(); }
   /// First row of a node. @pre node > 0
-  static Eigen::Index RowOf(NodeId node) { return 3 * (static_cast<Eigen::Index>(node) - 1); }
+  Eigen::Index RowOf(NodeId node) const { return 3 * place_of_node_[node - 1]; }
 
  private:
+  // Adds to the block of two nodes, or to its transpose, whichever is in the upper triangle.
   void Add(NodeId row, NodeId column, const Eigen::Matrix3d& block);
 
-  Sparse hessian_;  // Its lower triangle.
+  std::vector<Eigen::Index> place_of_node_;  // Without the first.
+  Sparse hessian_;                           // Its upper triangle.
   Eigen::VectorXd gradient_;
   Factor factor_;
 };

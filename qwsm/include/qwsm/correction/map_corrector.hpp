@@ -49,7 +49,7 @@ class MapCorrector {
 
   /// Finds the loops among what was taken so far, and the poses that agree best with them. Where
   /// the map would contradict the scans more than before, poses stay as they are.
-  Correction Correct() const;
+  Correction Correct();
 
  private:
   struct State;
