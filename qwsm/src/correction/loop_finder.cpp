@@ -4,7 +4,9 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <map>
 #include <tuple>
+#include <utility>
 
 #include "submap_match.hpp"
 
@@ -110,11 +112,38 @@ const FoundLoop* LoopFinder::LoopOf(const Candidate& candidate,
   return is_known ? &*found : nullptr;
 }
 
-// Of each pass, which is a row of submaps that came near, the nearest one.
+// Of each pass of a scan, which is a row of submaps that it came near to, the nearest one.
+class LoopFinder::NearestOfPasses {
+ public:
+  // @param submap of the candidate, each after those before it of the same robot.
+  void Add(const Candidate& candidate, const RigidSubmap& submap) {
+    const auto [entry, is_first] = last_passes_.try_emplace({candidate.node, submap.robot});
+    Pass& last = entry->second;
+    if (is_first || submap.ordinal != last.ordinal + 1) {
+      last.nearest = nearest_.size();
+      nearest_.push_back(candidate);
+    } else if (candidate.distance_m < nearest_[last.nearest].distance_m) {
+      nearest_[last.nearest] = candidate;
+    }
+    last.ordinal = submap.ordinal;
+  }
+
+  std::vector<Candidate> Take() { return std::move(nearest_); }
+
+ private:
+  struct Pass {
+    std::size_t ordinal = 0;  // Of its last submap so far.
+    std::size_t nearest = 0;
+  };
+
+  std::map<std::pair<NodeId, std::size_t>, Pass> last_passes_;  // Of a scan among those of a robot.
+  std::vector<Candidate> nearest_;
+};
+
 std::vector<LoopFinder::Candidate> LoopFinder::NearPasses(NodeId first,
                                                           const PoseEstimate& estimate,
                                                           ReferencePoses& references) const {
-  std::vector<Candidate> near;
+  NearestOfPasses nearest;
   const std::span<const RigidSubmap> submaps = chains_.submaps();
   for (std::size_t i = 0; i < submaps.size(); ++i) {
     const std::vector<NodeId> in_reach = NodesInReach(first, submaps[i], estimate);
@@ -126,13 +155,11 @@ std::vector<LoopFinder::Candidate> LoopFinder::NearPasses(NodeId first,
     references.Keep(i, {seen.begin(), seen.begin() + later_submaps});
     for (auto k = static_cast<std::size_t>(later_submaps); k < seen.size(); ++k) {
       const double distance_m = seen[k].T_a_b.translation_m().norm();
-      if (distance_m <= ReachOf(seen[k].SigmaXY_m())) near.push_back({nodes[k], i, seen[k], distance_m});
+      if (distance_m > ReachOf(seen[k].SigmaXY_m())) continue;
+      nearest.Add({nodes[k], i, seen[k], distance_m}, submaps[i]);
     }
   }
-  std::ranges::sort(near, {}, [&](const Candidate& c) {
-    return std::tuple(c.node, submaps[c.submap].robot, c.submap);
-  });
-  return NearestOfEachPass(near);
+  return nearest.Take();
 }
 
 // Later nodes that may be in reach, whatever their errors and the submap's have in common.
@@ -149,25 +176,6 @@ std::vector<NodeId> LoopFinder::NodesInReach(NodeId first,
     if (apart_m <= ReachOf(estimate.SigmaXYAtMost_m(reference, node))) nodes.push_back(node);
   }
   return nodes;
-}
-
-std::vector<LoopFinder::Candidate> LoopFinder::NearestOfEachPass(
-    std::span<const Candidate> near) const {
-  std::vector<Candidate> nearest;
-  const Candidate* last = nullptr;
-  for (const Candidate& candidate : near) {
-    const RigidSubmap& submap = chains_.submaps()[candidate.submap];
-    const bool same_pass = last != nullptr && candidate.node == last->node &&
-                           submap.robot == chains_.submaps()[last->submap].robot &&
-                           submap.ordinal == chains_.submaps()[last->submap].ordinal + 1;
-    if (!same_pass) {
-      nearest.push_back(candidate);
-    } else if (candidate.distance_m < nearest.back().distance_m) {
-      nearest.back() = candidate;
-    }
-    last = &candidate;
-  }
-  return nearest;
 }
 
 std::optional<Loop> LoopFinder::Recognise(const Candidate& candidate,

@@ -50,6 +50,7 @@ class LoopFinder {
     UncertainPose2 reference_node;  // As it is expected.
     double distance_m = 0.0;
   };
+  class NearestOfPasses;
 
   std::vector<Candidate> NearPasses(NodeId first,
                                     const PoseEstimate& estimate,
@@ -57,7 +58,6 @@ class LoopFinder {
   std::vector<NodeId> NodesInReach(NodeId first,
                                    const RigidSubmap& submap,
                                    const PoseEstimate& estimate) const;
-  std::vector<Candidate> NearestOfEachPass(std::span<const Candidate> near) const;
   const FoundLoop* LoopOf(const Candidate& candidate, std::span<const FoundLoop> loops) const;
   std::vector<FoundLoop> AddThoseNear(NodeId first,
                                       std::span<const FoundLoop> last,

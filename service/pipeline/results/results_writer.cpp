@@ -19,6 +19,10 @@ namespace {
 
 constexpr const char* kKittiFile = "trajectory.kitti";
 
+void Correct(std::vector<io::PathPose>& path, const Correction& correction) {
+  for (std::size_t i = 0; i < path.size(); ++i) path[i].map_robot = correction.map_robot[i];
+}
+
 }  // namespace
 
 ResultsWriter::ResultsWriter(const ResultsFolder& folder, const ResultsOptions& options)
@@ -41,9 +45,11 @@ void ResultsWriter::Finish(const ScanMap& map,
                            const Trajectory& truth) {
   trajectory_.Commit();
   table_.Commit();
-  io::WriteKittiFile(folder_ / kKittiFile, io::TrajectoryOf(history_.path()));
-  WriteFigures({.map = map, .matcher = matcher, .path = history_.path(), .loops = {}}, truth);
-  Draw({.map = map, .overlay = history_.Overlay()}, rendering);
+  Drawing drawing{.map = map, .overlay = std::move(history_).Overlay()};
+  const std::vector<io::PathPose>& path = drawing.overlay.path;
+  io::WriteKittiFile(folder_ / kKittiFile, io::TrajectoryOf(path));
+  WriteFigures({.map = map, .matcher = matcher, .path = path, .loops = {}}, truth);
+  Draw(std::move(drawing), rendering);
 }
 
 void ResultsWriter::Finish(const ScanMap& map_live,
@@ -54,10 +60,11 @@ void ResultsWriter::Finish(const ScanMap& map_live,
   trajectory_.Commit();
   table_.Commit();
   const Correction& correction = corrected.correction;
-  Drawing drawing{.map = corrected.map, .overlay = history_.Overlay(), .correction = &correction};
+  Drawing drawing{
+      .map = corrected.map, .overlay = std::move(history_).Overlay(), .correction = &correction};
   io::MapOverlay& overlay = drawing.overlay;
   overlay.answered = io::TrajectoryOf(overlay.path);
-  overlay.path = CorrectedPath(correction);
+  Correct(overlay.path, correction);
   overlay.loops = LoopLines(correction);
   AddCorrectedPoses(folder_ / "scans.csv", correction.map_robot);
   const Trajectory trajectory = io::TrajectoryOf(overlay.path);
@@ -71,12 +78,6 @@ void ResultsWriter::Finish(const ScanMap& map_live,
                truth);
   if (has_pictures_) drawing.before = RenderOrWarn(map_live, rendering);
   Draw(std::move(drawing), rendering);
-}
-
-std::vector<io::PathPose> ResultsWriter::CorrectedPath(const Correction& correction) const {
-  std::vector<io::PathPose> path = history_.path();
-  for (std::size_t i = 0; i < path.size(); ++i) path[i].map_robot = correction.map_robot[i];
-  return path;
 }
 
 void ResultsWriter::WriteFigures(const Outcome& outcome, const Trajectory& truth) {

@@ -61,7 +61,7 @@ class ResultsWriter final : public StepSink {
               const OccupancyGridOptions& rendering,
               const Trajectory& truth = {});
 
-  /// The poses as they were answered.
+  /// The poses as they were answered, before Finish().
   const std::vector<io::PathPose>& path() const { return history_.path(); }
   const RunStatistics& statistics() const { return statistics_; }
   /// Counts of loops, after Finish() of a corrected run.
@@ -91,7 +91,6 @@ class ResultsWriter final : public StepSink {
   void WriteFigures(const Outcome& outcome, const Trajectory& truth);
   void Draw(Drawing drawing, const OccupancyGridOptions& rendering) const;
   void WriteReport(const Drawing& drawing, const OccupancyGrid* grid) const;
-  std::vector<io::PathPose> CorrectedPath(const Correction& correction) const;
 
   ResultsFolder folder_;
   bool has_pictures_;

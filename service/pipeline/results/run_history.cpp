@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <limits>
+#include <utility>
 
 namespace qwsm::pipeline {
 
@@ -18,8 +19,14 @@ void RunHistory::Take(const TimedStep& timed) {
   odometry_.Add({.stamp = step.stamp, .T_map_robot = *T_map_odom_ * *timed.T_odom_robot});
 }
 
-io::MapOverlay RunHistory::Overlay() const {
+io::MapOverlay RunHistory::Overlay() const& {
   return {.path = path_.elements(), .truth = {}, .odometry = odometry_.elements()};
+}
+
+io::MapOverlay RunHistory::Overlay() && {
+  return {.path = std::move(path_).elements(),
+          .truth = {},
+          .odometry = std::move(odometry_).elements()};
 }
 
 }  // namespace qwsm::pipeline

@@ -27,7 +27,9 @@ class RunHistory final : public StepSink {
 
   const std::vector<io::PathPose>& path() const { return path_.elements(); }
   /// Path and odometry as they are drawn over a map.
-  io::MapOverlay Overlay() const;
+  io::MapOverlay Overlay() const&;
+  /// Likewise, without a second copy of them: they are not kept any more.
+  io::MapOverlay Overlay() &&;
   /// The residual of each scan, in mm; NaN where there was no match.
   const std::vector<double>& residuals_mm() const { return residuals_mm_.elements(); }
   /// The processor time that each scan took, in ms.

@@ -30,7 +30,8 @@ class ThinnedSeries {
     elements_.push_back(std::move(element));
   }
 
-  const std::vector<T>& elements() const { return elements_; }
+  const std::vector<T>& elements() const& { return elements_; }
+  std::vector<T> elements() && { return std::move(elements_); }
 
  private:
   std::size_t capacity_;
