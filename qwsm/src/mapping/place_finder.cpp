@@ -169,8 +169,7 @@ void PlaceFinder::AddModes(const Sight& sight) {
 // @param news share of the points that no look before has seen.
 void PlaceFinder::Weigh(const Sight& sight, double news) {
   const double nats_per_score = NatsPerScore(sight.points.size(), locator_.options().search);
-  const double held = PointsHoldingWithoutAnySurface(sight.points);
-  const double held_share = held / static_cast<double>(sight.points.size());
+  const bool is_held = PointsHoldingWithoutAnySurface(sight.points) >= kHeldPoints;
   for (Hypothesis& one : hypotheses_) {
     double rival_score = sight.modes.floor_score;
     for (const Hypothesis& other : hypotheses_) {
@@ -180,9 +179,8 @@ void PlaceFinder::Weigh(const Sight& sight, double news) {
     const double lead_nats = nats_per_score * (one.score - rival_score);
     const double fit_nats = evidence_.Weigh(sight.map, sight.points, match).Nats();
     one.nats += kNewInALook * (lead_nats + fit_nats);
-    one.held_nats += held_share * kNewInALook * (lead_nats + fit_nats);
     if (!one.is_new) one.foretold_nats += news * (lead_nats + fit_nats);
-    one.is_held = held >= kHeldPoints;
+    one.is_held = is_held;
     if (lead_nats > 0.0) {
       ++one.looks;
       one.map_robot = {.T_a_b = match.T_ref_cur, .covariance = match.covariance};
@@ -214,9 +212,8 @@ double PlaceFinder::LeadNats() const {
 bool PlaceFinder::IsFound() const {
   if (LeadNats() < kSureNats) return false;
   const Hypothesis& best = hypotheses_.front();
-  const bool is_told_by_others = best.is_held && best.held_nats >= elsewhere_nats_;
   return best.looks >= kMinLooks && best.way_m >= kMinWay_m &&
-         (is_told_by_others || best.foretold_nats >= kForetoldNats);
+         (best.is_held || best.foretold_nats >= kForetoldNats);
 }
 
 PlaceBelief PlaceFinder::Belief() const {

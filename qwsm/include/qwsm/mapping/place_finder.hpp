@@ -46,11 +46,10 @@ struct PlaceBelief {
 /// taken, follows them from look to look, and weighs for each how well the scan fits by itself, and
 /// how much better than anywhere else. A place that is no more than the best of many wrong ones
 /// does neither for long: the next look is best explained somewhere else. What the robot had seen
-/// when it thought of a place is explained there, however often it looks, and one surface alone may
-/// be one that the map lacks elsewhere: a place is found once it has foretold what came into view
-/// later, or once all other surfaces tell it from as many places as there are. And the larger the
-/// map, the more has to speak for a place: among many there is one that is like where the map does
-/// not reach.
+/// when it thought of a place is explained there, however often it looks: where one surface alone
+/// tells that place from others, which may be a surface that the map lacks elsewhere, it is not
+/// found before it has foretold what comes into view later. And the larger the map, the more has to
+/// speak for a place: among many there is one that is like where the map does not reach.
 class PlaceFinder {
  public:
   explicit PlaceFinder(const MapperOptions& options = {});
@@ -73,11 +72,10 @@ class PlaceFinder {
     double nats = 0.0;   // Evidence of all looks against its being elsewhere.
     // What surfaces tell for it that nobody had seen when the place was thought of.
     double foretold_nats = 0.0;
-    double held_nats = 0.0;  // What all surfaces but the one that holds best tell for it.
-    bool is_held = false;    // In the last look, by more than one surface.
-    int looks = 0;           // At which it was there.
-    double way_m = 0.0;      // That it was followed for.
-    bool is_new = true;      // Since the last look.
+    bool is_held = false;  // In the last look, by more than one surface.
+    int looks = 0;         // At which it was there.
+    double way_m = 0.0;    // That it was followed for.
+    bool is_new = true;    // Since the last look.
   };
   struct Sight;
 
