@@ -3,8 +3,6 @@
 #include "qwsm/search/coarse_likelihood.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 #include <limits>
 
 #include "short_sums.hpp"
@@ -88,13 +86,8 @@ class FourSums {
     EightSums sums{};  // Of four cells, and of the four above.
     for (const GridCell& point : points) {
       const std::uint8_t* const at = square.At(point);
-      std::uint32_t row = 0;
-      std::uint32_t row_above = 0;
-      std::memcpy(&row, at, sizeof(row));
-      std::memcpy(&row_above, at + square.next * square.width, sizeof(row_above));
-      using Words = std::uint64_t __attribute__((vector_size(16)));
-      const Words rows{row | std::uint64_t{row_above} << 32, 0};
-      sums += WidenedFirst(std::bit_cast<SixteenBytes>(rows));
+      const std::uint64_t above = LoadFour(at + square.next * square.width);
+      sums += Widened(LoadFour(at) | above << 32);
     }
     sums_[0] += sums[0];
     sums_[1] += sums[square.next];

@@ -23,6 +23,12 @@ inline SixteenBytes LoadSixteen(const std::uint8_t* bytes) {
   return sixteen;
 }
 
+inline std::uint32_t LoadFour(const std::uint8_t* bytes) {
+  std::uint32_t four = 0;
+  std::memcpy(&four, bytes, sizeof(four));
+  return four;
+}
+
 inline SixteenBytes GreaterOf(SixteenBytes a, SixteenBytes b) { return a > b ? a : b; }
 
 // The first and the last eight of bytes as numbers of 16 bits: interleaved with zeros.
@@ -33,6 +39,11 @@ inline EightSums WidenedFirst(SixteenBytes bytes) {
 inline EightSums WidenedLast(SixteenBytes bytes) {
   return std::bit_cast<EightSums>(__builtin_shufflevector(
       bytes, SixteenBytes{}, 8, 16, 9, 17, 10, 18, 11, 19, 12, 20, 13, 21, 14, 22, 15, 23));
+}
+// Eight bytes, the first one lowest, as numbers of 16 bits.
+inline EightSums Widened(std::uint64_t eight) {
+  using Words = std::uint64_t __attribute__((vector_size(16)));
+  return WidenedFirst(std::bit_cast<SixteenBytes>(Words{eight, 0}));
 }
 
 // Whether any comparison was true.
@@ -56,10 +67,9 @@ class SumsOfRows {
   // @param row where the first row is.
   void Add(const std::uint8_t* row) {
     for (EightSums& sums : rows_) {
-      using Words = std::uint64_t __attribute__((vector_size(16)));
       std::uint64_t eight = 0;
       std::memcpy(&eight, row, sizeof(eight));
-      sums += WidenedFirst(std::bit_cast<SixteenBytes>(Words{eight, 0}));
+      sums += Widened(eight);
       row += kStride;
     }
   }
@@ -88,11 +98,7 @@ class SumsOfSquares {
 
   void Add(const std::uint8_t* first) {
     using FourRows = std::uint32_t __attribute__((vector_size(16)));
-    const auto row = [first](int i) {
-      std::uint32_t four = 0;
-      std::memcpy(&four, first + i * kStride, sizeof(four));
-      return four;
-    };
+    const auto row = [first](int i) { return LoadFour(first + i * kStride); };
     const auto bytes = std::bit_cast<SixteenBytes>(FourRows{row(0), row(1), row(2), row(3)});
     upper_ += WidenedFirst(bytes);
     lower_ += WidenedLast(bytes);
