@@ -4,6 +4,7 @@
 // kill -9 while two maps become one gives two maps or one, never a mixture.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <random>
@@ -19,6 +20,8 @@
 namespace qwsm::team {
 namespace {
 
+using namespace std::chrono_literals;
+
 constexpr int kKillsOfJoining = 20;
 constexpr int kMostScans = 80;
 constexpr std::uint64_t kJoined = 1'000'000;  // No scan has that number.
@@ -33,18 +36,18 @@ class JointTeller final : public TeamSink {
   test::ChildProcess::Tell tell_;
 };
 
-/// A robot maps the room; another one that nobody placed is found in it.
+/// A robot maps the room; another one that nobody placed is found in it, a minute later.
 void DriveUntilJoined(TeamService& service,
                       const std::function<bool()>& is_joined,
                       const std::function<void(int)>& done) {
   service.Start();
-  const auto drive = [&](const std::string& robot, int first, int count) {
-    test::Give(service, robot, first, count);
+  const auto drive = [&](const std::string& robot, int scan, std::chrono::minutes later) {
+    test::Give(service, robot, scan, 1, later);
     service.WaitUntilIdle();
   };
-  for (int scan = 0; scan < 126; ++scan) drive("robot1", scan, 1);
+  for (int scan = 0; scan < 126; ++scan) drive("robot1", scan, 0min);
   for (int scan = 1; scan <= kMostScans && !is_joined(); ++scan) {
-    drive("robot2", 29 + scan, 1);
+    drive("robot2", 29 + scan, 1min);
     done(scan);
   }
 }

@@ -24,9 +24,16 @@ inline team::TeamServiceOptions LosslessOptions() {
 }
 
 /// Gives the service so many of a robot's scans, with its odometry.
-inline void Give(team::TeamService& service, const std::string& robot, int first, int count) {
+/// @param later than they are stamped in the room: who drives there after another one need not have
+/// been seen by that.
+inline void Give(team::TeamService& service,
+                 const std::string& robot,
+                 int first,
+                 int count,
+                 Timestamp later = {}) {
   for (int scan = first; scan < first + count; ++scan) {
-    const Observation observation = ObservationInRoom(scan);
+    Observation observation = ObservationInRoom(scan);
+    observation.scan.stamp += later;
     service.robots().TakeOdometry(robot, observation.scan.stamp, *observation.T_odom_robot);
     EXPECT_TRUE(service.robots().TakeScan(robot, observation.scan));
   }

@@ -85,7 +85,8 @@ std::optional<UncertainPose2> DecideOn(const UncertainPose2& a_b,
                                        const std::stop_token& stop = {}) {
   JointCandidates candidates;
   candidates.Propose(a_b, b.scans().front().map_robot.T_a_b);
-  return candidates.Decide(Agreement(), a, b, stop);
+  return candidates.Decide(
+      Agreement(), {.map = a, .scans_of_robots = {}}, {.map = b, .scans_of_robots = {}}, stop);
 }
 
 std::vector<const RelevantScan*> AllOf(const ScanMap& map) {

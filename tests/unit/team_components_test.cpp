@@ -5,6 +5,7 @@
 // own until they are found in the one that the team shares.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -21,10 +22,15 @@ namespace {
 using test::LosslessOptions;
 using test::StatusOf;
 
+/// Robots drive there one after another.
+Timestamp LatenessOf(const std::string& robot) {
+  return std::chrono::minutes(robot == "robot1" ? 0 : 1);
+}
+
 /// Drives a robot through the room, scan by scan.
 void Drive(TeamService& service, const std::string& robot, int first, int count) {
   for (int scan = first; scan < first + count; ++scan) {
-    test::Give(service, robot, scan, 1);
+    test::Give(service, robot, scan, 1, LatenessOf(robot));
     service.WaitUntilIdle();
   }
 }
@@ -141,7 +147,6 @@ TEST(TeamComponents, TakeARobotOutOfTheMapThatWasToldItsStartWrongly) {
 /// whose wheels did not turn meanwhile.
 Observation Carried(int scan, int from, int to) {
   Observation observation = test::ObservationInRoom(scan - from + to);
-  observation.scan.stamp = test::ObservationInRoom(scan).scan.stamp;
   observation.T_odom_robot =
       test::PoseInRoom(from) * (test::PoseInRoom(to).Inverse() * *observation.T_odom_robot);
   return observation;
@@ -149,7 +154,8 @@ Observation Carried(int scan, int from, int to) {
 
 void DriveCarried(TeamService& service, const std::string& robot, int from, int to, int count) {
   for (int scan = from; scan < from + count; ++scan) {
-    const Observation observation = Carried(scan, from, to);
+    Observation observation = Carried(scan, from, to);
+    observation.scan.stamp = test::ObservationInRoom(scan).scan.stamp + LatenessOf(robot);
     service.robots().TakeOdometry(robot, observation.scan.stamp, *observation.T_odom_robot);
     EXPECT_TRUE(service.robots().TakeScan(robot, observation.scan));
     service.WaitUntilIdle();
@@ -186,7 +192,8 @@ TEST(TeamComponents, AreBegunByARobotThatIsLost) {
   // Nothing that it saw stands where it did not see it.
   for (const TeamScan& scan : service.MapOf("robot2")->Scans()) {
     if (scan.key.robot != "robot2") continue;
-    const auto number = static_cast<int>(scan.scan.stamp / std::chrono::milliseconds(100));
+    const Timestamp in_room = scan.scan.stamp - LatenessOf("robot2");
+    const auto number = static_cast<int>(in_room / std::chrono::milliseconds(100));
     const Pose2 truth = test::PoseInRoom(number < 40 ? number : number + 50);
     EXPECT_LT((truth.Inverse() * scan.map_robot.T_a_b).translation_m().norm(), 0.05) << number;
   }

@@ -21,7 +21,7 @@ constexpr double kRefutedNats = -9.2;
 // A robot that is not seen where it would be in view: once in ten it is too low, or too thin; and
 // then it always is.
 constexpr double kUnseenNats = 2.3;
-constexpr double kMostUnseenNats = 9.2;
+constexpr int kMostUnseen = 4;
 // Places so near to each other are the same one.
 constexpr double kOnePlace_m = 1.0;
 constexpr double kOnePlace_rad = 0.2;
@@ -44,50 +44,37 @@ void JointCandidates::Propose(const UncertainPose2& a_b, const Pose2& T_b_robot)
   if (!is_known) candidates_.push_back(proposed);
 }
 
-void JointCandidates::Confront(const RobotSight& in_a, const RobotSight& in_b) {
-  for (Candidate& candidate : candidates_) {
-    const Pose2 T_robots = in_a.T_map_robot.Inverse() * candidate.a_b.T_a_b * in_b.T_map_robot;
-    if (SeesNobodyAt(in_a.points, T_robots.translation_m()) ||
-        SeesNobodyAt(in_b.points, T_robots.Inverse().translation_m())) {
-      candidate.unseen_nats = std::min(candidate.unseen_nats + kUnseenNats, kMostUnseenNats);
-    }
-  }
-}
-
-void JointCandidates::ForgetSights() {
-  for (Candidate& candidate : candidates_) candidate.unseen_nats = 0.0;
-}
-
 std::optional<UncertainPose2> JointCandidates::Decide(const MapAgreement& agreement,
-                                                      const ScanMap& a,
-                                                      const ScanMap& b,
+                                                      const DrawnMap& a,
+                                                      const DrawnMap& b,
                                                       const std::stop_token& stop) {
   if (!Weigh(agreement, a, b, stop)) return std::nullopt;
   KeepBest();
   if (!HasLeader()) return std::nullopt;
   Candidate& best = candidates_.front();
-  if (best.scans_among_echoes != best.scans) Contest(agreement, a, b, best, stop);
+  if (best.scans_among_echoes != best.scans) Contest(agreement, a.map, b.map, best, stop);
   if (best.nats_among_echoes - best.unseen_nats < kSureNats) return std::nullopt;
   // Pairs are better ones where it has been fitted.
-  const UncertainPose2 fitted = agreement.Judge(a, b, best.a_b, stop).a_b;
+  const UncertainPose2 fitted = agreement.Judge(a.map, b.map, best.a_b, stop).a_b;
   return stop.stop_requested() ? std::nullopt : std::optional(fitted);
 }
 
 // @return false if it was stopped.
 bool JointCandidates::Weigh(const MapAgreement& agreement,
-                            const ScanMap& a,
-                            const ScanMap& b,
+                            const DrawnMap& a,
+                            const DrawnMap& b,
                             const std::stop_token& stop) {
-  const std::size_t scans = a.scans().size() + b.scans().size();
+  const std::size_t scans = a.map.scans().size() + b.map.scans().size();
   for (Candidate& candidate : candidates_) {
     const bool has_grown =
         static_cast<double>(scans) > kGrown * static_cast<double>(candidate.scans);
     if (!has_grown || candidate.nats < kRefutedNats) continue;
-    const MapAgreement::Judgement judged = agreement.Judge(a, b, candidate.a_b, stop);
+    const MapAgreement::Judgement judged = agreement.Judge(a.map, b.map, candidate.a_b, stop);
     if (stop.stop_requested()) return false;
     candidate.a_b = judged.a_b;
     candidate.nats = judged.nats;
     candidate.least_known = judged.least_known;
+    candidate.unseen_nats = kUnseenNats * CountUnseen(a, b, judged.a_b.T_a_b, kMostUnseen);
     candidate.scans = scans;
   }
   return true;

@@ -15,8 +15,8 @@
 namespace qwsm::team {
 
 /// The places where one component of a team's map may lie in another one. Robots that look around
-/// propose them; what decides is all that both maps show there, and they show more of it as they
-/// grow.
+/// propose them; what decides is all that both maps show there, and whether robots saw each other
+/// where they would have been in view. Maps show more of it as they grow.
 class JointCandidates {
  public:
   /// Places of at least this probability, as a robot sees it, are worth being proposed.
@@ -25,17 +25,11 @@ class JointCandidates {
   /// Takes a place that a robot thought of. @param T_b_robot where the robot was.
   void Propose(const UncertainPose2& a_b, const Pose2& T_b_robot);
 
-  /// Takes where two robots were at a time, one in each map, and what they saw: were the maps one
-  /// there, they would have seen each other.
-  void Confront(const RobotSight& in_a, const RobotSight& in_b);
-  /// Takes back all of that, to confront all candidates with the same sights.
-  void ForgetSights();
-
   /// Weighs all places anew of which the maps may show more than they did.
   /// @return the place where the two lie beyond doubt, leading all others; none once it is stopped.
   std::optional<UncertainPose2> Decide(const MapAgreement& agreement,
-                                       const ScanMap& a,
-                                       const ScanMap& b,
+                                       const DrawnMap& a,
+                                       const DrawnMap& b,
                                        const std::stop_token& stop);
 
  private:
@@ -44,7 +38,7 @@ class JointCandidates {
     Pose2 T_b_robot;        // Who proposed it; turns about there move little of what was seen.
     double nats = 0.0;      // Evidence for it, against its being a place that looks alike.
     std::size_t scans = 0;  // Of both maps, when it was weighed.
-    // Evidence against it: robots that would be in view of each other do not see each other.
+    // Evidence against it: robots that were in view of each other there did not see each other.
     double unseen_nats = 0.0;
     Eigen::Vector2d least_known = Eigen::Vector2d::UnitX();
     // What is left of the evidence in a building that is as alike as the maps show it, by so many
@@ -57,8 +51,8 @@ class JointCandidates {
 
   static bool IsSamePlace(const Candidate& one, const Candidate& other);
   bool Weigh(const MapAgreement& agreement,
-             const ScanMap& a,
-             const ScanMap& b,
+             const DrawnMap& a,
+             const DrawnMap& b,
              const std::stop_token& stop);
   bool HasLeader() const;
   static void Contest(const MapAgreement& agreement,

@@ -3,7 +3,6 @@
 #include "service/team/atlas/map_merger.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <set>
 #include <utility>
 
@@ -33,6 +32,20 @@ std::pair<Value, Value> IntoAndFrom(const MapComponent& one,
   return one.name < other.name ? std::pair(of_one, of_other) : std::pair(of_other, of_one);
 }
 
+// Of each robot, in the order of time.
+std::vector<std::vector<ScanId>> ScansOfRobots(const TeamMap& keys, const ScanMap& map) {
+  std::map<std::string, std::vector<ScanId>> by_robot;
+  for (const RelevantScan& scan : map.scans()) {
+    by_robot[keys.KeyOf(scan.id).robot].push_back(scan.id);
+  }
+  std::vector<std::vector<ScanId>> scans_of_robots;
+  for (auto& [robot, scans] : by_robot) {
+    std::ranges::stable_sort(scans, {}, [&](ScanId id) { return map.scans()[id].scan.stamp; });
+    scans_of_robots.push_back(std::move(scans));
+  }
+  return scans_of_robots;
+}
+
 }  // namespace
 
 MapMerger::MapMerger(const MapperOptions& options)
@@ -47,12 +60,11 @@ std::optional<ComponentPlace> MapMerger::LookAround(const std::vector<MapCompone
                                                     const std::stop_token& stop) {
   ForgetWhatIsNone(components);
   if (components.size() < 2) return std::nullopt;
-  const Sightings all = NewestSightings();
-  for (const auto& [robot, sighting] : all) {
+  for (const auto& [robot, sighting] : NewestSightings()) {
     for (const MapComponent& other : components) {
       if (stop.stop_requested()) return std::nullopt;
       if (other.map == sighting.component.map) continue;
-      if (const auto found = LookFor(robot, sighting, all, other, stop)) return found;
+      if (const auto found = LookFor(robot, sighting, other, stop)) return found;
     }
   }
   return std::nullopt;
@@ -60,7 +72,6 @@ std::optional<ComponentPlace> MapMerger::LookAround(const std::vector<MapCompone
 
 std::optional<ComponentPlace> MapMerger::LookFor(const std::string& robot,
                                                  const Sighting& sighting,
-                                                 const Sightings& all,
                                                  const MapComponent& other,
                                                  const std::stop_token& stop) {
   const Chart& own = ChartOf(sighting.component);
@@ -80,30 +91,14 @@ std::optional<ComponentPlace> MapMerger::LookFor(const std::string& robot,
         IntoAndFrom(sighting.component, own_robot, other, place.map_robot);
     candidates.Propose(into_robot * Inverse(from_robot), from_robot.T_a_b);
   }
-  Confront(sighting, other, all, candidates);
   const auto [into, from] = IntoAndFrom(sighting.component, &own, other, &there);
-  const auto into_from = candidates.Decide(agreement_, into->map, from->map, stop);
+  const auto into_from = candidates.Decide(agreement_, into->Drawn(), from->Drawn(), stop);
   if (!into_from) return std::nullopt;
   return ComponentPlace{.from = from->version,
                         .from_name = from->component,
                         .into = into->version,
                         .into_name = into->component,
                         .into_from = *into_from};
-}
-
-// With those in the other component that were seen at about the same time.
-void MapMerger::Confront(const Sighting& sighting,
-                         const MapComponent& other,
-                         const Sightings& all,
-                         JointCandidates& candidates) {
-  const RobotSight own{sighting.points, sighting.map_robot.T_a_b};
-  for (const auto& [robot, there] : all) {
-    if (there.component.map != other.map) continue;
-    if (std::chrono::abs(there.stamp - sighting.stamp) > kSameTime) continue;
-    const RobotSight its{there.points, there.map_robot.T_a_b};
-    const auto [in_into, in_from] = IntoAndFrom(sighting.component, own, other, its);
-    candidates.Confront(in_into, in_from);
-  }
 }
 
 MapMerger::Search& MapMerger::SearchBy(const std::string& robot,
@@ -192,6 +187,7 @@ const MapMerger::Chart& MapMerger::ChartOf(const MapComponent& component) {
     chart.component = component.name;
     chart.version = version;
     chart.map = contents->map;
+    chart.scans_of_robots = ScansOfRobots(*component.map, chart.map);
   }
   return chart;
 }

@@ -18,6 +18,7 @@
 #include "service/team/atlas/joint_candidates.hpp"
 #include "service/team/atlas/map_agreement.hpp"
 #include "service/team/atlas/team_atlas.hpp"
+#include "service/team/atlas/teammate_sight.hpp"
 
 namespace qwsm::team {
 
@@ -25,7 +26,6 @@ namespace qwsm::team {
 struct Sighting {
   MapComponent component;
   MapVersion version;  ///< Of the component's map that the pose is in.
-  Timestamp stamp{};
   std::vector<ScanPoint> points;
   UncertainPose2 map_robot;
 };
@@ -64,11 +64,14 @@ class MapMerger {
                                            const std::stop_token& stop);
 
  private:
-  // A copy of a component's map as it was.
+  // A copy of a component's map as it was, and who drew it.
   struct Chart {
     std::string component;
     MapVersion version;
     ScanMap map;
+    std::vector<std::vector<ScanId>> scans_of_robots;
+
+    DrawnMap Drawn() const { return {.map = map, .scans_of_robots = scans_of_robots}; }
   };
   // A robot's search for its place in another component than its own.
   struct Search {
@@ -80,10 +83,6 @@ class MapMerger {
   using Sightings = std::map<std::string, Sighting, std::less<>>;  // By robot.
 
   Sightings NewestSightings() const;
-  static void Confront(const Sighting& sighting,
-                       const MapComponent& other,
-                       const Sightings& all,
-                       JointCandidates& candidates);
   std::map<std::string, std::size_t> Told() const;
   double NatsOfPlace(const std::vector<TeamScan>& scans,
                      const std::string& robot,
@@ -91,7 +90,6 @@ class MapMerger {
   const Chart& ChartOf(const MapComponent& component);
   std::optional<ComponentPlace> LookFor(const std::string& robot,
                                         const Sighting& sighting,
-                                        const Sightings& all,
                                         const MapComponent& other,
                                         const std::stop_token& stop);
   Search& SearchBy(const std::string& robot,

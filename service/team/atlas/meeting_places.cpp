@@ -3,8 +3,8 @@
 #include "service/team/atlas/meeting_places.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <iterator>
+#include <array>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -25,15 +25,11 @@ struct Apart {
   std::size_t places_looked_into = 0;  // Of those known.
 };
 
-// Scans were added in the order of time.
-const RelevantScan* NearestInTime(std::span<const RelevantScan> scans, Timestamp stamp) {
-  const auto stamp_of = [](const RelevantScan& scan) { return scan.scan.stamp; };
-  const auto after = std::ranges::lower_bound(scans, stamp, {}, stamp_of);
-  if (after == scans.begin()) return scans.empty() ? nullptr : &*after;
-  const auto before = std::prev(after);
-  const bool is_before =
-      after == scans.end() || stamp - stamp_of(*before) < stamp_of(*after) - stamp;
-  return is_before ? &*before : &*after;
+// A robot adds scans in the order of time.
+std::vector<ScanId> AllScans(const ScanMap& map) {
+  std::vector<ScanId> all(map.scans().size());
+  std::iota(all.begin(), all.end(), ScanId{0});
+  return all;
 }
 
 /// The maps that have a place, and the search for the others'.
@@ -46,7 +42,8 @@ class MeetingSearch {
         options_(options),
         stop_(stop),
         agreement_(options.locator, options.free_space),
-        met_{.places = {MeetingPlace{}}, .map = *maps.front()} {}
+        met_{.places = {MeetingPlace{}}, .map = *maps.front()},
+        scans_of_met_{AllScans(*maps.front())} {}
 
   /// Looks around in all maps that have a place, and have got one since it was done last.
   /// @return whether the map has a place now.
@@ -55,8 +52,10 @@ class MeetingSearch {
       const MeetingPlace& other = met_.places[apart.places_looked_into++];
       const std::optional<UncertainPose2> place = LookInto(other, apart);
       if (!place) continue;
+      std::vector<ScanId>& scans_of_robot = scans_of_met_.emplace_back();
       for (const RelevantScan& scan : maps_[apart.map]->scans()) {
-        met_.map.Insert(scan.scan, ToPoints(scan.scan), *place * scan.map_robot);
+        scans_of_robot.push_back(
+            met_.map.Insert(scan.scan, ToPoints(scan.scan), *place * scan.map_robot));
       }
       met_.places.push_back({.map = apart.map, .first_map = *place});
       return true;
@@ -97,22 +96,11 @@ class MeetingSearch {
   }
 
   std::optional<UncertainPose2> Decide(Apart& apart) const {
-    apart.candidates.ForgetSights();
-    for (const MeetingPlace& other : met_.places) Confront(other, apart);
-    return apart.candidates.Decide(agreement_, met_.map, *maps_[apart.map], {});
-  }
-
-  // With what both robots saw at about the same time.
-  void Confront(const MeetingPlace& other, Apart& apart) const {
-    const std::span<const RelevantScan> others = maps_[other.map]->scans();
-    for (const RelevantScan& own : maps_[apart.map]->scans()) {
-      const RelevantScan* const there = NearestInTime(others, own.scan.stamp);
-      if (!there || std::chrono::abs(there->scan.stamp - own.scan.stamp) > kSameTime) continue;
-      const std::vector<ScanPoint> seen_there = ToPoints(there->scan);
-      const std::vector<ScanPoint> seen = ToPoints(own.scan);
-      apart.candidates.Confront({seen_there, other.first_map.T_a_b * there->map_robot.T_a_b},
-                                {seen, own.map_robot.T_a_b});
-    }
+    const std::array scans_of_robot{AllScans(*maps_[apart.map])};
+    return apart.candidates.Decide(agreement_,
+                                   {.map = met_.map, .scans_of_robots = scans_of_met_},
+                                   {.map = *maps_[apart.map], .scans_of_robots = scans_of_robot},
+                                   {});
   }
 
   std::span<const ScanMap* const> maps_;
@@ -120,6 +108,7 @@ class MeetingSearch {
   const std::function<bool()>& stop_;
   MapAgreement agreement_;
   MetMaps met_;
+  std::vector<std::vector<ScanId>> scans_of_met_;  // Of each robot.
 };
 
 }  // namespace

@@ -210,7 +210,6 @@ void RobotSession::TellWhatIsSeen(const MappingStep& step, std::span<const ScanP
   context_.merger.See(name(),
                       {.component = component_,
                        .version = version_,
-                       .stamp = step.stamp,
                        .points = {points.begin(), points.end()},
                        .map_robot = step.map_robot});
 }
