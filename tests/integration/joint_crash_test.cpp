@@ -59,8 +59,9 @@ class JointCrash : public ::testing::Test {
     TeamService service(test::LosslessOptions(), sink);
     DriveUntilJoined(
         service, [&] { return !sink.epochs().empty(); }, [&](int scan) { joined_at_ = scan; });
-    ASSERT_EQ(sink.epochs().size(), 1U);
-    for (const MovedScan& scan : sink.epochs().front().scans) {
+    const std::vector<TeamEpoch> epochs = sink.epochs();
+    ASSERT_EQ(epochs.size(), 1U);
+    for (const MovedScan& scan : epochs.front().scans) {
       if (scan.key.robot == "robot2") moved_.push_back(scan);
     }
     ASSERT_GT(moved_.size(), 1U);
