@@ -126,6 +126,11 @@ struct Canvas::Recording {
     surface.reset(cairo_recording_surface_create(CAIRO_CONTENT_COLOR_ALPHA, &extent));
     context.reset(cairo_create(surface.get()));
   }
+  Recording(const Recording&) = delete;
+  Recording& operator=(const Recording&) = delete;
+  /// An SVG surface of Cairo 1.16 never lets go of what was painted on it: what was recorded is
+  /// freed here, whoever holds it.
+  ~Recording() { cairo_surface_finish(surface.get()); }
 
   /// An image that was drawn: the recording refers to it.
   struct DrawnImage {
