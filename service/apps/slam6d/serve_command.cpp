@@ -8,10 +8,10 @@
 
 #include "service/apps/serving.hpp"
 #include "service/apps/slam6d/commands.hpp"
+#include "service/dds/service/cloud_inbox.hpp"
 #include "service/dds/service/cloud_map_outbox.hpp"
 #include "service/dds/service/cloud_mark_places.hpp"
 #include "service/dds/service/mark_exchange.hpp"
-#include "service/dds/service/service_inbox.hpp"
 #include "service/dds/service/service_outbox.hpp"
 #include "service/options/slam6d/program_options.hpp"
 #include "service/pipeline/slam6d/cloud_results.hpp"

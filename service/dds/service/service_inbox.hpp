@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <set>
@@ -16,7 +17,6 @@
 #include "service/dds/service/robot_topics.hpp"
 #include "service/dds/wire/refusals.hpp"
 #include "service/dds/wire/static_transforms.hpp"
-#include "service/team/service/cloud_session.hpp"
 #include "service/team/service/robot_session.hpp"
 #include "service/team/session/session_list.hpp"
 
@@ -24,7 +24,7 @@ namespace qwsm::dds {
 
 /// Brings a service what robots say, and agrees with other services of its kind on who answers
 /// which robot. Used by one thread.
-/// @tparam Session team::RobotSession or team::CloudSession.
+/// @tparam Session team::RobotSession, or team::CloudSession: see CloudInbox.
 template <class Session>
 class ServiceInbox {
  public:
@@ -61,6 +61,8 @@ class ServiceInbox {
     std::unique_ptr<BasicRobotInbox<Kind>> inbox;
   };
 
+  static std::uint64_t NanosecondsNow();
+
   void NoteMembers();
   void ShareRobots();
   void Join(const std::string& robot, std::uint64_t since_ns);
@@ -85,10 +87,6 @@ class ServiceInbox {
   std::map<std::string, Robot> robots_;
 };
 
-/// Brings the service for clouds what robots say.
-using CloudInbox = ServiceInbox<team::CloudSession>;
-
 extern template class ServiceInbox<team::RobotSession>;
-extern template class ServiceInbox<team::CloudSession>;
 
 }  // namespace qwsm::dds

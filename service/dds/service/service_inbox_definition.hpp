@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// How ServiceInbox works, for the two sources that make one of it: each is in the library of its
+// service, so that who is no service for clouds links none.
+#pragma once
+
+#include <utility>
+
+#include "service/dds/service/service_inbox.hpp"
+#include "service/dds/wire/wire_kind.hpp"
+
+namespace qwsm::dds {
+
+template <class Session>
+std::uint64_t ServiceInbox<Session>::NanosecondsNow() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return static_cast<std::uint64_t>(std::chrono::nanoseconds(now).count());
+}
+
+template <class Session>
+ServiceInbox<Session>::ServiceInbox(const Participant& participant,
+                                    const std::vector<std::string>& robots,
+                                    std::vector<std::string> scan_topics,
+                                    team::SessionList<Session>& sessions,
+                                    std::vector<RobotTopics*> topics,
+                                    Refusals& refusals)
+    : participant_(participant),
+      sessions_(sessions),
+      scan_topics_(std::move(scan_topics)),
+      topics_(std::move(topics)),
+      refusals_(refusals),
+      finds_robots_(robots.empty()),
+      wait_set_(participant),
+      discovery_(participant, scan_topics_, OnWire<Kind>::kScanType),
+      others_(participant, OnWire<Kind>::kReportTopic, OnWire<Kind>::kReportType),
+      static_transform_reader_(participant, kStaticTransformsTopic, Profile::kStaticTransforms) {
+  wait_set_.Add(discovery_.handle());
+  wait_set_.Add(others_.handle());
+  wait_set_.Add(static_transform_reader_.handle());
+  for (const std::string& robot : robots) Join(RobotNames(robot).name(), 0);
+}
+
+template <class Session>
+void ServiceInbox<Session>::Deliver() {
+  NoteMembers();
+  ShareRobots();
+  for (const auto& [name, robot] : robots_) robot.inbox->HoldScans();
+  static_transform_reader_.TakeAllWithSource(
+      [this](const wire::TFMessage& message, const Guid& source) {
+        transforms_.Take(message, source);
+      });
+  for (const auto& [name, robot] : robots_) robot.inbox->Deliver(transforms_, sessions_);
+}
+
+template <class Session>
+void ServiceInbox<Session>::NoteMembers() {
+  const RobotDiscovery::Changes changes = discovery_.Take();
+  for (const std::string& name : changes.joined) {
+    publishers_.insert(name);
+    if (const auto robot = robots_.find(name); robot != robots_.end()) Attend(name, robot->second);
+  }
+  for (const std::string& name : changes.left) {
+    publishers_.erase(name);
+    if (robots_.contains(name)) sessions_.Lose(name);
+  }
+}
+
+// A robot is answered by one service. When that is gone, and seen to be, others find the robot.
+template <class Session>
+void ServiceInbox<Session>::ShareRobots() {
+  others_.Update();
+  if (!finds_robots_) return;
+  std::vector<std::string> claimed;
+  for (const auto& [name, robot] : robots_) {
+    if (others_.HaveBetterClaim(name, robot.claim)) claimed.push_back(name);
+  }
+  for (const std::string& robot : claimed) Leave(robot);
+  for (const std::string& robot : publishers_) {
+    if (robots_.size() >= RobotDiscovery::kMaxRobots) return;
+    if (!robots_.contains(robot) && !others_.Answer(robot)) Join(robot, NanosecondsNow());
+  }
+}
+
+// Readers stay when a robot leaves: it may come back where it left.
+template <class Session>
+void ServiceInbox<Session>::Join(const std::string& name, std::uint64_t since_ns) {
+  if (robots_.contains(name)) return;
+  const Claim claim{.since_ns = since_ns, .service = participant_.guid()};
+  Robot& robot = robots_[name];
+  robot.claim = claim;
+  Attend(name, robot);
+  // Last: who sees the topics of the answers may send scans.
+  for (RobotTopics* topics : topics_) topics->AddRobot(name, claim);
+}
+
+template <class Session>
+void ServiceInbox<Session>::Leave(const std::string& name) {
+  const auto known = robots_.find(name);
+  StopListening(known->second);
+  robots_.erase(known);
+  sessions_.HandOver(name);
+  for (RobotTopics* topics : topics_) topics->RemoveRobot(name);
+}
+
+// The robot is listened to as its publishers send.
+template <class Session>
+void ServiceInbox<Session>::Attend(const std::string& name, Robot& robot) {
+  const Profile profile = OnWire<Kind>::ScansIn(discovery_.IsReliable(name));
+  if (!robot.inbox || profile != robot.profile) Listen(name, profile, robot);
+  if (publishers_.contains(name)) sessions_.Join(name);
+}
+
+template <class Session>
+void ServiceInbox<Session>::Listen(const std::string& name, Profile profile, Robot& robot) {
+  if (robot.inbox) StopListening(robot);
+  robot.profile = profile;
+  robot.inbox = std::make_unique<BasicRobotInbox<Kind>>(
+      participant_, RobotNames(name), refusals_, scan_topics_, profile);
+  for (const Entity::Handle handle : robot.inbox->handles()) wait_set_.Add(handle);
+}
+
+template <class Session>
+void ServiceInbox<Session>::StopListening(Robot& robot) {
+  for (const Entity::Handle handle : robot.inbox->handles()) wait_set_.Remove(handle);
+  robot.inbox.reset();
+}
+
+}  // namespace qwsm::dds
