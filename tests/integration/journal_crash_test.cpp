@@ -169,6 +169,11 @@ TEST(JournalCrash, FullDiskIsToldAndMatchingGoesOnAndNothingIsLostOnceThereIsRoo
     service.Start();
     Give(service, 0, kScansOfALap);
     service.WaitUntilIdle();
+    const auto is_writing = [&] {
+      const auto journal = service.Status().journal;
+      return journal.waiting > 0 && journal.trouble.empty();
+    };
+    while (is_writing()) std::this_thread::yield();  // In a thread of its own.
     const TeamStatus full = service.Status();
     tell(full.robots.at(0).counts.answered);
     tell(full.journal.trouble.empty() ? 0 : 1);
