@@ -60,7 +60,10 @@ std::vector<Loop> LoopsOf(std::span<const FoundLoop> found) {
 // A graph at the poses that agree best with it.
 struct SolvedGraph {
   PoseGraph graph;
-  std::unique_ptr<SolvedPoses> poses;
+  GraphSolution solution;
+
+  // With their covariances, which take more memory than the graph.
+  SolvedPoses poses() const { return SolvedPoses(graph, solution); }
 };
 
 }  // namespace
@@ -125,12 +128,11 @@ NodeId MapCorrector::State::EndOfSettled() const {
 
 std::optional<SolvedGraph> MapCorrector::State::Solve(std::vector<FoundLoop>& found) const {
   PoseGraph graph{.T_map_node = PosesOf(nodes), .edges = WithAccepted(chains.edges(), found)};
-  const GraphSolution solution = SparseGraphSolver().Solve(graph);
+  GraphSolution solution = SparseGraphSolver().Solve(graph);
   if (!solution.is_converged) return std::nullopt;
   ContradictLoops(std::span(solution.weights).subspan(chains.edges().size()), found);
   graph.T_map_node = solution.T_map_node;
-  auto poses = std::make_unique<SolvedPoses>(graph, solution);
-  return SolvedGraph{.graph = std::move(graph), .poses = std::move(poses)};
+  return SolvedGraph{.graph = std::move(graph), .solution = std::move(solution)};
 }
 
 // How uncertain they are, the ties tell.
@@ -225,12 +227,12 @@ Correction MapCorrector::Correct() {
   std::vector<FoundLoop> found = finder.Find(0, AnsweredPoses(state.nodes), search);
   std::optional<SolvedGraph> solved;
   for (int round = 0; round < kRounds; ++round) {
-    if (round > 0) found = finder.Find(0, *solved->poses, {.found = found});
+    if (round > 0) found = finder.Find(0, solved->poses(), {.found = found});
+    state.recent = {};  // Of the last submaps; the next search begins with the first.
     if (CountAccepted(found) == 0) return state.Unchanged(std::move(found));
     solved = state.Solve(found);
     if (!solved) return state.Refused(std::move(found));
   }
-  state.recent = {};  // Room for the covariances of all nodes.
   // The map is the judge: poses that are right explain at least what the answers explain.
   if (IsWorse(state.ContradictionAt(solved->graph.T_map_node),
               state.ContradictionAt(PosesOf(state.nodes)))) {
