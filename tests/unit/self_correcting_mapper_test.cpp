@@ -6,8 +6,10 @@
 
 #include <future>
 #include <memory>
+#include <span>
 #include <vector>
 
+#include "qwsm/sensor/scan_points.hpp"
 #include "tests/support/carried.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/simulated_drive.hpp"
@@ -42,10 +44,16 @@ TEST(SelfCorrectingMapper, GivesThePathOfAllScans) {
   for (const Observation& observation : drive) mapper.Process(observation);
   const Correction correction = mapper.Correct();
   EXPECT_EQ(correction.map_robot.size(), drive.size());
-  mapper.ForgetPoints();
+  const FinishedDrive finished = mapper.Finish();
+  EXPECT_EQ(finished.correction.map_robot.size(), drive.size());
   EXPECT_TRUE(mapper.mapper().map().surfaces().empty());
-  EXPECT_EQ(mapper.mapper().map().scans().size(), correction.map_node.size());
-  EXPECT_EQ(mapper.MapAt(correction.map_node).scans().size(), correction.map_node.size());
+  const std::span<const RelevantScan> answered = mapper.mapper().map().scans();
+  ASSERT_EQ(finished.map.scans().size(), answered.size());
+  for (std::size_t i = 0; i < answered.size(); ++i) {
+    const RelevantScan& corrected = finished.map.scans()[i];
+    EXPECT_EQ(ToPoints(corrected.scan).size(), ToPoints(answered[i].scan).size()) << i;
+    EXPECT_EQ(corrected.map_robot.T_a_b, finished.correction.map_node[i].T_a_b) << i;
+  }
 }
 
 TEST(SelfCorrectingMapper, DoesNotDependOnThreads) {

@@ -48,11 +48,10 @@ void Append(const MappingStep& step, MappedLog& mapped) {
 }
 
 void Correct(SelfCorrectingMapper& mapper, MappedLog& mapped) {
-  Correction correction = mapper.Correct();
-  mapper.ForgetPoints();
-  mapped.map = mapper.MapAt(correction.map_node);
-  mapped.map_robot = std::move(correction.map_robot);
-  mapped.loops = std::move(correction.loops);
+  FinishedDrive finished = mapper.Finish();
+  mapped.map = std::move(finished.map);
+  mapped.map_robot = std::move(finished.correction.map_robot);
+  mapped.loops = std::move(finished.correction.loops);
 }
 
 MappedLog MapScans(pipeline::LogSource& source, const MapperOptions& options, bool correct) {

@@ -126,9 +126,9 @@ Correction BackgroundCorrector::Correct() {
   return corrector_.Correct();
 }
 
-ScanMap BackgroundCorrector::MapAt(std::span<const UncertainPose2> map_node) {
+ScanMap BackgroundCorrector::MapAt(std::span<const UncertainPose2> map_node) && {
   Finish();
-  return corrector_.MapAt(map_node);
+  return std::move(corrector_).MapAt(map_node);
 }
 
 }  // namespace qwsm

@@ -103,7 +103,7 @@ JointCorrection CorrectJointly(const ScanMap& map,
   if (is_extended) {
     MapCorrector corrector = CorrectorOf(map, drives, options);
     joint.correction = corrector.Correct();
-    joint.map = corrector.MapAt(joint.correction.map_node);
+    joint.map = std::move(corrector).MapAt(joint.correction.map_node);
   } else {
     joint.correction = Uncorrected(map);
     joint.map = map;

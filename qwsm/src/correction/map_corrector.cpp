@@ -211,11 +211,23 @@ void MapCorrector::ForgetSince(NodeId first) {
   state.settled_loops = std::min(state.settled_loops, CountAccepted(state.loops));
 }
 
-ScanMap MapCorrector::MapAt(std::span<const UncertainPose2> map_node) const {
+ScanMap MapCorrector::MapAt(std::span<const UncertainPose2> map_node) const& {
   ScanMap map(state_->options.map);
   for (NodeId node = 0; node < map_node.size(); ++node) {
     const LaserScan& scan = state_->nodes[node].scan;
     map.Insert(scan, ToPoints(scan), map_node[node]);
+  }
+  return map;
+}
+
+ScanMap MapCorrector::MapAt(std::span<const UncertainPose2> map_node) && {
+  ScanMap map(state_->options.map);
+  std::vector<ScanNode> nodes = std::move(state_->nodes);
+  state_.reset();  // Room for the points of the map.
+  for (NodeId id = 0; id < nodes.size(); ++id) {
+    LaserScan& scan = nodes[id].scan;
+    const std::vector<ScanPoint> points = ToPoints(scan);
+    map.Insert(std::move(scan), points, map_node[id]);
   }
   return map;
 }

@@ -99,17 +99,17 @@ void SelfCorrectingMapper::TakeBack(ScanId first) {
 // A robot that is lost once more before it was found.
 void SelfCorrectingMapper::GiveUp() {
   lost_steps_.resize(doubtful_.answers_before);
-  TakeUnplaced(*path_);
+  TakeUnplaced();
   lost_steps_.clear();
 }
 
 // They keep their place beside the last node.
-void SelfCorrectingMapper::TakeUnplaced(AnchoredPath& path) const {
+void SelfCorrectingMapper::TakeUnplaced() {
   const UncertainPose2 map_last = nodes_.map_last().value_or(UncertainPose2{});
   for (const MappingStep& step : lost_steps_) {
     MappingStep unplaced = AsLost(step, lost_->belief());
     unplaced.map_robot = map_last * step.map_robot;
-    path.Take(unplaced, map_last);
+    path_->Take(unplaced, map_last);
   }
 }
 
@@ -129,12 +129,12 @@ MappingStep SelfCorrectingMapper::Search(const Observation& observation) {
 // The place was found by a few points of the scan; all of them tell it better.
 MappingStep SelfCorrectingMapper::Find(const Observation& observation) {
   const LostRobot lost = *std::exchange(lost_, std::nullopt);
-  const MatchResult match = ScanLocator(options_.locator)
-                                .Locate(mapper_.map(), ToPoints(observation.scan), lost.map_found());
+  const MatchResult match =
+      ScanLocator(options_.locator)
+          .Locate(mapper_.map(), ToPoints(observation.scan), lost.map_found());
   const UncertainPose2 map_robot{.T_a_b = match.T_ref_cur, .covariance = match.covariance};
   const std::size_t scans_before = mapper_.map().scans().size();
-  doubtful_ = {.answers_before = path_->size(),
-               .observations = std::exchange(since_lost_, {})};
+  doubtful_ = {.answers_before = path_->size(), .observations = std::exchange(since_lost_, {})};
   Join(lost.FrameFor(map_robot));
   mapper_.PlaceAt(map_robot);
   MappingStep step = mapper_.Process(observation);
@@ -168,10 +168,19 @@ void SelfCorrectingMapper::GoOnIn(CorrectedMap corrected, Timestamp stamp) {
 
 Correction SelfCorrectingMapper::Correct() {
   Correction correction = corrector_.Correct();
-  AnchoredPath path = *path_;
-  if (lost_) TakeUnplaced(path);
-  correction.map_robot = path.At(correction.map_node);
+  const std::size_t placed = path_->size();
+  if (lost_) TakeUnplaced();
+  correction.map_robot = path_->At(correction.map_node);
+  path_->ForgetSince(placed, static_cast<NodeId>(correction.map_node.size()));
   return correction;
+}
+
+FinishedDrive SelfCorrectingMapper::Finish() {
+  mapper_.ForgetPoints();
+  Correction correction = Correct();
+  path_.reset();
+  ScanMap map = std::move(corrector_).MapAt(correction.map_node);
+  return {.correction = std::move(correction), .map = std::move(map)};
 }
 
 }  // namespace qwsm

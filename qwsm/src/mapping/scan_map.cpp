@@ -56,16 +56,17 @@ std::vector<MapPoint> PointsToStore(const SurfaceMap& surfaces,
 
 ScanMap::ScanMap(const ScanMapOptions& options) : options_(options), surfaces_(options.surfaces) {}
 
-ScanId ScanMap::Insert(const LaserScan& scan,
+ScanId ScanMap::Insert(LaserScan scan,
                        std::span<const ScanPoint> points,
                        const UncertainPose2& map_robot) {
-  return Add(Prepare(scan, points, map_robot));
+  return Add(Prepare(std::move(scan), points, map_robot));
 }
 
-MapAddition ScanMap::Prepare(const LaserScan& scan,
+MapAddition ScanMap::Prepare(LaserScan scan,
                              std::span<const ScanPoint> points,
                              const UncertainPose2& map_robot) const {
-  MapAddition addition{.scan = scan, .map_robot = map_robot, .points = {}, .own_error = {}};
+  MapAddition addition{
+      .scan = std::move(scan), .map_robot = map_robot, .points = {}, .own_error = {}};
   if (!empty()) addition.own_error = OwnError(map_robot, CovarianceUnder(points, map_robot.T_a_b));
   addition.points = PointsToStore(surfaces_, points, map_robot, options_);
   return addition;

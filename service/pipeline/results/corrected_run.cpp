@@ -69,11 +69,9 @@ std::vector<StampedAnswer> AnswersOf(std::span<const io::PathPose> path) {
 }
 
 CorrectedRun CorrectAtTheEnd(SelfCorrectingMapper& mapper) {
-  Correction correction = mapper.Correct();
-  mapper.ForgetPoints();
-  ScanMap corrected = mapper.MapAt(correction.map_node);
-  return {.correction = std::move(correction),
-          .map = std::move(corrected),
+  FinishedDrive finished = mapper.Finish();
+  return {.correction = std::move(finished.correction),
+          .map = std::move(finished.map),
           .epochs = {mapper.epochs().begin(), mapper.epochs().end()}};
 }
 

@@ -45,7 +45,10 @@ class MapCorrector {
   /// Forgets the last nodes, as if they had never been added. @param first of them.
   void ForgetSince(NodeId first);
   /// The nodes' scans inserted at these poses, in the order they were taken.
-  ScanMap MapAt(std::span<const UncertainPose2> map_node) const;
+  ScanMap MapAt(std::span<const UncertainPose2> map_node) const&;
+  /// Likewise when it is not needed any more: the scans are moved into the map.
+  /// @param map_node of all nodes.
+  ScanMap MapAt(std::span<const UncertainPose2> map_node) &&;
 
   /// Finds the loops among what was taken so far, and the poses that agree best with them. Where
   /// the map would contradict the scans more than before, poses stay as they are.

@@ -24,6 +24,12 @@ struct MapEpoch {
   std::vector<UncertainPose2> map_node;  ///< Poses of the relevant scans until then, by ScanId.
 };
 
+/// What a drive comes to.
+struct FinishedDrive {
+  Correction correction;
+  ScanMap map;  ///< The relevant scans at the corrected poses.
+};
+
 /// A mapper whose map is corrected while the robot drives: each scan is answered at once, loops
 /// are looked for beside, and where they show that the map contradicts itself the answers go on in
 /// a corrected one. The same scans give the same answers, whatever the threads do.
@@ -53,11 +59,10 @@ class SelfCorrectingMapper {
   /// Corrects path and map once more, in the end. Scans of a robot that was not found are no nodes,
   /// and keep their place beside the last node before.
   Correction Correct();
-  /// Forgets the points of mapper().map(), when no scan follows: two maps would take twice the
-  /// memory. Its scans stay as they were answered.
-  void ForgetPoints() { mapper_.ForgetPoints(); }
-  /// The relevant scans, inserted at these poses. @param map_node as Correct() gives them.
-  ScanMap MapAt(std::span<const UncertainPose2> map_node) { return corrector_.MapAt(map_node); }
+  /// Corrects path and map once more, and gives up what only more scans or corrections would need,
+  /// as two maps would take twice the memory. Left are epochs(), and the scans of mapper().map() as
+  /// they were answered. @pre neither scan nor correction follows.
+  FinishedDrive Finish();
 
  private:
   // What was answered since the view broke, or since a robot was lost that was found, and may be
@@ -74,7 +79,7 @@ class SelfCorrectingMapper {
   MappingStep Lose();
   void TakeBack(ScanId first);
   void GiveUp();
-  void TakeUnplaced(AnchoredPath& path) const;
+  void TakeUnplaced();
   MappingStep FollowLost(const Observation& observation);
   MappingStep Search(const Observation& observation);
   MappingStep Find(const Observation& observation);

@@ -82,11 +82,9 @@ class ScanMap {
   const ScanMapOptions& options() const { return options_; }
 
   /// Adds a relevant scan. @param points the scan's points, as ToPoints() gives them.
-  ScanId Insert(const LaserScan& scan,
-                std::span<const ScanPoint> points,
-                const UncertainPose2& map_robot);
+  ScanId Insert(LaserScan scan, std::span<const ScanPoint> points, const UncertainPose2& map_robot);
   /// Prepares what Insert() would add to the map as it is now.
-  MapAddition Prepare(const LaserScan& scan,
+  MapAddition Prepare(LaserScan scan,
                       std::span<const ScanPoint> points,
                       const UncertainPose2& map_robot) const;
   /// Adds what was prepared.
