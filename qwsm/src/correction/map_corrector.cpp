@@ -86,7 +86,7 @@ struct MapCorrector::State {
   explicit State(const MapperOptions& mapper) : options(mapper), chains(mapper) {}
 
   void Look();
-  std::optional<SolvedGraph> Solve(std::vector<FoundLoop>& found) const;
+  std::optional<SolvedGraph> Solve(std::vector<FoundLoop>& found);
   std::vector<UncertainPose2> PosesIn(const SolvedGraph& solved,
                                       std::span<const FoundLoop> found) const;
   bool HasManyMoreLoops() const;
@@ -126,7 +126,9 @@ NodeId MapCorrector::State::EndOfSettled() const {
   return has_moved || chains.robots() > 1 ? 0 : looked_for;
 }
 
-std::optional<SolvedGraph> MapCorrector::State::Solve(std::vector<FoundLoop>& found) const {
+// It is seldom done, and takes the room of surfaces that are made anew where they are asked for.
+std::optional<SolvedGraph> MapCorrector::State::Solve(std::vector<FoundLoop>& found) {
+  recent = {};
   PoseGraph graph{.T_map_node = PosesOf(nodes), .edges = WithAccepted(chains.edges(), found)};
   GraphSolution solution = SparseGraphSolver().Solve(graph);
   if (!solution.is_converged) return std::nullopt;
@@ -240,7 +242,6 @@ Correction MapCorrector::Correct() {
   std::optional<SolvedGraph> solved;
   for (int round = 0; round < kRounds; ++round) {
     if (round > 0) found = finder.Find(0, solved->poses(), {.found = found});
-    state.recent = {};  // Of the last submaps; the next search begins with the first.
     if (CountAccepted(found) == 0) return state.Unchanged(std::move(found));
     solved = state.Solve(found);
     if (!solved) return state.Refused(std::move(found));
