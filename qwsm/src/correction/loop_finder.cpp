@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -43,33 +44,35 @@ std::vector<FoundLoop> LoopFinder::Find(NodeId first,
   ReferencePoses references(estimate, chains_);
   std::vector<Candidate> candidates = NearPasses(first, estimate, references);
   std::vector<FoundLoop> found = RecogniseAll(candidates, last);
-  const std::vector<FoundLoop> settled = AddThoseNear(first, last.found, found);
+  const std::size_t unsettled = AddOlder(first, last.found, found);
   const auto order = [this](const FoundLoop& f) {
     return std::tuple(chains_.RobotOf(f.loop.edge.to), f.loop.edge.to, f.submap);
   };
-  std::ranges::sort(found, {}, order);
-  ConfirmByOthers(found, references, chains_);
-  found.insert(found.end(), settled.begin(), settled.end());
+  const auto to_confirm = std::span(found).first(unsettled);
+  std::ranges::sort(to_confirm, {}, order);
+  ConfirmByOthers(to_confirm, references, chains_);
   std::ranges::sort(found, {}, order);
   return found;
 }
 
-// Adds the loops of scans before the first one that new ones may yet confirm.
-// @return those that none can.
-std::vector<FoundLoop> LoopFinder::AddThoseNear(NodeId first,
-                                                std::span<const FoundLoop> last,
-                                                std::vector<FoundLoop>& found) const {
-  const std::vector<FoundLoop> news = found;
-  std::vector<FoundLoop> settled;
-  for (const FoundLoop& old : last) {
-    if (old.loop.edge.to >= first) continue;
-    const bool is_near = std::ranges::any_of(news, [&](const FoundLoop& one) {
+// Adds the loops of scans before the first one: those that new ones may yet confirm come before
+// those that none can.
+// @return how many loops there are without the latter.
+std::size_t LoopFinder::AddOlder(NodeId first,
+                                 std::span<const FoundLoop> last,
+                                 std::vector<FoundLoop>& found) const {
+  const auto is_older = [first](const FoundLoop& f) { return f.loop.edge.to < first; };
+  const std::size_t news = found.size();
+  found.reserve(news + static_cast<std::size_t>(std::ranges::count_if(last, is_older)));
+  std::ranges::copy_if(last, std::back_inserter(found), is_older);
+  const auto is_near_news = [&](const FoundLoop& old) {
+    return std::ranges::any_of(std::span(found).first(news), [&](const FoundLoop& one) {
       return chains_.TurnsBetween(old.loop.edge.to, one.loop.edge.to).value_or(kSamePass + 1) <=
              kSamePass;
     });
-    (is_near ? found : settled).push_back(old);
-  }
-  return settled;
+  };
+  const auto settled = std::ranges::partition(std::span(found).subspan(news), is_near_news);
+  return found.size() - settled.size();
 }
 
 // Submap by submap, since the surfaces of few are kept.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -59,9 +60,9 @@ class LoopFinder {
                                    const RigidSubmap& submap,
                                    const PoseEstimate& estimate) const;
   const FoundLoop* LoopOf(const Candidate& candidate, std::span<const FoundLoop> loops) const;
-  std::vector<FoundLoop> AddThoseNear(NodeId first,
-                                      std::span<const FoundLoop> last,
-                                      std::vector<FoundLoop>& found) const;
+  std::size_t AddOlder(NodeId first,
+                       std::span<const FoundLoop> last,
+                       std::vector<FoundLoop>& found) const;
   std::vector<FoundLoop> RecogniseAll(std::span<Candidate> candidates,
                                       const LastSearch& last) const;
   std::optional<Loop> Recognise(const Candidate& candidate, SubmapSurfaces& surfaces) const;

@@ -88,30 +88,32 @@ void ScanChains::Add(std::span<const ScanNode> nodes) {
   robot_.push_back(node.robot);
   parts_.push_back(chain.turns.Take(id, node.scan.geometry.T_robot_laser));
   if (chain.nodes.empty()) {
-    Begin(node, chain);
+    Begin(node);
   } else {
     const NodeId last = chain.nodes.back();
     const bool hangs = !parts_[id].completes && node.T_last_node;
     const Attachment attached = hangs ? Hang(node, chain) : Attach(id, nodes, chain);
-    chain.edges.push_back(EdgeTo(last, id, T_chain_node_[last], attached.chain_node));
+    edges_.push_back(EdgeTo(last, id, T_chain_node_[last], attached.chain_node));
     T_chain_node_.push_back(attached.chain_node.T_a_b);
     covariance_.push_back(attached.chain_node.covariance);
     Tie(id, attached, chain);
   }
-  if (id > 0) edges_.push_back(chain.edges.back());
   chain.nodes.push_back(id);
   InsertIntoSubmaps(id, ToPoints(node.scan), chain);
 }
 
 // What is known of where a further robot came in: its pose in the map.
-void ScanChains::Begin(const ScanNode& node, Chain& chain) {
+void ScanChains::Begin(const ScanNode& node) {
   const auto id = static_cast<NodeId>(T_chain_node_.size());
   T_chain_node_.push_back(node.map_robot.T_a_b);
-  if (id == 0) map_first_ = node.map_robot;
   const UncertainPose2 entered = AtLeast(node.map_robot, kLeastSigma_m, kLeastSigma_rad);
-  chain.edges.push_back(EdgeTo(0, id, map_first_.T_a_b, entered));
   covariance_.push_back(entered.covariance);
-  if (id > 0) ties_.push_back(chain.edges.back());
+  if (id == 0) {
+    map_first_ = node.map_robot;
+    return;
+  }
+  edges_.push_back(EdgeTo(0, id, map_first_.T_a_b, entered));
+  ties_.push_back(edges_.back());
 }
 
 // Seen from the first scan of the submap its surfaces are as wrong as that one is, and as the one
@@ -227,7 +229,7 @@ UncertainPose2 ScanChains::Relative(NodeId from, NodeId to) const {
   UncertainPose2 relative;
   const Chain& chain = chains_.at(robot_[from]);
   for (std::size_t next = position_[from] + 1; next <= position_[to]; ++next) {
-    relative = relative * MeasuredBy(chain.edges[next]);
+    relative = relative * MeasuredBy(edges_[chain.nodes[next] - 1]);
   }
   return relative;
 }

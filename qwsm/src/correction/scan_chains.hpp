@@ -81,7 +81,6 @@ class ScanChains {
   struct Chain {
     std::vector<NodeId> nodes;
     ScanTurns turns;
-    std::vector<PoseEdge> edges;               // To each node from the one before.
     std::vector<std::size_t> submaps;          // Indices of its own.
     std::deque<SubmapSurfaces> last_surfaces;  // Of the last two submaps, which still grow.
   };
@@ -93,7 +92,7 @@ class ScanChains {
     Eigen::Matrix3d of_match = Eigen::Matrix3d::Zero();  // And of the match, if there is one.
   };
 
-  void Begin(const ScanNode& node, Chain& chain);
+  void Begin(const ScanNode& node);
   Attachment Hang(const ScanNode& node, const Chain& chain) const;
   Attachment Attach(NodeId id, std::span<const ScanNode> nodes, Chain& chain) const;
   Attachment Matched(const MatchResult& match,
@@ -114,7 +113,7 @@ class ScanChains {
   std::vector<std::size_t> position_;   // By node.
   std::vector<std::size_t> robot_;      // By node.
   std::vector<ScanTurns::Part> parts_;  // By node.
-  std::vector<PoseEdge> edges_;
+  std::vector<PoseEdge> edges_;         // To each node but the first.
   std::vector<PoseEdge> ties_;
   std::vector<Eigen::Matrix3d> covariance_;  // By node: as the one before sees it.
   std::vector<RigidSubmap> submaps_;         // In the order they were begun.
