@@ -176,7 +176,7 @@ Correction SelfCorrectingMapper::Correct() {
 }
 
 FinishedDrive SelfCorrectingMapper::Finish() {
-  mapper_.ForgetPoints();
+  ForgetPoints();
   Correction correction = Correct();
   path_.reset();
   ScanMap map = std::move(corrector_).MapAt(correction.map_node);

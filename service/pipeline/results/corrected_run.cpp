@@ -8,6 +8,7 @@
 #include "service/io/files/atomic_file.hpp"
 #include "service/io/files/csv_row.hpp"
 #include "service/io/trajectories/graph_file.hpp"
+#include "service/pipeline/run/parallel.hpp"
 
 namespace qwsm::pipeline {
 namespace {
@@ -69,6 +70,8 @@ std::vector<StampedAnswer> AnswersOf(std::span<const io::PathPose> path) {
 }
 
 CorrectedRun CorrectAtTheEnd(SelfCorrectingMapper& mapper) {
+  mapper.ForgetPoints();
+  GiveBackFreeMemory();
   FinishedDrive finished = mapper.Finish();
   return {.correction = std::move(finished.correction),
           .map = std::move(finished.map),

@@ -15,6 +15,12 @@
 #include <vector>
 
 namespace qwsm::pipeline {
+namespace {
+
+// More than what each scan takes and gives back.
+constexpr int kLarge_bytes = 1 << 18;
+
+}  // namespace
 
 void RunInParallel(std::span<const std::function<void()>> tasks) {
   std::vector<std::exception_ptr> failures(tasks.size());
@@ -39,7 +45,12 @@ void RunInParallel(std::span<const std::function<void()>> tasks) {
   }
 }
 
-void ShareMemoryAmongThreads() { mallopt(M_ARENA_MAX, 1); }
+void ShareMemoryAmongThreads() {
+  mallopt(M_ARENA_MAX, 1);
+  mallopt(M_MMAP_THRESHOLD, kLarge_bytes);
+}
+
+void GiveBackFreeMemory() { malloc_trim(0); }
 
 std::function<void()> BeginOnAnotherThread(std::function<void()> work) {
   auto done = std::make_shared<std::future<void>>(std::async(std::launch::async, std::move(work)));

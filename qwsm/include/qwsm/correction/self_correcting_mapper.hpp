@@ -56,6 +56,9 @@ class SelfCorrectingMapper {
   /// How often the robot was lost.
   std::size_t losses() const { return losses_; }
 
+  /// Forgets the points of mapper().map(), when no scan follows: two maps would take twice the
+  /// memory. Its scans stay as they were answered.
+  void ForgetPoints() { mapper_.ForgetPoints(); }
   /// Corrects path and map once more, in the end. Scans of a robot that was not found are no nodes,
   /// and keep their place beside the last node before.
   Correction Correct();
