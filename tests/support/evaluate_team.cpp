@@ -20,7 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -357,13 +357,19 @@ void Evaluate(const std::string& name, int seed, const std::string& duration, Su
 }  // namespace qwsm::team
 
 int main(int argc, char** argv) {
+  constexpr const char* kUsage = "usage: evaluate_team SCENARIO FIRST_SEED LAST_SEED DURATION_S\n";
   if (argc != 5) {
-    std::fprintf(stderr, "usage: evaluate_team SCENARIO FIRST_SEED LAST_SEED DURATION_S\n");
+    std::fputs(kUsage, stderr);
     return 2;
   }
   qwsm::team::Sum sum;
-  for (int seed = std::atoi(argv[2]); seed <= std::atoi(argv[3]); ++seed) {
-    qwsm::team::Evaluate(argv[1], seed, argv[4], sum);
+  try {
+    for (int seed = std::stoi(argv[2]); seed <= std::stoi(argv[3]); ++seed) {
+      qwsm::team::Evaluate(argv[1], seed, argv[4], sum);
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "evaluate_team: %s\n%s", error.what(), kUsage);
+    return 2;
   }
   std::printf("%s: %d robots, %d found, %d wrong; %d of %d within 10 m in common\n",
               argv[1],
