@@ -137,7 +137,7 @@ TEST(TeamService, LeavesOutBeamsThatHitTheFloorWhereAScanTellsHowHighItWasTaken)
     service.WaitUntilIdle();
     service.Stop();
     ASSERT_EQ(sink.relevant().size(), 1U);
-    const std::vector<float>& ranges_m = sink.relevant().front().scan.ranges_m;
+    const std::vector<float> ranges_m = sink.relevant().front().scan.ranges_m;
     const auto left_out =
         std::ranges::count_if(ranges_m, [](float range_m) { return std::isnan(range_m); });
     EXPECT_EQ(left_out > 0, height_m > 0.0) << left_out;
