@@ -168,16 +168,19 @@ std::array<Whereabouts, kRobots> AfterDrive(const std::vector<sim::Reading>& rea
     const std::string robot = NameOf(reading.robot);
     Give(service, reading);
     const Pose2 error = reading.T_world_robot.Inverse() * sink.last_step(robot).map_robot.T_a_b;
-    robots[reading.robot] = {.is_with_first = service.MapOf(robot) == service.MapOf(NameOf(0)),
-                             .error_m = error.translation_m().norm()};
+    robots[reading.robot].error_m = error.translation_m().norm();
+  }
+  for (std::size_t i = 0; i < kRobots; ++i) {
+    robots[i].is_with_first = service.MapOf(NameOf(i)) == service.MapOf(NameOf(0));
   }
   return robots;
 }
 
 TEST(TeamDrive, RobotsThatNobodyPlacedAreFoundInTheMap) {
-  for (const Whereabouts& robot : AfterDrive(Drive(2, 60))) {
-    EXPECT_TRUE(robot.is_with_first);
-    EXPECT_LT(robot.error_m, 0.1);
+  const std::array<Whereabouts, kRobots> robots = AfterDrive(Drive(2, 60));
+  for (std::size_t i = 0; i < kRobots; ++i) {
+    EXPECT_TRUE(robots[i].is_with_first) << NameOf(i);
+    EXPECT_LT(robots[i].error_m, 0.1) << NameOf(i);
   }
 }
 

@@ -48,6 +48,7 @@ TEST(SelfCorrectingMapper, GivesThePathOfAllScans) {
   EXPECT_EQ(finished.correction.map_robot.size(), drive.size());
   EXPECT_TRUE(mapper.mapper().map().surfaces().empty());
   const std::span<const RelevantScan> answered = mapper.mapper().map().scans();
+  EXPECT_EQ(answered.size(), correction.map_node.size());
   ASSERT_EQ(finished.map.scans().size(), answered.size());
   for (std::size_t i = 0; i < answered.size(); ++i) {
     const RelevantScan& corrected = finished.map.scans()[i];

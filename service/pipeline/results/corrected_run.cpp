@@ -70,7 +70,7 @@ std::vector<StampedAnswer> AnswersOf(std::span<const io::PathPose> path) {
 }
 
 CorrectedRun CorrectAtTheEnd(SelfCorrectingMapper& mapper) {
-  mapper.ForgetPoints();
+  mapper.ForgetPoints();  // Now, so that the last correction can take their room.
   GiveBackFreeMemory();
   FinishedDrive finished = mapper.Finish();
   return {.correction = std::move(finished.correction),

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "qwsm/geometry/angle.hpp"
+#include "qwsm/metrics/pose_lookup.hpp"
 
 namespace qwsm::team {
 namespace {
@@ -34,9 +35,7 @@ std::optional<Pose2> PoseAt(Timestamp stamp,
   if (between > kSteady) return std::nullopt;
   const double share = static_cast<double>((stamp - before.scan.stamp).count()) /
                        static_cast<double>(between.count());
-  const Pose2 driven = before.map_robot.T_a_b.Inverse() * after.map_robot.T_a_b;
-  return before.map_robot.T_a_b *
-         Pose2{share * driven.x_m, share * driven.y_m, share * driven.theta_rad};
+  return Between(before.map_robot.T_a_b, after.map_robot.T_a_b, share);
 }
 
 // How often the robots of a map do not see that one of the other map.
@@ -47,7 +46,7 @@ int CountUnseen(const DrawnMap& a,
                 int at_most) {
   int unseen = 0;
   for (const RelevantScan& own : a.map.scans()) {
-    if (unseen >= at_most) break;
+    if (unseen == at_most) break;
     const std::optional<Pose2> T_b_robot = PoseAt(own.scan.stamp, b, scans_of_robot_b);
     if (!T_b_robot) continue;
     const Pose2 T_own_robot = own.map_robot.T_a_b.Inverse() * T_a_b * *T_b_robot;
@@ -79,12 +78,12 @@ bool SeesNobodyAt(const LaserScan& scan, const Eigen::Vector2d& p_robot_m) {
 int CountUnseen(const DrawnMap& a, const DrawnMap& b, const Pose2& T_a_b, int at_most) {
   int unseen = 0;
   for (const std::vector<ScanId>& scans : b.scans_of_robots) {
-    unseen += CountUnseen(a, b.map, scans, T_a_b, at_most);
+    unseen += CountUnseen(a, b.map, scans, T_a_b, at_most - unseen);
   }
   for (const std::vector<ScanId>& scans : a.scans_of_robots) {
-    unseen += CountUnseen(b, a.map, scans, T_a_b.Inverse(), at_most);
+    unseen += CountUnseen(b, a.map, scans, T_a_b.Inverse(), at_most - unseen);
   }
-  return std::min(unseen, at_most);
+  return unseen;
 }
 
 }  // namespace qwsm::team
