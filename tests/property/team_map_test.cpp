@@ -67,6 +67,10 @@ TEST(TeamMap, TakesEveryScanOnceAndDrawsTheSameInAnyOrder) {
     InsertAll(map, repeated);
     const TeamMap::State::View view = map.Read();
     EXPECT_EQ(view->map.scans().size(), scans.size());
+    EXPECT_EQ(map.CountOf("robot1"), 40U);
+    EXPECT_EQ(map.CountOf("robot2"), 40U);
+    EXPECT_EQ(map.CountOf("robot3"), 0U);
+    EXPECT_EQ(map.LastOf("robot1")->key, scans[39].key);
     const OccupancyGridResult grid = RenderOccupancyGrid(view->map.scans());
     EXPECT_EQ(grid.grid.origin_map_m, expected.grid.origin_map_m);
     EXPECT_EQ(grid.grid.cells, expected.grid.cells);

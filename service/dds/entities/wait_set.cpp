@@ -4,6 +4,8 @@
 
 #include <dds/dds.h>
 
+#include <algorithm>
+
 namespace qwsm::dds {
 
 WaitSet::WaitSet(const Participant& participant)
@@ -16,15 +18,25 @@ void WaitSet::Add(Entity::Handle reader) {
   if (dds_waitset_attach(wait_set_.handle(), reader, reader) != DDS_RETCODE_OK) {
     throw DdsError("DDS: a reader cannot be waited for");
   }
+  ++size_;
 }
 
-void WaitSet::Remove(Entity::Handle reader) { dds_waitset_detach(wait_set_.handle(), reader); }
+void WaitSet::Remove(Entity::Handle reader) {
+  if (dds_waitset_detach(wait_set_.handle(), reader) == DDS_RETCODE_OK) --size_;
+}
 
-bool WaitSet::Wait(std::chrono::nanoseconds timeout) {
-  const dds_return_t triggered = dds_waitset_wait(wait_set_.handle(), nullptr, 0, timeout.count());
+std::vector<Entity::Handle> WaitSet::Wait(std::chrono::nanoseconds timeout) {
+  std::vector<dds_attach_t> woken(size_);
+  const dds_return_t count =
+      dds_waitset_wait(wait_set_.handle(), woken.data(), woken.size(), timeout.count());
+  woken.resize(std::min(woken.size(), static_cast<std::size_t>(std::max(count, 0))));
   bool was_rung = false;
   dds_take_guardcondition(bell_.handle(), &was_rung);
-  return triggered > 0;
+  std::vector<Entity::Handle> readers;
+  for (const dds_attach_t handle : woken) {
+    if (handle != bell_.handle()) readers.push_back(static_cast<Entity::Handle>(handle));
+  }
+  return readers;
 }
 
 void WaitSet::Wake() { dds_set_guardcondition(bell_.handle(), true); }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <vector>
 
 #include "service/dds/entities/entity.hpp"
 #include "service/dds/entities/participant.hpp"
@@ -19,14 +21,16 @@ class WaitSet {
   void Add(Entity::Handle reader);
   void Remove(Entity::Handle reader);
 
-  /// Waits for samples or a call. @returns false where the time passed first.
-  bool Wait(std::chrono::nanoseconds timeout);
+  /// Waits for samples or a call. @returns the readers that have samples; none where the time
+  /// passed first.
+  std::vector<Entity::Handle> Wait(std::chrono::nanoseconds timeout);
   /// Ends a wait in another thread, or the next wait.
   void Wake();
 
  private:
   Entity wait_set_;
   Entity bell_;
+  std::size_t size_ = 0;  // How many can wake it.
 };
 
 }  // namespace qwsm::dds

@@ -25,6 +25,8 @@ class ImuInbox {
   ImuInbox(const Participant& participant, const RobotNames& names, Refusals& refusals);
 
   Entity::Handle handle() const { return reader_.handle(); }
+  /// Whether there are readings that wait to be told how their sensor is mounted.
+  bool is_waiting() const { return !waiting_.empty(); }
 
   /// Delivers what has arrived. Readings wait a second for who knows how their sensor is mounted;
   /// after that it is taken as upright.

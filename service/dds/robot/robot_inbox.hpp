@@ -35,6 +35,8 @@ class BasicRobotInbox {
                   Profile scans = Profile::kSensorIn);
 
   std::vector<Entity::Handle> handles() const;
+  /// Whether there is something that waits to be told where its sensor sits.
+  bool is_waiting() const { return !unplaced_.empty() || (imu_ && imu_->is_waiting()); }
 
   /// Takes the scans that have arrived. To be called before transforms and odometry are taken:
   /// robots tell these before the scan, so that whose scan is here has them here, too.

@@ -39,8 +39,13 @@ OtherServices::OtherServices(const Participant& participant,
       report_type_(std::move(report_type)),
       publications_(participant) {}
 
-void OtherServices::Update() {
-  publications_.TakeAll([this](const Publication& publication) { Note(publication); });
+bool OtherServices::Update() {
+  bool has_changed = false;
+  publications_.TakeAll([&](const Publication& publication) {
+    Note(publication);
+    has_changed = true;
+  });
+  return has_changed;
 }
 
 void OtherServices::Note(const Publication& publication) {

@@ -33,8 +33,8 @@ class OtherServices {
                 std::string_view report_topic,
                 std::string report_type);
 
-  /// Notes which services have come and gone since the last call.
-  void Update();
+  /// Notes which services have come and gone since the last call. @returns whether any may have.
+  bool Update();
   /// Whether another service answers the robot.
   bool Answer(std::string_view robot) const;
   /// Whether another service has a better claim on the robot.

@@ -48,7 +48,7 @@ class ServiceInbox {
 
   /// Waits until something has arrived, or for the timeout: the first half of Deliver(), for who
   /// waits for more, see wait_set().
-  void Wait(std::chrono::nanoseconds timeout) { wait_set_.Wait(timeout); }
+  void Wait(std::chrono::nanoseconds timeout);
   void Deliver();
   WaitSet& wait_set() { return wait_set_; }
 
@@ -59,12 +59,15 @@ class ServiceInbox {
     Claim claim;
     Profile profile{};
     std::unique_ptr<BasicRobotInbox<Kind>> inbox;
+    bool has_news = false;  // Whether something of it has arrived.
   };
+  using Clock = std::chrono::steady_clock;
 
   static std::uint64_t NanosecondsNow();
 
-  void NoteMembers();
+  bool NoteMembers();
   void ShareRobots();
+  std::vector<BasicRobotInbox<Kind>*> TakeDue();
   void Join(const std::string& robot, std::uint64_t since_ns);
   void Leave(const std::string& robot);
   void Attend(const std::string& name, Robot& robot);
@@ -85,6 +88,8 @@ class ServiceInbox {
       [this] { return static_transform_reader_.Participants(); }};
   std::set<std::string> publishers_;  // Robots whose scans are published.
   std::map<std::string, Robot> robots_;
+  std::map<Entity::Handle, Robot*> robot_of_;  // By reader.
+  Clock::time_point all_heard_at_{};           // When all robots were listened to.
 };
 
 extern template class ServiceInbox<team::RobotSession>;

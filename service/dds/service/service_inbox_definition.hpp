@@ -5,12 +5,15 @@
 // service, so that who is no service for clouds links none.
 #pragma once
 
+#include <chrono>
 #include <utility>
 
 #include "service/dds/service/service_inbox.hpp"
 #include "service/dds/wire/wire_kind.hpp"
 
 namespace qwsm::dds {
+
+constexpr std::chrono::milliseconds kRoundPeriod(100);
 
 template <class Session>
 std::uint64_t ServiceInbox<Session>::NanosecondsNow() {
@@ -42,19 +45,46 @@ ServiceInbox<Session>::ServiceInbox(const Participant& participant,
 }
 
 template <class Session>
+void ServiceInbox<Session>::Wait(std::chrono::nanoseconds timeout) {
+  for (const Entity::Handle reader : wait_set_.Wait(timeout)) {
+    if (const auto robot = robot_of_.find(reader); robot != robot_of_.end()) {
+      robot->second->has_news = true;
+    }
+  }
+}
+
+template <class Session>
 void ServiceInbox<Session>::Deliver() {
-  NoteMembers();
-  ShareRobots();
-  for (const auto& [name, robot] : robots_) robot.inbox->HoldScans();
+  const bool have_members_changed = NoteMembers();
+  const bool have_others_changed = others_.Update();
+  if (have_members_changed || have_others_changed) ShareRobots();
+  const std::vector<BasicRobotInbox<Kind>*> due = TakeDue();
+  for (BasicRobotInbox<Kind>* inbox : due) inbox->HoldScans();
   static_transform_reader_.TakeAllWithSource(
       [this](const wire::TFMessage& message, const Guid& source) {
         transforms_.Take(message, source);
       });
-  for (const auto& [name, robot] : robots_) robot.inbox->Deliver(transforms_, sessions_);
+  for (BasicRobotInbox<Kind>* inbox : due) inbox->Deliver(transforms_, sessions_);
 }
 
+// The robots to listen to: a large team would keep this thread busy if each message had all of its
+// robots asked. Now and then all are, for nothing arrives from publishers that come or go.
 template <class Session>
-void ServiceInbox<Session>::NoteMembers() {
+std::vector<BasicRobotInbox<typename Session::Kind>*> ServiceInbox<Session>::TakeDue() {
+  const Clock::time_point now = Clock::now();
+  const bool are_all = now - all_heard_at_ >= kRoundPeriod;
+  if (are_all) all_heard_at_ = now;
+  std::vector<BasicRobotInbox<Kind>*> due;
+  for (auto& [name, robot] : robots_) {
+    const bool has_news = std::exchange(robot.has_news, false);
+    if (has_news || are_all || robot.inbox->is_waiting()) due.push_back(robot.inbox.get());
+  }
+  return due;
+}
+
+/// @returns whether there are others than before.
+template <class Session>
+bool ServiceInbox<Session>::NoteMembers() {
   const RobotDiscovery::Changes changes = discovery_.Take();
   for (const std::string& name : changes.joined) {
     publishers_.insert(name);
@@ -64,12 +94,12 @@ void ServiceInbox<Session>::NoteMembers() {
     publishers_.erase(name);
     if (robots_.contains(name)) sessions_.Lose(name);
   }
+  return !changes.joined.empty() || !changes.left.empty();
 }
 
 // A robot is answered by one service. When that is gone, and seen to be, others find the robot.
 template <class Session>
 void ServiceInbox<Session>::ShareRobots() {
-  others_.Update();
   if (!finds_robots_) return;
   std::vector<std::string> claimed;
   for (const auto& [name, robot] : robots_) {
@@ -117,12 +147,18 @@ void ServiceInbox<Session>::Listen(const std::string& name, Profile profile, Rob
   robot.profile = profile;
   robot.inbox = std::make_unique<BasicRobotInbox<Kind>>(
       participant_, RobotNames(name), refusals_, scan_topics_, profile);
-  for (const Entity::Handle handle : robot.inbox->handles()) wait_set_.Add(handle);
+  for (const Entity::Handle handle : robot.inbox->handles()) {
+    wait_set_.Add(handle);
+    robot_of_[handle] = &robot;
+  }
 }
 
 template <class Session>
 void ServiceInbox<Session>::StopListening(Robot& robot) {
-  for (const Entity::Handle handle : robot.inbox->handles()) wait_set_.Remove(handle);
+  for (const Entity::Handle handle : robot.inbox->handles()) {
+    wait_set_.Remove(handle);
+    robot_of_.erase(handle);
+  }
   robot.inbox.reset();
 }
 

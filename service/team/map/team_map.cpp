@@ -39,7 +39,7 @@ TeamMap::TeamMap(const TeamMap& other, const Lock&)
       has_begun_(other.has_begun_.load()),
       id_of_(other.id_of_),
       heads_(other.heads_),
-      last_by_robot_(other.last_by_robot_),
+      by_robot_(other.by_robot_),
       last_sequence_(other.last_sequence_) {}
 
 std::shared_ptr<TeamMap> TeamMap::EmptyNextVersion() const {
@@ -83,34 +83,33 @@ bool TeamMap::Register(const TeamScan& scan) {
        .motion = scan.motion});
   std::uint64_t& sequence = last_sequence_[{scan.key.service, scan.key.robot}];
   sequence = std::max(sequence, scan.key.sequence);
-  const auto [last, is_first] = last_by_robot_.try_emplace(scan.key.robot, id);
-  if (is_first) return true;
+  ScansOfRobot& of_robot = by_robot_[scan.key.robot];
   // Scans of several services come in any order.
-  const TeamScan& known = heads_[last->second];
+  const TeamScan& known = heads_[of_robot.last];
   const bool is_newer = known.key.service == scan.key.service
                             ? known.key.sequence < scan.key.sequence
                             : known.scan.stamp < scan.scan.stamp;
-  if (is_newer) last->second = id;
+  if (of_robot.count++ == 0 || is_newer) of_robot.last = id;
   return true;
 }
 
 std::optional<TeamScan> TeamMap::LastOf(std::string_view robot) const {
   const std::lock_guard lock(register_);
-  const auto last = last_by_robot_.find(robot);
-  return last == last_by_robot_.end() ? std::nullopt : std::optional(heads_[last->second]);
+  const auto known = by_robot_.find(robot);
+  return known == by_robot_.end() ? std::nullopt : std::optional(heads_[known->second.last]);
 }
 
 std::vector<std::string> TeamMap::Robots() const {
   const std::lock_guard lock(register_);
   std::vector<std::string> robots;
-  for (const auto& [robot, last] : last_by_robot_) robots.push_back(robot);
+  for (const auto& [robot, scans] : by_robot_) robots.push_back(robot);
   return robots;
 }
 
 std::size_t TeamMap::CountOf(std::string_view robot) const {
   const std::lock_guard lock(register_);
-  return static_cast<std::size_t>(std::ranges::count(
-      heads_, robot, [](const TeamScan& scan) { return std::string_view(scan.key.robot); }));
+  const auto known = by_robot_.find(robot);
+  return known == by_robot_.end() ? 0 : known->second.count;
 }
 
 TeamScan TeamMap::HeadOf(ScanId id) const {

@@ -105,6 +105,11 @@ class TeamMap {
   TeamMap(const ScanMapOptions& options, const MapVersion& version);
   TeamMap(const TeamMap& other, const Lock& lock);
 
+  struct ScansOfRobot {
+    std::size_t count = 0;
+    ScanId last = 0;
+  };
+
   bool Register(const TeamScan& scan);
   TeamScan HeadOf(ScanId id) const;
 
@@ -116,7 +121,7 @@ class TeamMap {
   mutable std::mutex register_;   // Guards what follows.
   std::unordered_map<ScanKey, ScanId, ScanKeyHash> id_of_;
   std::vector<TeamScan> heads_;  // Without their ranges, by ScanId.
-  std::map<std::string, ScanId, std::less<>> last_by_robot_;
+  std::map<std::string, ScansOfRobot, std::less<>> by_robot_;
   std::map<std::pair<std::string, std::string>, std::uint64_t> last_sequence_;
 };
 

@@ -89,7 +89,7 @@ class SessionList final : public RobotListener<typename Session::Kind> {
     const auto session = Of(robot);
     if (!session) return;
     session->intake().TakeOdometry(stamp, T_odom_robot);
-    Wake();
+    WakeFor(*session);
   }
   void ExpectOdometry(std::string_view robot, bool expected) override {
     if (const auto session = Of(robot)) session->intake().ExpectOdometry(expected);
@@ -98,7 +98,7 @@ class SessionList final : public RobotListener<typename Session::Kind> {
     const auto session = Of(robot);
     if (!session) return;
     session->intake().TakeImu(reading);
-    Wake();
+    WakeFor(*session);
   }
   void ExpectImu(std::string_view robot, bool expected) override {
     if (const auto session = Of(robot)) session->intake().ExpectImu(expected);
@@ -134,10 +134,11 @@ class SessionList final : public RobotListener<typename Session::Kind> {
     if (!session || !session->intake().Enqueue(std::move(scan), T_robot_sensor_claimed)) {
       return false;
     }
-    Wake();
+    WakeFor(*session);
     return true;
   }
-  void Wake() {
+  void WakeFor(const Session& session) {
+    if (!session.ReadyAt()) return;
     const std::lock_guard lock(mutex_);
     if (workers_) workers_->Wake();
   }

@@ -32,7 +32,7 @@ void Describe(Visitor& visit, OfficeOptions& o) {
   visit("door_width_m", o.door_width_m, {.help = "width of a door", .min = 0.8, .max = 3});
   visit("tables_per_room", o.tables_per_room, {.help = "tables in a room", .min = 0, .max = 4});
   visit("persons", o.persons, {.help = "people who walk about", .min = 0, .max = 1000});
-  visit("routes", o.routes, {.help = "robots that get a way of their own", .min = 1, .max = 100});
+  visit("routes", o.routes, {.help = "robots that get a way of their own", .min = 1, .max = 1000});
 }
 
 template <class Report>
