@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A service that works for long without a new thing to learn keeps its memory: `ctest -C soak`.
+// A service that works for long without a new thing to learn keeps its memory, also where its map
+// is corrected again and again: `ctest -C soak`.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -10,6 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "service/dds/entities/writer.hpp"
+#include "service/dds/wire/epoch_conversion.hpp"
+#include "service/dds/wire/scan_conversion.hpp"
+#include "service/team/scans/component.hpp"
 #include "tests/support/process_state.hpp"
 #include "tests/support/robot_in_room.hpp"
 
@@ -46,6 +51,54 @@ double KilobytesPerSecond(const std::vector<Sample>& samples) {
   return covariance / variance;
 }
 
+/// A service elsewhere that has mapped the room, and corrects all of that again and again.
+class Elsewhere {
+ public:
+  explicit Elsewhere(const dds::Participant& participant)
+      : scans_(participant, dds::kSharedScansTopic, dds::Profile::kSharedScans),
+        epochs_(
+            participant, dds::RobotNames("").Topic(dds::kMapEpochTopic), dds::Profile::kLatched) {}
+
+  void ShareRoom() {
+    for (int i = 0; i < kScans; ++i) {
+      const Observation observation = ObservationInRoom(kStep * i);
+      const team::TeamScan scan = {
+          .key = KeyOf(i), .scan = observation.scan, .map_robot = Place(observation, 0)};
+      scans_.Write(dds::ToWire(scan, team::FrameOf("")));
+    }
+  }
+  /// Puts all scans a little elsewhere, there and back.
+  void Correct() {
+    team::TeamEpoch epoch{
+        .rank = {.number = ++corrections_, .service = "elsewhere"}, .stamp = {}, .scans = {}};
+    for (int i = 0; i < kScans; ++i) {
+      const Observation observation = ObservationInRoom(kStep * i);
+      epoch.scans.push_back({.key = KeyOf(i),
+                             .T_map_robot_before = Place(observation, corrections_ - 1).T_a_b,
+                             .map_robot = Place(observation, corrections_)});
+    }
+    epochs_.Write(dds::EpochSample(epoch).sample());
+  }
+  std::uint64_t corrections() const { return corrections_; }
+
+ private:
+  static constexpr int kScans = 200;
+  static constexpr int kStep = 3;  // Of the scans in the room, every so manieth.
+
+  static team::ScanKey KeyOf(int scan) {
+    return {
+        .service = "elsewhere", .robot = "scout", .sequence = static_cast<std::uint64_t>(scan) + 1};
+  }
+  static UncertainPose2 Place(const Observation& observation, std::uint64_t corrections) {
+    const Pose2 moved{.x_m = corrections % 2 == 1 ? 0.003 : 0.0};
+    return UncertainPose2::WithSigmas(moved * *observation.T_odom_robot, 0.01, 0.001);
+  }
+
+  dds::Writer<dds::wire::RelevantScan> scans_;
+  dds::Writer<dds::wire::MapEpoch> epochs_;
+  std::uint64_t corrections_ = 0;
+};
+
 TEST(DdsSoak, MemoryStaysFlat) {
   const TemporaryFolder folder;
   const PrivateNetwork network;
@@ -63,6 +116,12 @@ TEST(DdsSoak, MemoryStaysFlat) {
                                "team.map_period_s=1",
                                "--set",
                                "team.status_period_s=0.2"}));
+  Elsewhere elsewhere(robot.participant());
+  elsewhere.ShareRoom();
+  ASSERT_TRUE(robot.DriveUntil("qwsm: service", "map_scans", [](const std::string& scans) {
+    return std::stoi(scans) >= 200;
+  }));
+  robot.Tell(UncertainPose2::WithSigmas(robot.T_map_robot(), 0.1, 0.02));
   ASSERT_FALSE(robot.DriveUntilAnswered(300).empty());
   std::vector<Sample> samples;
   std::size_t reports = 0;
@@ -72,18 +131,24 @@ TEST(DdsSoak, MemoryStaysFlat) {
     robot.HealthOf("qwsm: service");
     robot.TakeSharedScans();
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begun;
-    if (time < Duration() / 6) continue;  // Buffers and caches fill.
+    const double tenth_s = static_cast<double>(Duration().count()) / 10.0;
+    if (time.count() > tenth_s * static_cast<double>(elsewhere.corrections() + 1)) {
+      elsewhere.Correct();
+    }
+    if (time < Duration() / 3) continue;  // Buffers and caches fill, by corrections, too.
     samples.push_back({time.count(), ResidentKilobytes(service.process())});
   }
   const std::string scans = robot.HealthOf("qwsm: service")["map_scans"];
+  const std::string corrections = robot.HealthOf("qwsm: service")["map_corrections"];
   ASSERT_EQ(service.End().exit_code, 0);
   ASSERT_GT(samples.size(), 2U);
   const double growth_kb =
       KilobytesPerSecond(samples) * (samples.back().time_s - samples.front().time_s);
   std::cout << reports << " scans in " << Duration().count() << " s, " << scans
-            << " of them relevant; memory " << samples.back().resident_kb << " kB, grown by "
-            << growth_kb << " kB\n";
+            << " in the map, which was corrected " << corrections << " times; memory "
+            << samples.back().resident_kb << " kB, grown by " << growth_kb << " kB\n";
   EXPECT_GT(reports, 0U);
+  EXPECT_GE(std::stoi(corrections), 9);
   EXPECT_LT(growth_kb, 0.02 * samples.back().resident_kb);
 }
 

@@ -163,6 +163,8 @@ JournalFile JournalFile::OpenToWrite(const std::filesystem::path& file,
   SqliteDatabase& database = state->database;
   if (!IsNew(database)) CheckFormat(database, file);
   database.Execute("PRAGMA journal_mode = WAL");
+  // What is only appended to needs few pages at hand; kilobytes are told as negative numbers.
+  database.Execute("PRAGMA cache_size = -256");
   Begin(database, kind, identity);
   return Opened(std::move(state), kind);
 }
