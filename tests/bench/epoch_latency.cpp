@@ -16,6 +16,7 @@
 
 #include "service/team/service/team_service.hpp"
 #include "sim/simulation.hpp"
+#include "tests/support/moved_map.hpp"
 #include "tests/support/process_state.hpp"
 
 namespace {
@@ -87,20 +88,6 @@ void Print(const char* when, std::vector<double> ms) {
               ms.back());
 }
 
-/// Puts all scans a little elsewhere, there and back.
-team::TeamEpoch Moved(const team::TeamMap& map, std::uint64_t number) {
-  team::TeamEpoch epoch{
-      .rank = {.number = number, .service = "elsewhere"}, .stamp = {}, .scans = {}};
-  const Pose2 step{.x_m = number % 2 == 1 ? 0.003 : -0.003};
-  for (team::TeamScan& scan : map.Scans()) {
-    team::MovedScan& moved = epoch.scans.emplace_back();
-    moved = {
-        .key = scan.key, .T_map_robot_before = scan.map_robot.T_a_b, .map_robot = scan.map_robot};
-    moved.map_robot.T_a_b = step * scan.map_robot.T_a_b;
-  }
-  return epoch;
-}
-
 /// When a correction was taken in.
 struct Correction {
   Clock::time_point begun;
@@ -136,8 +123,11 @@ int Measure(std::size_t scans, int rounds) {
   std::jthread corrector([&] {
     for (int round = 1; round <= rounds; ++round) {
       std::this_thread::sleep_for(std::chrono::seconds(kSecondsBetween));
+      const Pose2 there_and_back{.x_m = round % 2 == 0 ? 0.003 : -0.003};
       const team::TeamEpoch epoch =
-          Moved(*service.MapOf("robot1"), static_cast<std::uint64_t>(round) * 10);
+          test::Moved(service.MapOf("robot1")->Scans(),
+                      there_and_back,
+                      {.number = static_cast<std::uint64_t>(round) * 10, .service = "elsewhere"});
       Correction& correction = corrections.emplace_back();
       correction.begun = Clock::now();
       service.TakeIn(epoch);

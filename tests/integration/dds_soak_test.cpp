@@ -15,6 +15,7 @@
 #include "service/dds/wire/epoch_conversion.hpp"
 #include "service/dds/wire/scan_conversion.hpp"
 #include "service/team/scans/component.hpp"
+#include "tests/support/moved_map.hpp"
 #include "tests/support/process_state.hpp"
 #include "tests/support/robot_in_room.hpp"
 
@@ -56,47 +57,41 @@ double KilobytesPerSecond(const std::vector<Sample>& samples) {
 /// A service elsewhere that has mapped the room, and corrects all of that again and again.
 class Elsewhere {
  public:
+  static constexpr int kScans = 200;
+
   explicit Elsewhere(const dds::Participant& participant)
-      : scans_(participant, dds::kSharedScansTopic, dds::Profile::kSharedScans),
-        epochs_(
+      : scan_writer_(participant, dds::kSharedScansTopic, dds::Profile::kSharedScans),
+        epoch_writer_(
             participant, dds::RobotNames("").Topic(dds::kMapEpochTopic), dds::Profile::kLatched) {}
 
   void ShareRoom() {
     for (int i = 0; i < kScans; ++i) {
-      const Observation observation = ObservationInRoom(kStep * i);
-      const team::TeamScan scan = {
-          .key = KeyOf(i), .scan = observation.scan, .map_robot = Place(observation, 0)};
-      scans_.Write(dds::ToWire(scan, team::FrameOf("")));
+      const Observation observation = ObservationInRoom(3 * i);
+      scans_.push_back(
+          {.key = {.service = "elsewhere",
+                   .robot = "scout",
+                   .sequence = static_cast<std::uint64_t>(i) + 1},
+           .scan = observation.scan,
+           .map_robot = UncertainPose2::WithSigmas(*observation.T_odom_robot, 0.01, 0.001)});
+      scan_writer_.Write(dds::ToWire(scans_.back(), team::FrameOf("")));
     }
   }
   /// Puts all scans a little elsewhere, there and back.
   void Correct() {
-    team::TeamEpoch epoch{
-        .rank = {.number = ++corrections_, .service = "elsewhere"}, .stamp = {}, .scans = {}};
-    for (int i = 0; i < kScans; ++i) {
-      const Observation observation = ObservationInRoom(kStep * i);
-      epoch.scans.push_back({.key = KeyOf(i),
-                             .T_map_robot_before = Place(observation, corrections_ - 1).T_a_b,
-                             .map_robot = Place(observation, corrections_)});
+    ++corrections_;
+    const team::TeamEpoch epoch = Moved(scans_,
+                                        {.x_m = corrections_ % 2 == 1 ? 0.003 : -0.003},
+                                        {.number = corrections_, .service = "elsewhere"});
+    epoch_writer_.Write(dds::EpochSample(epoch).sample());
+    for (std::size_t i = 0; i < scans_.size(); ++i) {
+      scans_[i].map_robot = epoch.scans[i].map_robot;
     }
-    epochs_.Write(dds::EpochSample(epoch).sample());
   }
 
  private:
-  static constexpr int kScans = 200;
-  static constexpr int kStep = 3;  // Of the scans in the room, every so manieth.
-
-  static team::ScanKey KeyOf(int scan) {
-    return {
-        .service = "elsewhere", .robot = "scout", .sequence = static_cast<std::uint64_t>(scan) + 1};
-  }
-  static UncertainPose2 Place(const Observation& observation, std::uint64_t corrections) {
-    const Pose2 moved{.x_m = corrections % 2 == 1 ? 0.003 : 0.0};
-    return UncertainPose2::WithSigmas(moved * *observation.T_odom_robot, 0.01, 0.001);
-  }
-
-  dds::Writer<dds::wire::RelevantScan> scans_;
-  dds::Writer<dds::wire::MapEpoch> epochs_;
+  dds::Writer<dds::wire::RelevantScan> scan_writer_;
+  dds::Writer<dds::wire::MapEpoch> epoch_writer_;
+  std::vector<team::TeamScan> scans_;
   std::uint64_t corrections_ = 0;
 };
 
@@ -120,7 +115,7 @@ TEST(DdsSoak, MemoryStaysFlat) {
   Elsewhere elsewhere(robot.participant());
   elsewhere.ShareRoom();
   ASSERT_TRUE(robot.DriveUntil("qwsm: service", "map_scans", [](const std::string& scans) {
-    return std::stoi(scans) >= 200;
+    return std::stoi(scans) >= Elsewhere::kScans;
   }));
   robot.Tell(UncertainPose2::WithSigmas(robot.T_map_robot(), 0.1, 0.02));
   ASSERT_FALSE(robot.DriveUntilAnswered(300).empty());
@@ -138,8 +133,7 @@ TEST(DdsSoak, MemoryStaysFlat) {
     robot.HealthOf("qwsm: service");
     robot.TakeSharedScans();
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begun;
-    const double tenth_s = static_cast<double>(Duration().count()) / 10.0;
-    if (time.count() > tenth_s * static_cast<double>(corrections + 1)) {
+    if (10.0 * time > (corrections + 1.0) * Duration()) {
       ++corrections;
       elsewhere.Correct();
     }

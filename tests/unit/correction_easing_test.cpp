@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "service/team/service/team_service.hpp"
+#include "tests/support/moved_map.hpp"
 #include "tests/support/recording_sink.hpp"
 #include "tests/support/room_drive.hpp"
 
@@ -148,15 +149,7 @@ std::vector<RobotAnswer> DriveThroughACorrection(CorrectionPolicy policy) {
     service.WaitUntilIdle();
   };
   give(0, kBefore);
-  TeamEpoch epoch;
-  epoch.rank = {.number = 1, .service = "z"};
-  const UncertainPose2 shift{.T_a_b = {.x_m = 0.5}};
-  for (const TeamScan& scan : sink.relevant()) {
-    epoch.scans.push_back({.key = scan.key,
-                           .T_map_robot_before = scan.map_robot.T_a_b,
-                           .map_robot = shift * scan.map_robot});
-  }
-  service.TakeIn(epoch);
+  service.TakeIn(test::Moved(sink.relevant(), {.x_m = 0.5}, {.number = 1, .service = "z"}));
   give(kBefore, kAfter);
   service.Stop();
   EXPECT_EQ(sink.epochs().size(), 1U);

@@ -58,19 +58,21 @@ Publications::Publications(const Participant& participant)
   dds_set_status_mask(handle(), DDS_DATA_AVAILABLE_STATUS);
 }
 
-void Publications::TakeAll(const std::function<void(const Publication&)>& take) const {
+std::size_t Publications::TakeAll(const std::function<void(const Publication&)>& take) const {
   std::array<void*, kPublicationBatch> samples{};
   std::array<dds_sample_info_t, kPublicationBatch> infos{};
+  std::size_t taken = 0;
   while (true) {
     const dds_return_t count =
         dds_take(handle(), samples.data(), infos.data(), kPublicationBatch, kPublicationBatch);
-    if (count <= 0) return;
+    if (count <= 0) return taken;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       Tell(*static_cast<const dds_builtintopic_endpoint_t*>(samples[i]),
            infos[i].instance_state == DDS_ALIVE_INSTANCE_STATE,
            take);
     }
     dds_return_loan(handle(), samples.data(), count);
+    taken += static_cast<std::size_t>(count);
   }
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string_view>
 
@@ -28,8 +29,9 @@ class Publications {
  public:
   explicit Publications(const Participant& participant);
 
-  /// Calls `take` with every publication that has changed since the last call.
-  void TakeAll(const std::function<void(const Publication&)>& take) const;
+  /// Calls `take` with every publication that has changed since the last call; returns how many
+  /// there were.
+  std::size_t TakeAll(const std::function<void(const Publication&)>& take) const;
   Entity::Handle handle() const { return reader_.handle(); }
 
  private:

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <chrono>
-#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "service/dds/entities/entity.hpp"
@@ -21,8 +21,8 @@ class WaitSet {
   void Add(Entity::Handle reader);
   void Remove(Entity::Handle reader);
 
-  /// Waits for samples or a call. @returns the readers that have samples; none where the time
-  /// passed first.
+  /// Waits for samples or a call. To be called by one thread. @returns the readers that have
+  /// samples; none where the time passed first.
   std::vector<Entity::Handle> Wait(std::chrono::nanoseconds timeout);
   /// Ends a wait in another thread, or the next wait.
   void Wake();
@@ -30,7 +30,7 @@ class WaitSet {
  private:
   Entity wait_set_;
   Entity bell_;
-  std::size_t size_ = 0;  // How many can wake it.
+  std::vector<std::intptr_t> woken_;  // Room for all that can wake it.
 };
 
 }  // namespace qwsm::dds

@@ -40,12 +40,7 @@ OtherServices::OtherServices(const Participant& participant,
       publications_(participant) {}
 
 bool OtherServices::Update() {
-  bool has_changed = false;
-  publications_.TakeAll([&](const Publication& publication) {
-    Note(publication);
-    has_changed = true;
-  });
-  return has_changed;
+  return publications_.TakeAll([this](const Publication& publication) { Note(publication); }) > 0;
 }
 
 void OtherServices::Note(const Publication& publication) {

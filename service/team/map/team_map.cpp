@@ -83,13 +83,15 @@ bool TeamMap::Register(const TeamScan& scan) {
        .motion = scan.motion});
   std::uint64_t& sequence = last_sequence_[{scan.key.service, scan.key.robot}];
   sequence = std::max(sequence, scan.key.sequence);
-  ScansOfRobot& of_robot = by_robot_[scan.key.robot];
+  auto& [count, last] =
+      by_robot_.try_emplace(scan.key.robot, ScansOfRobot{.last = id}).first->second;
+  ++count;
   // Scans of several services come in any order.
-  const TeamScan& known = heads_[of_robot.last];
+  const TeamScan& known = heads_[last];
   const bool is_newer = known.key.service == scan.key.service
                             ? known.key.sequence < scan.key.sequence
                             : known.scan.stamp < scan.scan.stamp;
-  if (of_robot.count++ == 0 || is_newer) of_robot.last = id;
+  if (is_newer) last = id;
   return true;
 }
 
