@@ -94,9 +94,7 @@ struct Trees {
     for (const Eigen::Vector2d& p_m : building.Sampled(random))
       surfaces.Insert({.p_map_m = p_m}, 0);
     // All trees hold the same points: those of one cell merged, and kept to a micrometre.
-    for (PointId id = 0; id < quadtree().id_end(); ++id) {
-      cloud.points_m.push_back(quadtree().Position(id));
-    }
+    cloud.points_m = quadtree().Positions();
     const nanoflann::KDTreeSingleIndexAdaptorParams parameters(10);
     static_tree = std::make_unique<StaticTree>(2, cloud, parameters);
     static_tree->buildIndex();

@@ -37,12 +37,13 @@ TEST(PointQuadtree, MergesPerCellAndRemovesScansExactly) {
     std::map<std::pair<double, double>, PointId> ids;
     const auto check = [&] {
       ASSERT_EQ(tree.size(), expected.size());
+      const Points positions_m = tree.Positions();
       for (const auto& [cell, truth] : expected) {
         const PointId id = ids.at(cell);
         ASSERT_TRUE(tree.Contains(id));
         EXPECT_EQ(tree.Count(id), truth.contributions.size());
         EXPECT_EQ(tree.Scan(id), truth.contributions.front().first);
-        EXPECT_LE((tree.Position(id) - truth.Mean()).cwiseAbs().maxCoeff(), 0.0021 * cell_m);
+        EXPECT_LE((positions_m[id] - truth.Mean()).cwiseAbs().maxCoeff(), 0.0021 * cell_m);
       }
     };
     for (ScanId scan = 0; scan < 12; ++scan) {
@@ -109,10 +110,11 @@ TEST(PointQuadtree, IdsAreDenseAndStableUntilRemoved) {
   }
   EXPECT_EQ(tree.RemoveScan(4), 500U);
   EXPECT_EQ(tree.size(), 4500U);
+  const Points positions_m = tree.Positions();
   for (PointId id = 0; id < 5000; ++id) {
     ASSERT_EQ(tree.Contains(id), id % 10 != 4);
     if (id % 10 == 4) continue;
-    EXPECT_NEAR((tree.Position(id) - inserted_m[id]).norm(), 0.0, 1e-6);
+    EXPECT_NEAR((positions_m[id] - inserted_m[id]).norm(), 0.0, 1e-6);
   }
   EXPECT_FALSE(tree.Contains(5000));
   for (int i = 0; i < 500; ++i) EXPECT_EQ(tree.Insert({-1.0 - 0.01 * i, 0.0}, 11)->id % 10, 4U);

@@ -33,33 +33,31 @@ std::vector<std::pair<MapPoint, ScanId>> AnyScans(Random& random, int scans) {
 }
 
 /// Mean of the stored points around one of them, itself included.
-Eigen::Vector2d MeanAround(const SurfaceMap& map, PointId id, double radius_m) {
+Eigen::Vector2d MeanAround(const SurfaceMap& map,
+                           const Eigen::Vector2d& center_m,
+                           double radius_m) {
   Eigen::Vector2d sum_m = Eigen::Vector2d::Zero();
   int count = 0;
-  const PointQuadtree& tree = map.quadtree();
-  for (PointId other = 0; other < tree.id_end(); ++other) {
-    if (!tree.Contains(other)) continue;
-    const Eigen::Vector2d p_m = tree.Position(other);
-    if ((p_m - tree.Position(id)).norm() > radius_m) continue;
+  map.quadtree().ForEach([&](PointId, const Eigen::Vector2d& p_m) {
+    if ((p_m - center_m).norm() > radius_m) return;
     sum_m += p_m;
     ++count;
-  }
+  });
   return sum_m / count;
 }
 
 void ExpectSurfacesOfBruteForce(const SurfaceMap& map) {
   const SurfaceMapOptions options;
-  for (PointId id = 0; id < map.quadtree().id_end(); ++id) {
-    if (!map.quadtree().Contains(id)) continue;
-    const Surface surface = map.SurfaceAt(id);
+  map.quadtree().ForEach([&](PointId id, const Eigen::Vector2d& p_m) {
+    const Surface surface = map.SurfaceAt({.id = id, .position_m = p_m});
     // Where few points are around, the scan's own normal and the point itself are all there is.
-    const bool is_own = (surface.mean_m - map.quadtree().Position(id)).norm() < 1e-12;
-    if (is_own) continue;
-    const Eigen::Vector2d mean_m = MeanAround(map, id, options.neighborhood_radius_m);
+    const bool is_own = (surface.mean_m - p_m).norm() < 1e-12;
+    if (is_own) return;
+    const Eigen::Vector2d mean_m = MeanAround(map, p_m, options.neighborhood_radius_m);
     EXPECT_NEAR((surface.mean_m - mean_m).norm(), 0.0, 1e-5) << id;
     EXPECT_NEAR(surface.normal.norm(), 1.0, 1e-9) << id;
     EXPECT_GE(surface.across_m2, 0.0) << id;
-  }
+  });
 }
 
 TEST(SurfaceMap, SurfacesAreThoseOfThePointsAround) {
@@ -105,14 +103,14 @@ TEST(SurfaceMap, AfterAScanIsRemovedIsWhatItWouldHaveBeenWithoutIt) {
     with.RemoveScan(2);
     ExpectSurfacesOfBruteForce(with);
     ASSERT_EQ(with.quadtree().size(), without.quadtree().size());
-    for (PointId id = 0; id < without.quadtree().id_end(); ++id) {
-      const auto same = with.quadtree().Nearest(without.quadtree().Position(id), 1e-6);
+    without.quadtree().ForEach([&](PointId id, const Eigen::Vector2d& p_m) {
+      const auto same = with.quadtree().Nearest(p_m, 1e-6);
       ASSERT_TRUE(same);
-      EXPECT_NEAR(
-          (with.SurfaceAt(same->id).mean_m - without.SurfaceAt(id).mean_m).norm(), 0.0, 1e-5);
+      const Surface surface = without.SurfaceAt({.id = id, .position_m = p_m});
+      EXPECT_NEAR((with.SurfaceAt(*same).mean_m - surface.mean_m).norm(), 0.0, 1e-5);
       EXPECT_FLOAT_EQ(static_cast<float>(with.Drift_m2(same->id)),
                       static_cast<float>(without.Drift_m2(id)));
-    }
+    });
     for (int x = -20; x < 20; ++x) {
       for (int y = -20; y < 20; ++y) {
         // Stored positions are rounded to a micrometre, likelihoods to a 255th.
@@ -135,7 +133,7 @@ TEST(SurfaceMap, AWallIsALineAcrossItsNormal) {
   }
   const auto middle = map.quadtree().Nearest(0.5 * along, 0.1);
   ASSERT_TRUE(middle);
-  const Surface surface = map.SurfaceAt(middle->id);
+  const Surface surface = map.SurfaceAt(*middle);
   EXPECT_TRUE(surface.is_line);
   EXPECT_GT(std::abs(surface.normal.dot(normal)), std::cos(0.05));
   EXPECT_LT(surface.across_m2, 0.02 * 0.02);
@@ -150,7 +148,7 @@ TEST(SurfaceMap, TheSidesOfAThinWallAreTwoSurfaces) {
   }
   const auto nearest = map.quadtree().Nearest({0.4, 0.05}, 0.01);
   ASSERT_TRUE(nearest);
-  EXPECT_NEAR(map.SurfaceAt(nearest->id).mean_m.y(), 0.05, 1e-5);
+  EXPECT_NEAR(map.SurfaceAt(*nearest).mean_m.y(), 0.05, 1e-5);
   EXPECT_TRUE(map.IsOnOtherSide(nearest->id, -left));
   EXPECT_FALSE(map.IsOnOtherSide(nearest->id, left));
   EXPECT_FALSE(map.IsOnOtherSide(nearest->id, Eigen::Vector2d(1.0, 0.0)));  // Around the corner.

@@ -79,11 +79,10 @@ TEST(TeamMap, TakesEveryScanOnceAndDrawsTheSameInAnyOrder) {
 
 /// The places of all stored points.
 std::multiset<std::pair<double, double>> PointsOf(const ScanMap& map) {
-  const PointQuadtree& tree = map.surfaces().quadtree();
   std::multiset<std::pair<double, double>> points;
-  for (PointId id = 0; id < tree.id_end(); ++id) {
-    if (tree.Contains(id)) points.insert({tree.Position(id).x(), tree.Position(id).y()});
-  }
+  map.surfaces().quadtree().ForEach([&](PointId, const Eigen::Vector2d& p_m) {
+    points.insert({p_m.x(), p_m.y()});
+  });
   return points;
 }
 

@@ -59,7 +59,7 @@ TEST_P(SurveyedWall, LiesWhereTheCellsHaveTheirLine) {
         distance_m * normal + along_m * Eigen::Vector2d(-normal.y(), normal.x());
     const auto nearest = points.Nearest(p_m, 0.1);
     ASSERT_TRUE(nearest.has_value()) << along_m;
-    const Surface surface = map.surfaces().SurfaceAt(nearest->id);
+    const Surface surface = map.surfaces().SurfaceAt(*nearest);
     EXPECT_LT(std::abs(normal.dot(surface.mean_m) - distance_m), 0.6 * kCell_m) << along_m;
     EXPECT_TRUE(surface.is_line) << along_m;
     EXPECT_GT(std::abs(normal.dot(surface.normal)), 0.97) << along_m;

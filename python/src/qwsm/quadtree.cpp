@@ -93,13 +93,13 @@ void CheckId(const PointQuadtree& tree, PointId id) {
 }
 
 py::array_t<double> PositionsOf(const PointQuadtree& tree, const ArrayOf<PointId>& ids) {
+  const std::vector<Eigen::Vector2d> all_m = tree.Positions();
   py::array_t<double> positions_m({ids.size(), py::ssize_t{2}});
   for (py::ssize_t i = 0; i < ids.size(); ++i) {
     const PointId id = ids.data()[i];
     CheckId(tree, id);
-    const Eigen::Vector2d p_m = tree.Position(id);
-    positions_m.mutable_at(i, 0) = p_m.x();
-    positions_m.mutable_at(i, 1) = p_m.y();
+    positions_m.mutable_at(i, 0) = all_m[id].x();
+    positions_m.mutable_at(i, 1) = all_m[id].y();
   }
   return positions_m;
 }

@@ -131,7 +131,7 @@ bool Pairing::IsPaired(const Eigen::Matrix2d& R_map_cur, const ScanPoint& point,
     pair.id.reset();
     return false;
   }
-  if (pair.id != pair.nearest->id) pair.surface = map_.SurfaceAt(pair.nearest->id);
+  if (pair.id != pair.nearest->id) pair.surface = map_.SurfaceAt(*pair.nearest);
   pair.id = pair.nearest->id;
   return true;
 }

@@ -61,8 +61,7 @@ inline void SurfaceMap::Neighborhood::Add(const Eigen::Vector2f& offset_m) {
 }
 
 template <class Visit>
-void SurfaceMap::ForEachNeighbor(PointId id, Visit visit) {
-  const Eigen::Vector2d p_m = quadtree_.Position(id);
+void SurfaceMap::ForEachNeighbor(PointId id, const Eigen::Vector2d& p_m, Visit visit) {
   const Neighborhood own = neighborhoods_[id];
   quadtree_.ForEachInRadius(
       p_m, options_.neighborhood_radius_m, [&](PointId other, const Eigen::Vector2d& other_m) {
@@ -83,10 +82,12 @@ bool SurfaceMap::Insert(const MapPoint& point, ScanId scan) {
       .spacing_m = static_cast<float>(point.spacing_m),
       .drift_m2 = static_cast<float>(point.drift_m2)};
   Neighborhood own = neighborhoods_[insertion->id];
-  ForEachNeighbor(insertion->id, [&own](Neighborhood& other, const Eigen::Vector2f& offset_m) {
-    own.Add(offset_m);
-    other.Add(-offset_m);
-  });
+  ForEachNeighbor(insertion->id,
+                  insertion->position_m,
+                  [&own](Neighborhood& other, const Eigen::Vector2f& offset_m) {
+                    own.Add(offset_m);
+                    other.Add(-offset_m);
+                  });
   neighborhoods_[insertion->id] = own;
   if (likelihood_) likelihood_->Insert(point.p_map_m, point.drift_m2);
   return true;
@@ -94,25 +95,23 @@ bool SurfaceMap::Insert(const MapPoint& point, ScanId scan) {
 
 void SurfaceMap::RemoveScan(ScanId scan) {
   if (quadtree_.RemoveScan(scan) == 0) return;
-  for (PointId id = 0; id < quadtree_.id_end(); ++id) {
-    if (!quadtree_.Contains(id)) continue;
+  quadtree_.ForEach([this](PointId id, const Eigen::Vector2d& p_m) {
     Neighborhood& own = neighborhoods_[id];
     own = {.own_normal_x = own.own_normal_x,
            .own_normal_y = own.own_normal_y,
            .spacing_m = own.spacing_m,
            .drift_m2 = own.drift_m2};
-    ForEachNeighbor(id, [&own](const Neighborhood&, const Eigen::Vector2f& offset_m) {
+    ForEachNeighbor(id, p_m, [&own](const Neighborhood&, const Eigen::Vector2f& offset_m) {
       own.Add(offset_m);
     });
-  }
+  });
   if (likelihood_) likelihood_ = MakeLikelihood();
 }
 
 LikelihoodPyramid SurfaceMap::MakeLikelihood() const {
   LikelihoodPyramid likelihood(options_.likelihood);
-  for (PointId id = 0; id < quadtree_.id_end(); ++id) {
-    if (quadtree_.Contains(id)) likelihood.Insert(quadtree_.Position(id), Drift_m2(id));
-  }
+  quadtree_.ForEach(
+      [&](PointId id, const Eigen::Vector2d& p_m) { likelihood.Insert(p_m, Drift_m2(id)); });
   return likelihood;
 }
 
@@ -128,9 +127,9 @@ double SurfaceMap::Observations(const Neighborhood& n) const {
   return std::max(1.0, static_cast<double>(n.count) / samples_of_a_scan);
 }
 
-Surface SurfaceMap::SurfaceAt(PointId id) const {
-  const Neighborhood& n = neighborhoods_[id];
-  const Eigen::Vector2d p_m = quadtree_.Position(id);
+Surface SurfaceMap::SurfaceAt(const Neighbor& stored) const {
+  const Neighborhood& n = neighborhoods_[stored.id];
+  const Eigen::Vector2d& p_m = stored.position_m;
   const double count = static_cast<double>(n.count);
   const double scale = 1.0 / count;
   const Eigen::Vector2d mean = scale * Eigen::Vector2f(n.sum_x, n.sum_y).cast<double>();
@@ -148,7 +147,7 @@ Surface SurfaceMap::SurfaceAt(PointId id) const {
             .observations = Observations(n),
             .is_line = true};
   }
-  const Eigen::Vector2d own_normal = OwnNormal(id);
+  const Eigen::Vector2d own_normal = OwnNormal(stored.id);
   if (!own_normal.isZero() && (is_line || !is_dense)) {
     // Too few or too close together to show a direction better than the scan itself did.
     return {.mean_m = p_m,

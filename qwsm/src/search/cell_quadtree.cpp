@@ -3,6 +3,7 @@
 #include "qwsm/search/detail/cell_quadtree.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
 
@@ -13,37 +14,46 @@ constexpr std::int32_t Offset(std::uint32_t cell, std::uint16_t fraction, std::u
   return static_cast<std::int32_t>(((cell - corner) << kFractionBits) + fraction);
 }
 
-constexpr Cell CellOf(const Leaf& leaf, int i) {
-  const auto slot = static_cast<std::size_t>(i);
-  return {leaf.corner.x + (static_cast<std::uint32_t>(leaf.x[slot]) >> kFractionBits),
-          leaf.corner.y + (static_cast<std::uint32_t>(leaf.y[slot]) >> kFractionBits)};
+Cell CellOf(const Leaf& leaf, int i) {
+  return {leaf.corner.x + (static_cast<std::uint32_t>(leaf.x(i)) >> kFractionBits),
+          leaf.corner.y + (static_cast<std::uint32_t>(leaf.y(i)) >> kFractionBits)};
 }
 
 int IndexOf(const Leaf& leaf, Cell cell) {
   const auto x = static_cast<std::int32_t>(cell.x - leaf.corner.x);
   const auto y = static_cast<std::int32_t>(cell.y - leaf.corner.y);
-  const auto is_at = [&](std::size_t i) {
-    return leaf.x[i] >> kFractionBits == x && leaf.y[i] >> kFractionBits == y;
+  const auto is_at = [&](int i) {
+    return leaf.x(i) >> kFractionBits == x && leaf.y(i) >> kFractionBits == y;
   };
   int i = 0;
-  while (i < leaf.count && !is_at(static_cast<std::size_t>(i))) ++i;
+  while (i < leaf.count && !is_at(i)) ++i;
   return i;
 }
 
+void Put(Leaf& leaf, int i, const FixedPoint& p) {
+  leaf.x(i) = Offset(p.cell.x, p.fraction_x, leaf.corner.x);
+  leaf.y(i) = Offset(p.cell.y, p.fraction_y, leaf.corner.y);
+}
+
 void Append(Leaf& leaf, const FixedPoint& p, std::uint32_t id) {
-  assert(leaf.count < kBucketSize && leaf.square().Contains(p.cell));
-  leaf.x[leaf.count] = Offset(p.cell.x, p.fraction_x, leaf.corner.x);
-  leaf.y[leaf.count] = Offset(p.cell.y, p.fraction_y, leaf.corner.y);
-  leaf.id[leaf.count] = id;
+  assert(leaf.count < leaf.room() && leaf.square().Contains(p.cell));
+  Put(leaf, leaf.count, p);
+  leaf.id(leaf.count) = id;
   ++leaf.count;
 }
 
 FixedPoint PointAt(const Leaf& leaf, int i) {
   constexpr std::int32_t kFractionMask = (1 << kFractionBits) - 1;
-  const auto slot = static_cast<std::size_t>(i);
   return {CellOf(leaf, i),
-          static_cast<std::uint16_t>(leaf.x[slot] & kFractionMask),
-          static_cast<std::uint16_t>(leaf.y[slot] & kFractionMask)};
+          static_cast<std::uint16_t>(leaf.x(i) & kFractionMask),
+          static_cast<std::uint16_t>(leaf.y(i) & kFractionMask)};
+}
+
+/// How many points of a leaf are in each quarter of its square.
+std::array<int, 4> CountByQuarter(const Leaf& leaf) {
+  std::array<int, 4> counts{};
+  for (int i = 0; i < leaf.count; ++i) ++counts[leaf.square().QuarterOf(CellOf(leaf, i))];
+  return counts;
 }
 
 }  // namespace
@@ -52,34 +62,53 @@ std::uint32_t CellQuadtree::FindOrInsert(const FixedPoint& p, std::uint32_t id) 
   GrowTo(p.cell);
   std::uint32_t target = LeafFor(p.cell);
   const Leaf& found = leaves_[target];
-  if (const int i = IndexOf(found, p.cell); i < found.count) {
-    return found.id[static_cast<std::size_t>(i)];
-  }
+  if (const int i = IndexOf(found, p.cell); i < found.count) return found.id(i);
   // Ends because a cell holds one point: more than kBucketSize are not in one smallest cell.
   while (leaves_[target].count == kBucketSize) {
     Split(target);
     target = LeafFor(p.cell);
   }
+  if (leaves_[target].count == leaves_[target].room()) {
+    target = MoveToRoomFor(leaves_[target].count + 1, target);
+  }
   Append(leaves_[target], p, id);
   return id;
 }
 
+FixedPoint CellQuadtree::PointIn(Cell cell) const {
+  const Slot slot = Find(cell);
+  return PointAt(leaves_[slot.leaf], slot.index);
+}
+
 void CellQuadtree::Move(const FixedPoint& p) {
   const Slot slot = Find(p.cell);
-  Leaf& leaf = leaves_[slot.leaf];
-  leaf.x[static_cast<std::size_t>(slot.index)] = Offset(p.cell.x, p.fraction_x, leaf.corner.x);
-  leaf.y[static_cast<std::size_t>(slot.index)] = Offset(p.cell.y, p.fraction_y, leaf.corner.y);
+  Put(leaves_[slot.leaf], slot.index, p);
 }
 
 void CellQuadtree::Remove(Cell cell) {
   const Slot slot = Find(cell);
   Leaf& leaf = leaves_[slot.leaf];
-  const auto hole = static_cast<std::size_t>(slot.index);
-  const std::size_t last = --leaf.count;
-  leaf.x[hole] = leaf.x[last];
-  leaf.y[hole] = leaf.y[last];
-  leaf.id[hole] = leaf.id[last];
-  if (leaf.count == 0) RemoveLeaf(slot.leaf);
+  const int last = --leaf.count;
+  leaf.x(slot.index) = leaf.x(last);
+  leaf.y(slot.index) = leaf.y(last);
+  leaf.id(slot.index) = leaf.id(last);
+  if (leaf.count == 0) {
+    RemoveLeaf(slot.leaf);
+  } else if (leaf.count <= leaf.room() - kBlockSize) {
+    MoveToRoomFor(leaf.count, slot.leaf);
+  }
+}
+
+/// Puts a leaf with the same points, and room for so many, in the place of a leaf; returns it.
+std::uint32_t CellQuadtree::MoveToRoomFor(int points, std::uint32_t leaf) {
+  const Leaf& old = leaves_[leaf];
+  const std::uint32_t moved = leaves_.Add(old.square(), old.parent, points);
+  Leaf& copy = leaves_[moved];
+  std::copy_n(&old.block(0), std::min(old.blocks, copy.blocks), &copy.block(0));
+  copy.count = old.count;
+  LinkTo(old.parent, old.corner, old.level) = NodeRef::Leaf(moved);
+  leaves_.Free(leaf);
+  return moved;
 }
 
 std::uint32_t CellQuadtree::LeafAt(Cell cell) const {
@@ -173,23 +202,21 @@ void CellQuadtree::GrowTo(Cell cell) {
 
 /// A root that is a leaf needs no inner nodes above it to grow.
 void CellQuadtree::EnlargeRootLeaf() {
-  Leaf old = leaves_[root_.index()];
   root_square_ = root_square_.AtLevel(root_square_.level + 1);
-  Leaf& enlarged = leaves_[root_.index()];
-  enlarged.corner = root_square_.corner;
-  enlarged.level = static_cast<std::uint16_t>(root_square_.level);
-  enlarged.count = 0;
-  for (int i = 0; i < old.count; ++i) {
-    Append(enlarged, PointAt(old, i), old.id[static_cast<std::size_t>(i)]);
+  Leaf& leaf = leaves_[root_.index()];
+  const Leaf old = leaf;
+  leaf.corner = root_square_.corner;
+  leaf.level = static_cast<std::uint8_t>(root_square_.level);
+  for (int i = 0; i < leaf.count; ++i) {
+    leaf.x(i) += Offset(old.corner.x, 0, leaf.corner.x);
+    leaf.y(i) += Offset(old.corner.y, 0, leaf.corner.y);
   }
 }
 
 NodeRef CellQuadtree::MakeNode(const Square& square, std::uint32_t parent) {
   if (square.level > kMaxLeafLevel)
     return NodeRef::Inner(inner_.Add({.children = {}, .parent = parent}));
-  return NodeRef::Leaf(leaves_.Add({.corner = square.corner,
-                                    .parent = parent,
-                                    .level = static_cast<std::uint16_t>(square.level)}));
+  return NodeRef::Leaf(leaves_.Add(square, parent, 1));
 }
 
 /// The leaf whose square holds the cell, made if there is none. @pre the root contains the cell
@@ -209,18 +236,21 @@ std::uint32_t CellQuadtree::LeafFor(Cell cell) {
 
 /// Puts an inner node with up to four leaves in the place of a leaf.
 void CellQuadtree::Split(std::uint32_t leaf) {
-  const Leaf old = leaves_[leaf];
+  const Leaf& old = leaves_[leaf];
   assert(old.level > 0);
-  leaves_.Free(leaf);
   const std::uint32_t node = inner_.Add({.children = {}, .parent = old.parent});
   LinkTo(old.parent, old.corner, old.level) = NodeRef::Inner(node);
+  const std::array<int, 4> counts = CountByQuarter(old);
   for (int i = 0; i < old.count; ++i) {
     const FixedPoint p = PointAt(old, i);
     const unsigned quarter = old.square().QuarterOf(p.cell);
     NodeRef& child = inner_[node].children[quarter];
-    if (!child) child = MakeNode(old.square().Quarter(quarter), node);
-    Append(leaves_[child.index()], p, old.id[static_cast<std::size_t>(i)]);
+    if (!child) {
+      child = NodeRef::Leaf(leaves_.Add(old.square().Quarter(quarter), node, counts[quarter]));
+    }
+    Append(leaves_[child.index()], p, old.id(i));
   }
+  leaves_.Free(leaf);
 }
 
 void CellQuadtree::RemoveLeaf(std::uint32_t leaf) {

@@ -10,6 +10,7 @@ void MergeLedger::Add(std::uint32_t account, const Contribution& contribution) {
   Account& a = accounts_[account];
   a.sum_x += contribution.fraction_x;
   a.sum_y += contribution.fraction_y;
+  if (a.count == 0) a.oldest_scan = contribution.scan;
   ++a.count;
   const std::uint32_t added = contributions_.Add(contribution);
   contributions_[added].previous = a.latest;
@@ -22,6 +23,7 @@ std::size_t MergeLedger::Withdraw(std::uint32_t account, std::uint32_t scan) {
   for (std::uint32_t* link = &a.latest; *link != kNoIndex;) {
     Contribution& contribution = contributions_[*link];
     if (contribution.scan != scan) {
+      a.oldest_scan = contribution.scan;  // Of those left; the last one seen is the oldest.
       link = &contribution.previous;
       continue;
     }
@@ -39,13 +41,6 @@ void MergeLedger::Close(std::uint32_t account) {
     contributions_.Free(i);
   }
   accounts_.Free(account);
-}
-
-const MergeLedger::Contribution& MergeLedger::Oldest(std::uint32_t account) const {
-  std::uint32_t i = accounts_[account].latest;
-  assert(i != kNoIndex);
-  while (contributions_[i].previous != kNoIndex) i = contributions_[i].previous;
-  return contributions_[i];
 }
 
 }  // namespace qwsm::quadtree

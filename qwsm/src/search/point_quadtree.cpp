@@ -8,12 +8,14 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace qwsm {
 
 using quadtree::FixedPoint;
-using quadtree::kNoIndex;
 using quadtree::kUnitsPerCell;
+using quadtree::Origin;
 
 namespace {
 
@@ -52,96 +54,104 @@ PointQuadtree::PointQuadtree(const PointQuadtreeOptions& options)
 
 std::optional<PointQuadtree::Insertion> PointQuadtree::Insert(const Eigen::Vector2d& p_m,
                                                               ScanId scan) {
-  if (tree_.empty() && !CenterOn(p_m)) return std::nullopt;
+  if (scan >= Origin::kScanEnd || (tree_.empty() && !CenterOn(p_m))) return std::nullopt;
   const std::optional<FixedPoint> p = Locate(p_m);
   if (!p) return std::nullopt;
   revision_.Advance();
-  const PointId id = tree_.FindOrInsert(*p, points_.next());
-  const bool is_new = id == points_.next();
-  if (is_new) {
-    points_.Add({.position = *p, .scan = scan, .account = kNoIndex});
-  } else {
-    Merge(id, *p, scan);
-  }
-  return Insertion{.id = id, .merged = !is_new};
+  const PointId id = tree_.FindOrInsert(*p, origins_.next());
+  const bool is_new = id == origins_.next();
+  if (is_new) origins_.Add(Origin::Scan(scan));
+  const FixedPoint stored = is_new ? *p : Merge(id, *p, scan);
+  return Insertion{
+      .id = id, .merged = !is_new, .position_m = ToMetres(quadtree::ToUnitPoint(stored))};
 }
 
-void PointQuadtree::Merge(PointId id, const FixedPoint& p, ScanId scan) {
-  Record& record = points_[id];
-  if (record.account == kNoIndex) {
-    record.account = ledger_.Open();
-    ledger_.Add(record.account, ContributionOf(record.position, record.scan));
+/// Adds a point to the one stored in its cell, and returns that.
+FixedPoint PointQuadtree::Merge(PointId id, const FixedPoint& p, ScanId scan) {
+  Origin& origin = origins_[id];
+  if (!origin.is_account()) {
+    const std::uint32_t account = ledger_.Open();
+    ledger_.Add(account, ContributionOf(tree_.PointIn(p.cell), origin.scan()));
+    origin = Origin::Account(account);
   }
-  ledger_.Add(record.account, ContributionOf(p, scan));
-  MoveToMean(record);
+  ledger_.Add(origin.account(), ContributionOf(p, scan));
+  return MoveToMean(p.cell, origin.account());
 }
 
-void PointQuadtree::MoveToMean(Record& record) {
-  record.position.fraction_x = ledger_.mean_x(record.account);
-  record.position.fraction_y = ledger_.mean_y(record.account);
-  tree_.Move(record.position);
+FixedPoint PointQuadtree::MoveToMean(quadtree::Cell cell, std::uint32_t account) {
+  const FixedPoint mean{cell, ledger_.mean_x(account), ledger_.mean_y(account)};
+  tree_.Move(mean);
+  return mean;
 }
 
 std::size_t PointQuadtree::RemoveScan(ScanId scan) {
   revision_.Advance();
+  std::vector<std::pair<PointId, quadtree::Cell>> points;  // By id, so that ids are freed in order.
+  const auto add = [&](PointId id, const quadtree::UnitPoint& p) {
+    points.emplace_back(id, quadtree::CellAt(p));
+  };
+  quadtree::VisitAll(tree_, tree_.root().node, add);
+  std::ranges::sort(points, {}, &std::pair<PointId, quadtree::Cell>::first);
   std::size_t withdrawn = 0;
-  for (PointId id = 0; id < points_.end(); ++id) {
-    if (Contains(id)) withdrawn += Withdraw(id, scan);
-  }
+  for (const auto& [id, cell] : points) withdrawn += Withdraw(id, cell, scan);
   return withdrawn;
 }
 
-std::size_t PointQuadtree::Withdraw(PointId id, ScanId scan) {
-  Record& record = points_[id];
-  if (record.account == kNoIndex) {
-    if (record.scan != scan) return 0;
-    Remove(id);
+std::size_t PointQuadtree::Withdraw(PointId id, quadtree::Cell cell, ScanId scan) {
+  Origin& origin = origins_[id];
+  if (!origin.is_account()) {
+    if (origin.scan() != scan) return 0;
+    Remove(id, cell);
     return 1;
   }
-  const std::size_t withdrawn = ledger_.Withdraw(record.account, scan);
+  const std::uint32_t account = origin.account();
+  const std::size_t withdrawn = ledger_.Withdraw(account, scan);
   if (withdrawn == 0) return 0;
-  if (ledger_.count(record.account) == 0) {
-    Remove(id);
+  if (ledger_.count(account) == 0) {
+    Remove(id, cell);
     return withdrawn;
   }
-  record.scan = ledger_.Oldest(record.account).scan;
-  MoveToMean(record);
-  if (ledger_.count(record.account) == 1) {
-    ledger_.Close(record.account);
-    record.account = kNoIndex;
+  MoveToMean(cell, account);
+  if (ledger_.count(account) == 1) {
+    origin = Origin::Scan(ledger_.oldest_scan(account));
+    ledger_.Close(account);
   }
   return withdrawn;
 }
 
-void PointQuadtree::Remove(PointId id) {
-  Record& record = points_[id];
-  tree_.Remove(record.position.cell);
-  if (record.account != kNoIndex) ledger_.Close(record.account);
-  record.account = kNotStored;
-  points_.Free(id);
-}
-
-bool PointQuadtree::Contains(PointId id) const {
-  return id < points_.end() && points_[id].account != kNotStored;
+void PointQuadtree::Remove(PointId id, quadtree::Cell cell) {
+  tree_.Remove(cell);
+  Origin& origin = origins_[id];
+  if (origin.is_account()) ledger_.Close(origin.account());
+  origin = Origin();
+  origins_.Free(id);
 }
 
 std::uint32_t PointQuadtree::Count(PointId id) const {
   assert(Contains(id));
-  return points_[id].account == kNoIndex ? 1 : ledger_.count(points_[id].account);
+  const Origin origin = origins_[id];
+  return origin.is_account() ? ledger_.count(origin.account()) : 1;
 }
 
 ScanId PointQuadtree::Scan(PointId id) const {
   assert(Contains(id));
-  return points_[id].scan;
+  const Origin origin = origins_[id];
+  return origin.is_account() ? ledger_.oldest_scan(origin.account()) : origin.scan();
+}
+
+std::vector<Eigen::Vector2d> PointQuadtree::Positions() const {
+  std::vector<Eigen::Vector2d> positions_m(id_end());
+  ForEach([&](PointId id, const Eigen::Vector2d& p_m) { positions_m[id] = p_m; });
+  return positions_m;
 }
 
 PointQuadtreeStatistics PointQuadtree::Statistics() const {
-  return {.points = points_.size(),
+  return {.points = size(),
           .merged_points = ledger_.account_count(),
           .nodes = tree_.inner_count() + tree_.leaf_count(),
           .leaves = tree_.leaf_count(),
           .depth = tree_.Depth(),
-          .bytes = sizeof(*this) + tree_.bytes() + points_.bytes() + ledger_.bytes()};
+          .bytes = sizeof(*this) + tree_.bytes() + origins_.bytes() + ledger_.bytes()};
 }
 
 std::optional<FixedPoint> PointQuadtree::Locate(const Eigen::Vector2d& p_m) const {

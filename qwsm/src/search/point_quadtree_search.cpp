@@ -5,7 +5,6 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "qwsm/search/point_quadtree.hpp"
@@ -15,6 +14,7 @@ namespace qwsm {
 using quadtree::Cell;
 using quadtree::CellAt;
 using quadtree::CellQuadtree;
+using quadtree::kBlockSize;
 using quadtree::kBucketSize;
 using quadtree::kNoIndex;
 using quadtree::kUnitsPerCell;
@@ -92,7 +92,7 @@ class NearestInLeaf {
     const double error2 = ErrorOfFloats(second2);
     if (second2 - least2 > 2.0 * error2) {
       slot_ = std::bit_cast<std::int32_t>(coded.least()) & kSlotBits;
-      nearest2_ = Distance2(static_cast<std::size_t>(slot_));
+      nearest2_ = Distance2(slot_);
       second2_ = second2 - error2;
     } else {
       CompareInDoubles();
@@ -105,7 +105,7 @@ class NearestInLeaf {
 
  private:
   static constexpr std::int32_t kSlotBits = 31;
-  static_assert(kBucketSize <= kSlotBits && kBucketSize % 4 == 0);
+  static_assert(kBucketSize <= kSlotBits);
 
   /// Squared distances of all points, each with its slot in the lowest bits.
   TwoLeast CodedDistances() const {
@@ -115,9 +115,9 @@ class NearestInLeaf {
     const FourInts no_point = std::bit_cast<FourInts>(Four{} + std::numeric_limits<float>::max());
     TwoLeast coded;
     FourInts slots{0, 1, 2, 3};
-    for (std::size_t first = 0; first < leaf_.count; first += 4, slots += 4) {
-      const Four dx = FourOf(leaf_.x, first) - x;
-      const Four dy = FourOf(leaf_.y, first) - y;
+    for (int i = 0; i < leaf_.blocks; ++i, slots += kBlockSize) {
+      const Four dx = ToFloats(leaf_.block(i).x) - x;
+      const Four dy = ToFloats(leaf_.block(i).y) - y;
       const auto with_slot = (std::bit_cast<FourInts>(dx * dx + dy * dy) & ~kSlotBits) | slots;
       coded.Take(std::bit_cast<Four>(slots < count ? with_slot : no_point));
     }
@@ -125,10 +125,8 @@ class NearestInLeaf {
     return coded;
   }
 
-  static Four FourOf(const std::array<std::int32_t, kBucketSize>& offsets, std::size_t first) {
-    FourInts four;
-    std::memcpy(&four, &offsets[first], sizeof four);
-    return __builtin_convertvector(four, Four);
+  static Four ToFloats(const std::array<std::int32_t, kBlockSize>& offsets) {
+    return __builtin_convertvector(std::bit_cast<FourInts>(offsets), Four);
   }
 
   /// No coded distance is further off than this. Coordinates are off by 2^-24 of themselves, which
@@ -140,17 +138,17 @@ class NearestInLeaf {
   }
 
   // By offsets from the leaf's corner: differences of such numbers are exact.
-  double Distance2(std::size_t slot) const {
-    const double dx = static_cast<double>(leaf_.x[slot]) - x_;
-    const double dy = static_cast<double>(leaf_.y[slot]) - y_;
+  double Distance2(int slot) const {
+    const double dx = static_cast<double>(leaf_.x(slot)) - x_;
+    const double dy = static_cast<double>(leaf_.y(slot)) - y_;
     return dx * dx + dy * dy;
   }
 
   void CompareInDoubles() {
-    for (std::size_t i = 0; i < leaf_.count; ++i) {
+    for (int i = 0; i < leaf_.count; ++i) {
       const double distance2 = Distance2(i);
       second2_ = std::min(second2_, std::max(nearest2_, distance2));
-      if (distance2 < nearest2_) slot_ = static_cast<int>(i);
+      if (distance2 < nearest2_) slot_ = i;
       nearest2_ = std::min(nearest2_, distance2);
     }
   }
@@ -195,7 +193,7 @@ class NearestBall {
   double radius2() const { return radius2_; }
   const UnitPoint& center() const { return center_; }
   std::uint32_t leaf() const { return leaf_; }
-  PointId id() const { return tree_.leaf(leaf_).id[static_cast<std::size_t>(slot_)]; }
+  PointId id() const { return tree_.leaf(leaf_).id(slot_); }
   UnitPoint position() const { return quadtree::PositionAt(tree_.leaf(leaf_), slot_); }
   double clearance_of_point() const { return std::sqrt(std::min(other_leaf2_, second2_)); }
 
@@ -229,9 +227,7 @@ class KNearestBall {
       const UnitPoint p = quadtree::PositionAt(leaf, i);
       const double distance2 = Distance2(p, center_);
       if (distance2 < radius2_) {
-        Add({.id = leaf.id[static_cast<std::size_t>(i)],
-             .distance_m2 = distance2,
-             .position_m = {p.x, p.y}});
+        Add({.id = leaf.id(i), .distance_m2 = distance2, .position_m = {p.x, p.y}});
       }
     }
   }

@@ -33,12 +33,12 @@ struct Contents {
 };
 
 void AddPoints(BinaryWriter& writer, const PointQuadtree& points) {
+  const std::vector<Eigen::Vector2d> positions_m = points.Positions();
   writer.Add(static_cast<std::uint64_t>(points.size()));
   for (PointId id = 0; id < points.id_end(); ++id) {
     if (!points.Contains(id)) continue;
-    const Eigen::Vector2d p_map_m = points.Position(id);
-    writer.Add(p_map_m.x());
-    writer.Add(p_map_m.y());
+    writer.Add(positions_m[id].x());
+    writer.Add(positions_m[id].y());
     writer.Add(static_cast<std::uint32_t>(points.Scan(id)));
     writer.Add(points.Count(id));
   }
@@ -47,9 +47,10 @@ void AddPoints(BinaryWriter& writer, const PointQuadtree& points) {
 /// Whether the quadtree holds just the points that follow, in this order.
 bool HoldsPoints(BinaryReader& reader, const PointQuadtree& points) {
   if (reader.Count(kPointBytes) != points.size()) return false;
+  const std::vector<Eigen::Vector2d> positions_m = points.Positions();
   for (PointId id = 0; id < points.id_end(); ++id) {
     if (!points.Contains(id)) continue;
-    const Eigen::Vector2d p_map_m = points.Position(id);
+    const Eigen::Vector2d& p_map_m = positions_m[id];
     const bool same_place = reader.Double() == p_map_m.x() && reader.Double() == p_map_m.y();
     const bool same_origin = same_place && reader.Unsigned32() == points.Scan(id) &&
                              reader.Unsigned32() == points.Count(id);

@@ -103,13 +103,11 @@ class SurfaceMap {
   LikelihoodPyramid MakeLikelihood() const;
   /// Bytes of all memory held. Complexity: linear in the nodes of the quadtree.
   std::size_t bytes() const;
-  /// Returns the surface around a stored point. @pre quadtree().Contains(id), here and below.
-  Surface SurfaceAt(PointId id) const;
-  /// Has the memory fetched that the calls below need.
-  void Prefetch(PointId id) const {
-    __builtin_prefetch(&neighborhoods_[id]);
-    quadtree_.Prefetch(id);
-  }
+  /// Returns the surface around a stored point. Its id and position count.
+  /// @pre quadtree().Contains(id), here and below.
+  Surface SurfaceAt(const Neighbor& stored) const;
+  /// Has the memory fetched that SurfaceAt() and the calls below need.
+  void Prefetch(PointId id) const { __builtin_prefetch(&neighborhoods_[id]); }
   /// Variance of the position of a stored point owing to the pose it was seen from.
   double Drift_m2(PointId id) const { return static_cast<double>(neighborhoods_[id].drift_m2); }
   /// Returns the normal a point was stored with; zero if none.
@@ -152,7 +150,7 @@ class SurfaceMap {
 
   // Calls visit(Neighborhood&, offset_m) for the other points of the same neighbourhood.
   template <class Visit>
-  void ForEachNeighbor(PointId id, Visit visit);
+  void ForEachNeighbor(PointId id, const Eigen::Vector2d& p_m, Visit visit);
   double Observations(const Neighborhood& n) const;
 
   SurfaceMapOptions options_;

@@ -52,23 +52,26 @@ struct PointQuadtreeStatistics {
 ///
 /// Points of one cell are merged to their mean. Positions are kept to 1/1024 cell however far from
 /// the origin, unlike in floats. The root is no larger than the points need, and doubles when one
-/// falls outside. Leaves hold up to 20 points in four cache lines (quadtree_layout.hpp).
+/// falls outside. Leaves hold up to 20 points, and take memory for those they hold
+/// (quadtree_layout.hpp).
 ///
 /// Cost: insertion and search O(depth), and depth grows with the logarithm of extent over spacing.
-/// Insertion never moves what is stored, so there are no pauses. 40 - 50 bytes per point;
+/// Insertion moves no more than a leaf, so there are no pauses. About 20 bytes per point;
 /// measured by quadtree_bench. Const members may run on several threads at once.
 class PointQuadtree {
  public:
   struct Insertion {
     PointId id = 0;
     bool merged = false;  ///< The point was added to one already stored in its cell.
+    Eigen::Vector2d position_m = Eigen::Vector2d::Zero();  ///< Where the point is stored now.
   };
 
   /// @throws std::invalid_argument if the cell size is not positive and finite.
   explicit PointQuadtree(const PointQuadtreeOptions& options = {});
 
   /// Adds a point. Refused with nothing returned and nothing changed: a point that is not finite,
-  /// or not within 1.4e9 cells (1431 km at a millimetre), by x and by y, of the first point stored.
+  /// or not within 1.4e9 cells (1431 km at a millimetre), by x and by y, of the first point stored;
+  /// a scan not below 2^31 - 1.
   std::optional<Insertion> Insert(const Eigen::Vector2d& p_m, ScanId scan);
 
   /// Takes out what a scan contributed: its own points, and its share of merged ones.
@@ -76,14 +79,8 @@ class PointQuadtree {
   /// listed by scan.
   std::size_t RemoveScan(ScanId scan);
 
-  bool Contains(PointId id) const;
-  /// The mean of the merged points. @pre Contains(id), here and below.
-  Eigen::Vector2d Position(PointId id) const {
-    return ToMetres(quadtree::ToUnitPoint(points_[id].position));
-  }
-  /// Has the memory fetched that Position() needs.
-  void Prefetch(PointId id) const { __builtin_prefetch(&points_[id]); }
-  /// How many points were merged.
+  bool Contains(PointId id) const { return id < origins_.end() && origins_[id]; }
+  /// How many points were merged. @pre Contains(id), here and below.
   std::uint32_t Count(PointId id) const;
   /// The oldest contributor.
   ScanId Scan(PointId id) const;
@@ -112,6 +109,15 @@ class PointQuadtree {
   /// How many points are not farther than `radius_m`, or `at_most` if there are more.
   int CountInRadius(const Eigen::Vector2d& center_m, double radius_m, int at_most) const;
 
+  /// Where the points are, by id; of ids that no point has, anything. Where points were merged, it
+  /// is their mean. Cost: linear in the points, whose places are not listed by id.
+  std::vector<Eigen::Vector2d> Positions() const;
+
+  /// Calls visit(PointId, Eigen::Vector2d position_m) for all points, in no particular order, and
+  /// so do those below.
+  template <class Visit>
+  void ForEach(Visit visit) const;
+
   /// Calls visit(PointId, Eigen::Vector2d position_m) for the points not farther than `radius_m`,
   /// in no particular order.
   template <class Visit>
@@ -122,23 +128,15 @@ class PointQuadtree {
   template <class Visit>
   void ForEachInBox(const Eigen::AlignedBox2d& box_m, Visit visit) const;
 
-  std::size_t size() const { return points_.size(); }
+  std::size_t size() const { return origins_.size(); }
   bool empty() const { return size() == 0; }
   /// One more than the largest id ever given: the size of arrays indexed by id.
-  PointId id_end() const { return points_.end(); }
+  PointId id_end() const { return origins_.end(); }
   const PointQuadtreeOptions& options() const { return options_; }
   /// Cost: linear in the nodes.
   PointQuadtreeStatistics Statistics() const;
 
  private:
-  /// A stored point by its id: what searches do not need.
-  struct Record {
-    quadtree::FixedPoint position;
-    ScanId scan = 0;
-    std::uint32_t account = kNotStored;  ///< In the ledger; quadtree::kNoIndex for a single point.
-  };
-  static constexpr std::uint32_t kNotStored = quadtree::kNoIndex - 1;
-
   // Positions: metres outside, units from the corner of the largest square inside.
   quadtree::UnitPoint ToUnits(const Eigen::Vector2d& p_m) const {
     return {(p_m.x() * cells_per_metre_ - origin_x_cells_) * quadtree::kUnitsPerCell,
@@ -160,20 +158,28 @@ class PointQuadtree {
             .position_m = ToMetres(p)};
   }
 
-  void Merge(PointId id, const quadtree::FixedPoint& p, ScanId scan);
-  void MoveToMean(Record& record);
-  std::size_t Withdraw(PointId id, ScanId scan);
-  void Remove(PointId id);
+  quadtree::FixedPoint Merge(PointId id, const quadtree::FixedPoint& p, ScanId scan);
+  quadtree::FixedPoint MoveToMean(quadtree::Cell cell, std::uint32_t account);
+  std::size_t Withdraw(PointId id, quadtree::Cell cell, ScanId scan);
+  void Remove(PointId id, quadtree::Cell cell);
 
   PointQuadtreeOptions options_;
   double cells_per_metre_;
   double origin_x_cells_ = 0.0;  ///< Corner of the largest square; whole numbers.
   double origin_y_cells_ = 0.0;
   quadtree::CellQuadtree tree_;
-  PagedPool<Record, 8> points_;
+  PagedPool<quadtree::Origin, 10> origins_;  ///< By id.
   quadtree::MergeLedger ledger_;
   quadtree::Revision revision_;
 };
+
+template <class Visit>
+void PointQuadtree::ForEach(Visit visit) const {
+  const auto visit_point = [&](PointId id, const quadtree::UnitPoint& p) {
+    visit(id, ToMetres(p));
+  };
+  quadtree::VisitAll(tree_, tree_.root().node, visit_point);
+}
 
 template <class Visit>
 void PointQuadtree::ForEachInRadius(const Eigen::Vector2d& center_m,

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "qwsm/search/detail/leaf_pool.hpp"
 #include "qwsm/search/detail/paged_pool.hpp"
 #include "qwsm/search/detail/quadtree_layout.hpp"
 
@@ -30,6 +31,8 @@ class CellQuadtree {
   /// Adds a point, or finds the one that is already in its cell and changes nothing.
   /// @return the id of the point now in the cell.
   std::uint32_t FindOrInsert(const FixedPoint& p, std::uint32_t id);
+  /// The point of a cell. @pre there is one.
+  FixedPoint PointIn(Cell cell) const;
   /// Moves the point of a cell within the cell. @pre there is one.
   void Move(const FixedPoint& p);
   /// Removes the point of a cell, and nodes left without points. @pre there is one.
@@ -68,6 +71,7 @@ class CellQuadtree {
   void EnlargeRootLeaf();
   std::uint32_t LeafFor(Cell cell);
   void Split(std::uint32_t leaf);
+  std::uint32_t MoveToRoomFor(int points, std::uint32_t leaf);
   Slot Find(Cell cell) const;
   NodeRef MakeNode(const Square& square, std::uint32_t parent);
   void RemoveLeaf(std::uint32_t leaf);
@@ -76,7 +80,7 @@ class CellQuadtree {
 
   NodeRef root_;
   Square root_square_;
-  PagedPool<Leaf> leaves_;
+  LeafPool leaves_;
   PagedPool<InnerNode> inner_;
 };
 

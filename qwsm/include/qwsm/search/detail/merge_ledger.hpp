@@ -10,6 +10,30 @@
 
 namespace qwsm::quadtree {
 
+/// Who contributed a point, in 32 bits: one scan, several that have an account in the ledger, or
+/// none, where no point is stored.
+class Origin {
+ public:
+  /// Scans are numbered below.
+  static constexpr std::uint32_t kScanEnd = (1U << 31) - 1;
+
+  constexpr Origin() = default;
+  static constexpr Origin Scan(std::uint32_t scan) { return Origin(scan); }
+  static constexpr Origin Account(std::uint32_t account) { return Origin(account | kAccountBit); }
+
+  constexpr explicit operator bool() const { return bits_ != kNone; }
+  constexpr bool is_account() const { return (bits_ & kAccountBit) != 0; }  ///< @pre not none
+  constexpr std::uint32_t scan() const { return bits_; }                    ///< @pre not an account
+  constexpr std::uint32_t account() const { return bits_ & ~kAccountBit; }
+
+ private:
+  static constexpr std::uint32_t kAccountBit = 1U << 31;
+  static constexpr std::uint32_t kNone = ~0U;
+  constexpr explicit Origin(std::uint32_t bits) : bits_(bits) {}
+
+  std::uint32_t bits_ = kNone;
+};
+
 /// Who contributed what to the points that were merged, so that a scan can be taken out again
 /// exactly. Sums are integers: a mean does not depend on the order of insertions and removals.
 /// Costs 12 bytes for each merged insertion, and nothing for points alone in their cell.
@@ -30,8 +54,8 @@ class MergeLedger {
   void Close(std::uint32_t account);
 
   std::uint32_t count(std::uint32_t account) const { return accounts_[account].count; }
-  /// The first contribution left. Cost: linear in count(). @pre count() > 0
-  const Contribution& Oldest(std::uint32_t account) const;
+  /// The scan of the first contribution left. @pre count() > 0
+  std::uint32_t oldest_scan(std::uint32_t account) const { return accounts_[account].oldest_scan; }
   /// Mean of the contributions, rounded to units. @pre count() > 0
   std::uint16_t mean_x(std::uint32_t account) const {
     return Mean(accounts_[account].sum_x, account);
@@ -51,6 +75,7 @@ class MergeLedger {
     std::uint64_t sum_y = 0;
     std::uint32_t count = 0;
     std::uint32_t latest = kNoIndex;
+    std::uint32_t oldest_scan = 0;
   };
 
   std::uint16_t Mean(std::uint64_t sum, std::uint32_t account) const {

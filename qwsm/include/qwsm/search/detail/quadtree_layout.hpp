@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 /// Inside of PointQuadtree: positions and nodes.
@@ -18,8 +19,11 @@ inline constexpr int kMaxLevel = 32;
 /// Positions in a leaf are 32-bit offsets in units, which limits its side: 2^21 cells, 2 km.
 inline constexpr int kMaxLeafLevel = 31 - kFractionBits;
 
-/// Most points of a leaf. Chosen so that a leaf fills four cache lines.
-inline constexpr int kBucketSize = 20;
+/// Points of a leaf that lie side by side in memory, so that they are compared at a time.
+inline constexpr int kBlockSize = 4;
+inline constexpr int kMostBlocks = 5;
+/// Most points of a leaf.
+inline constexpr int kBucketSize = kMostBlocks * kBlockSize;
 
 inline constexpr std::uint32_t kNoIndex = ~0U;
 
@@ -104,18 +108,41 @@ struct InnerNode {
   std::uint32_t parent = kNoIndex;  ///< Inner node; kNoIndex at the root.
 };
 
-/// Up to kBucketSize points, as a structure of arrays so that several are compared at a time.
-struct alignas(64) Leaf {
+/// Points side by side. Behind the last one of a leaf there is anything.
+struct Block {
+  std::array<std::int32_t, kBlockSize> x{};  ///< Offset from the leaf's corner, in units.
+  std::array<std::int32_t, kBlockSize> y{};
+  std::array<std::uint32_t, kBlockSize> id{};
+};
+
+/// Up to kBucketSize points. In memory its blocks follow, as many as the points need: a leaf of
+/// four points fills a cache line, one of twenty four of them. LeafPool makes them.
+struct Leaf {
   Cell corner;
   std::uint32_t parent = kNoIndex;  ///< Inner node; kNoIndex if the leaf is the root.
-  std::uint16_t level = 0;
-  std::uint16_t count = 0;
-  std::array<std::int32_t, kBucketSize> x{};  ///< Offset from the corner, in units.
-  std::array<std::int32_t, kBucketSize> y{};
-  std::array<std::uint32_t, kBucketSize> id{};
+  std::uint8_t level = 0;
+  std::uint8_t blocks = 0;
+  std::uint16_t count = 0;  ///< Of points.
 
   Square square() const { return {corner, level}; }
+  int room() const { return blocks * kBlockSize; }
+
+  Block& block(int i) { return reinterpret_cast<Block*>(this + 1)[i]; }
+  const Block& block(int i) const { return reinterpret_cast<const Block*>(this + 1)[i]; }
+  // Of the i-th point.
+  std::int32_t& x(int i) { return block(BlockOf(i)).x[LaneOf(i)]; }
+  std::int32_t& y(int i) { return block(BlockOf(i)).y[LaneOf(i)]; }
+  std::uint32_t& id(int i) { return block(BlockOf(i)).id[LaneOf(i)]; }
+  std::int32_t x(int i) const { return block(BlockOf(i)).x[LaneOf(i)]; }
+  std::int32_t y(int i) const { return block(BlockOf(i)).y[LaneOf(i)]; }
+  std::uint32_t id(int i) const { return block(BlockOf(i)).id[LaneOf(i)]; }
+
+ private:
+  static constexpr int BlockOf(int i) {
+    return static_cast<int>(static_cast<unsigned>(i) / kBlockSize);
+  }
+  static constexpr std::size_t LaneOf(int i) { return static_cast<unsigned>(i) % kBlockSize; }
 };
-static_assert(sizeof(Leaf) == 256);
+static_assert(sizeof(Leaf) == 16 && sizeof(Block) == 48);
 
 }  // namespace qwsm::quadtree

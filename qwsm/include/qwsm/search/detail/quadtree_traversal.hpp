@@ -31,9 +31,7 @@ inline CellQuadtree::Subtree SmallestAround(const CellQuadtree& tree,
 }
 
 inline UnitPoint PositionAt(const Leaf& leaf, int i) {
-  const auto slot = static_cast<std::size_t>(i);
-  return {leaf.corner.x * kUnitsPerCell + leaf.x[slot],
-          leaf.corner.y * kUnitsPerCell + leaf.y[slot]};
+  return {leaf.corner.x * kUnitsPerCell + leaf.x(i), leaf.corner.y * kUnitsPerCell + leaf.y(i)};
 }
 
 /// Visits the leaves that a ball about a point reaches, the nearest quarter of a square first.
@@ -104,21 +102,20 @@ class DistancesInLeaf {
     // By offsets from the leaf's corner: differences of such numbers are exact.
     const double x = center.x - leaf.corner.x * kUnitsPerCell;
     const double y = center.y - leaf.corner.y * kUnitsPerCell;
-    for (std::size_t first = 0; first < leaf.count; first += kAtATime) {
-      for (std::size_t i = first; i < first + kAtATime; ++i) {
-        const double dx = leaf.x[i] - x;
-        const double dy = leaf.y[i] - y;
-        distances2_[i] = dx * dx + dy * dy;
+    double* distance2 = distances2_.data();
+    for (int i = 0; i < leaf.blocks; ++i) {
+      const Block& block = leaf.block(i);
+      for (std::size_t lane = 0; lane < kBlockSize; ++lane) {
+        const double dx = block.x[lane] - x;
+        const double dy = block.y[lane] - y;
+        *distance2++ = dx * dx + dy * dy;
       }
     }
   }
 
-  double operator[](std::size_t slot) const { return distances2_[slot]; }
+  double operator[](int i) const { return distances2_[static_cast<std::size_t>(i)]; }
 
  private:
-  static constexpr std::size_t kAtATime = 4;
-  static_assert(kBucketSize % kAtATime == 0);
-
   std::array<double, kBucketSize> distances2_;  // As many as there are points, and a few more.
 };
 
@@ -136,9 +133,9 @@ class Disk {
     const DistancesInLeaf distances2(leaf, center_);
     const UnitPoint corner{leaf.corner.x * kUnitsPerCell, leaf.corner.y * kUnitsPerCell};
     const double radius2 = radius2_;
-    for (std::size_t i = 0, count = leaf.count; i < count; ++i) {
+    for (int i = 0, count = leaf.count; i < count; ++i) {
       if (distances2[i] > radius2) continue;
-      visit_(leaf.id[i], UnitPoint{corner.x + leaf.x[i], corner.y + leaf.y[i]});
+      visit_(leaf.id(i), UnitPoint{corner.x + leaf.x(i), corner.y + leaf.y(i)});
     }
   }
 
@@ -160,7 +157,7 @@ class CountingDisk {
   void Visit(std::uint32_t leaf_index) {
     const Leaf& leaf = tree_.leaf(leaf_index);
     const DistancesInLeaf distances2(leaf, center_);
-    for (std::size_t i = 0; i < leaf.count; ++i) count_ += distances2[i] <= radius2_ ? 1 : 0;
+    for (int i = 0; i < leaf.count; ++i) count_ += distances2[i] <= radius2_ ? 1 : 0;
   }
 
   int count() const { return std::min(count_, at_most_); }
@@ -172,6 +169,18 @@ class CountingDisk {
   const int at_most_;
   int count_ = 0;
 };
+
+/// Calls visit(id, UnitPoint) for the points of a node.
+template <class Visit>
+void VisitAll(const CellQuadtree& tree, NodeRef node, const Visit& visit) {
+  if (!node) return;
+  if (node.is_inner()) {
+    for (const NodeRef child : tree.inner(node.index()).children) VisitAll(tree, child, visit);
+    return;
+  }
+  const Leaf& leaf = tree.leaf(node.index());
+  for (int i = 0; i < leaf.count; ++i) visit(leaf.id(i), PositionAt(leaf, i));
+}
 
 /// Calls visit(id, UnitPoint) for the points of a subtree in a box, border included.
 template <class Visit>
@@ -197,7 +206,7 @@ void VisitBox(const CellQuadtree& tree,
   for (int i = 0; i < leaf.count; ++i) {
     const UnitPoint p = PositionAt(leaf, i);
     const bool inside = low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y;
-    if (inside) visit(leaf.id[static_cast<std::size_t>(i)], p);
+    if (inside) visit(leaf.id(i), p);
   }
 }
 
