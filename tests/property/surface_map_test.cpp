@@ -108,8 +108,7 @@ TEST(SurfaceMap, AfterAScanIsRemovedIsWhatItWouldHaveBeenWithoutIt) {
       ASSERT_TRUE(same);
       const Surface surface = without.SurfaceAt({.id = id, .position_m = p_m});
       EXPECT_NEAR((with.SurfaceAt(*same).mean_m - surface.mean_m).norm(), 0.0, 1e-5);
-      EXPECT_FLOAT_EQ(static_cast<float>(with.Drift_m2(same->id)),
-                      static_cast<float>(without.Drift_m2(id)));
+      EXPECT_EQ(with.DriftCode(same->id), without.DriftCode(id));
     });
     for (int x = -20; x < 20; ++x) {
       for (int y = -20; y < 20; ++y) {

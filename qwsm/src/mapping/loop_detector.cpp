@@ -51,13 +51,13 @@ struct Revisit {
   double mean_drift_m2 = 0.0;  // Of these surfaces.
 };
 
-// The smallest drift of what is mapped within reach of positions. Many of them lie in one cell: what
-// was found for it is kept.
+// The smallest drift of what is mapped within reach of positions. Many of them lie in one cell:
+// what was found for it is kept.
 class DriftAround {
  public:
   DriftAround(const LikelihoodPyramid& map, double reach_m) : map_(map) {
     const double cells = reach_m / ((1 << kShift) * map.cell_size_m());
-    reach_ = std::max(1, static_cast<int>(std::lround(cells)));
+    reach_ = std::max(1, static_cast<int>(std::ceil(cells)));
   }
 
   std::uint8_t Smallest(const Eigen::Vector2d& p_map) {
@@ -66,9 +66,8 @@ class DriftAround {
     const int place = (cell.y & kMask) * (kMask + 1) + (cell.x & kMask);
     Known& known = known_[static_cast<std::size_t>(place)];
     if (!known.is_known || known.cell != cell) {
-      known = {.cell = cell,
-               .is_known = true,
-               .code = map_.SmallestDriftCode(kLevel, finest, reach_)};
+      known = {
+          .cell = cell, .is_known = true, .code = map_.SmallestDriftCode(kLevel, finest, reach_)};
     }
     return known.code;
   }

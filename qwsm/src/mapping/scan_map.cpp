@@ -89,10 +89,11 @@ FrameCovariance ScanMap::CovarianceUnder(std::span<const ScanPoint> points,
                                          const Pose2& T_map_robot,
                                          double max_drift_m2) const {
   const RigidTransform2 to_map(T_map_robot);
+  const std::uint8_t max_drift_code = LikelihoodPyramid::DriftCode(max_drift_m2);
   std::vector<ScanId> under;
   ForEachApart(points, kReferenceSpacing_m, [&](const ScanPoint& point) {
     const auto nearest = surfaces_.quadtree().Nearest(to_map * point.p_robot_m, kReferenceReach_m);
-    if (nearest && surfaces_.Drift_m2(nearest->id) <= max_drift_m2) {
+    if (nearest && surfaces_.DriftCode(nearest->id) <= max_drift_code) {
       under.push_back(surfaces_.quadtree().Scan(nearest->id));
     }
   });

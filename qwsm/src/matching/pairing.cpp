@@ -69,7 +69,7 @@ Pairing::Pairing(const SurfaceMap& map,
                  const WeightedScanMatcherOptions& options)
     : map_(map),
       points_(points),
-      max_drift_m2_(max_drift_m2),
+      max_drift_code_(LikelihoodPyramid::DriftCode(max_drift_m2)),
       options_(options),
       pairs_(points.size()) {}
 
@@ -200,7 +200,7 @@ double Pairing::Extent_m2(const ScanPoint& point) const {
 }
 
 bool Pairing::MayPair(PointId id, const Eigen::Vector2d& normal_map) const {
-  return map_.Drift_m2(id) <= max_drift_m2_ && !map_.IsOnOtherSide(id, normal_map);
+  return map_.DriftCode(id) <= max_drift_code_ && !map_.IsOnOtherSide(id, normal_map);
 }
 
 // Seldom: looks around in widening circles. @pre the nearest one of all may not pair

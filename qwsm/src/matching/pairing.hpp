@@ -120,7 +120,7 @@ class Pairing {
 
   const SurfaceMap& map_;
   std::span<const ScanPoint> points_;
-  double max_drift_m2_;
+  std::uint8_t max_drift_code_;
   const WeightedScanMatcherOptions& options_;
   std::vector<Pair> pairs_;
 };

@@ -47,6 +47,7 @@ SurfaceMap SurfaceMap::ForMatching(const SurfaceMapOptions& options) {
 
 // Four of the sums are added to side by side.
 inline void SurfaceMap::Neighborhood::Add(const Eigen::Vector2f& offset_m) {
+  if (count == kMostPoints) return;
   using FourSums = float __attribute__((vector_size(16)));
   static_assert(offsetof(Neighborhood, sum_x) == 0 && offsetof(Neighborhood, sum_y) == 4 &&
                 offsetof(Neighborhood, sum_xx) == 8 && offsetof(Neighborhood, sum_xy) == 12);
@@ -77,10 +78,10 @@ bool SurfaceMap::Insert(const MapPoint& point, ScanId scan) {
   if (insertion->merged) return true;
   if (neighborhoods_.end() < quadtree_.id_end()) neighborhoods_.Add({});
   neighborhoods_[insertion->id] = {
+      .spacing_m = static_cast<float>(point.spacing_m),
       .own_normal_x = static_cast<std::int16_t>(std::lround(kNormalScale * point.normal_map.x())),
       .own_normal_y = static_cast<std::int16_t>(std::lround(kNormalScale * point.normal_map.y())),
-      .spacing_m = static_cast<float>(point.spacing_m),
-      .drift_m2 = static_cast<float>(point.drift_m2)};
+      .drift_code = LikelihoodPyramid::DriftCode(point.drift_m2)};
   Neighborhood own = neighborhoods_[insertion->id];
   ForEachNeighbor(insertion->id,
                   insertion->position_m,
@@ -97,10 +98,10 @@ void SurfaceMap::RemoveScan(ScanId scan) {
   if (quadtree_.RemoveScan(scan) == 0) return;
   quadtree_.ForEach([this](PointId id, const Eigen::Vector2d& p_m) {
     Neighborhood& own = neighborhoods_[id];
-    own = {.own_normal_x = own.own_normal_x,
+    own = {.spacing_m = own.spacing_m,
+           .own_normal_x = own.own_normal_x,
            .own_normal_y = own.own_normal_y,
-           .spacing_m = own.spacing_m,
-           .drift_m2 = own.drift_m2};
+           .drift_code = own.drift_code};
     ForEachNeighbor(id, p_m, [&own](const Neighborhood&, const Eigen::Vector2f& offset_m) {
       own.Add(offset_m);
     });
@@ -110,8 +111,9 @@ void SurfaceMap::RemoveScan(ScanId scan) {
 
 LikelihoodPyramid SurfaceMap::MakeLikelihood() const {
   LikelihoodPyramid likelihood(options_.likelihood);
-  quadtree_.ForEach(
-      [&](PointId id, const Eigen::Vector2d& p_m) { likelihood.Insert(p_m, Drift_m2(id)); });
+  quadtree_.ForEach([&](PointId id, const Eigen::Vector2d& p_m) {
+    likelihood.Insert(p_m, LikelihoodPyramid::DriftOf(DriftCode(id)));
+  });
   return likelihood;
 }
 
@@ -137,7 +139,7 @@ Surface SurfaceMap::SurfaceAt(const Neighbor& stored) const {
       PrincipalAxesOf(static_cast<double>(n.sum_xx) * scale - mean.x() * mean.x(),
                       static_cast<double>(n.sum_xy) * scale - mean.x() * mean.y(),
                       static_cast<double>(n.sum_yy) * scale - mean.y() * mean.y());
-  const bool is_dense = n.count >= static_cast<std::uint32_t>(options_.min_neighbors);
+  const bool is_dense = n.count >= options_.min_neighbors;
   const bool is_line = is_dense && axes.minor_m2 < options_.max_line_aspect * axes.major_m2;
   if (is_line && axes.major_m2 > options_.min_line_m * options_.min_line_m) {
     return {.mean_m = p_m + mean,

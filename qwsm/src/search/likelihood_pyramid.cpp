@@ -85,16 +85,14 @@ void LikelihoodPyramid::LayProfiles(const Eigen::Vector2d& p_m) {
 
 void LikelihoodPyramid::Profiles::Lay(double center_m, int cell, const LikelihoodFall& fall) {
   fine.CenterAt(center_m, cell, fall);
-  coarse.Coarsen(fine, Tile::ShiftOf(1), 0);
-  of_drift.Coarsen(fine, Tile::DriftShiftOf(1), (1 << Tile::DriftShiftOf(1)) - 1);
+  coarse.Coarsen(fine, Tile::ShiftOf(1));
+  of_drift.Coarsen(fine, Tile::DriftShiftOf(1));
 }
 
 // Finds all tiles that hold cells to be raised, and makes those that are not there.
 void LikelihoodPyramid::FindTilesAroundPoint() {
-  // In bits, so many of the coarse cells of drift, which reach farthest, are in a tile.
-  constexpr int kBits = Tile::kBits - Tile::DriftShiftOf(1);
-  const GridCell first{columns_.of_drift.first() >> kBits, rows_.of_drift.first() >> kBits};
-  const GridCell last{columns_.of_drift.last() >> kBits, rows_.of_drift.last() >> kBits};
+  const GridCell first{columns_.fine.first() >> Tile::kBits, rows_.fine.first() >> Tile::kBits};
+  const GridCell last{columns_.fine.last() >> Tile::kBits, rows_.fine.last() >> Tile::kBits};
   if (!around_.tiles.empty() && first == around_.first && last == around_.last) return;
   around_.first = first;
   around_.last = last;

@@ -50,7 +50,8 @@ void Multiply(const double* lanes, double of_row, std::uint8_t* likelihoods) {
 
 // Keeps memory that is there: numbers of cells go up and down by one.
 void MakeRoom(std::vector<double>& values, int count) {
-  if (values.size() < static_cast<std::size_t>(count)) values.resize(static_cast<std::size_t>(count));
+  if (values.size() < static_cast<std::size_t>(count))
+    values.resize(static_cast<std::size_t>(count));
 }
 
 }  // namespace
@@ -87,15 +88,15 @@ void LikelihoodProfile::CenterAt(double center_m, int cell, const LikelihoodFall
 }
 
 // Of what falls to both sides, the greatest value is the one nearest to the middle.
-void LikelihoodProfile::Coarsen(const LikelihoodProfile& fine, int shift, int beyond) {
+void LikelihoodProfile::Coarsen(const LikelihoodProfile& fine, int shift) {
   const int center = fine.first_ + (fine.last_ - fine.first_) / 2;
-  first_ = (fine.first_ - beyond) >> shift;
+  first_ = fine.first_ >> shift;
   last_ = fine.last_ >> shift;
   MakeRoom(values_, last_ - first_ + 1);
   double* value = values_.data();
   for (int cell = first_; cell <= last_; ++cell) {
     const int from = std::max(fine.first_, cell << shift);
-    const int to = std::min(fine.last_, ((cell + 1) << shift) - 1 + beyond);
+    const int to = std::min(fine.last_, ((cell + 1) << shift) - 1);
     *value++ = *fine.At(std::clamp(center, from, to));
   }
 }

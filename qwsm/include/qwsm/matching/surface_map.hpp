@@ -108,8 +108,9 @@ class SurfaceMap {
   Surface SurfaceAt(const Neighbor& stored) const;
   /// Has the memory fetched that SurfaceAt() and the calls below need.
   void Prefetch(PointId id) const { __builtin_prefetch(&neighborhoods_[id]); }
-  /// Variance of the position of a stored point owing to the pose it was seen from.
-  double Drift_m2(PointId id) const { return static_cast<double>(neighborhoods_[id].drift_m2); }
+  /// Variance of the position of a stored point owing to the pose it was seen from, as a code of
+  /// LikelihoodPyramid.
+  std::uint8_t DriftCode(PointId id) const { return neighborhoods_[id].drift_code; }
   /// Returns the normal a point was stored with; zero if none.
   Eigen::Vector2d OwnNormal(PointId id) const {
     const Neighborhood& own = neighborhoods_[id];
@@ -133,12 +134,13 @@ class SurfaceMap {
     float sum_xx = 0.0F;
     float sum_xy = 0.0F;
     float sum_yy = 0.0F;
-    std::uint32_t count = 1;
+    float spacing_m = 0.0F;
+    std::uint16_t count = 1;        // Of kMostPoints no more are added.
     std::int16_t own_normal_x = 0;  // Of a unit vector, in 1 / kNormalScale. Both are 0 where the
     std::int16_t own_normal_y = 0;  // scan showed no line.
-    float spacing_m = 0.0F;
-    float drift_m2 = 0.0F;
+    std::uint8_t drift_code = 0;
 
+    static constexpr std::uint16_t kMostPoints = 0xffff;
     void Add(const Eigen::Vector2f& offset_m);
     // Whether these lie on opposite sides of a thin wall; see IsOnOtherSide().
     bool IsOpposite(const Neighborhood& other) const {
@@ -147,6 +149,8 @@ class SurfaceMap {
              static_cast<int>(kOpposite * kNormalScale * kNormalScale);
     }
   };
+
+  static_assert(sizeof(Neighborhood) == 32);
 
   // Calls visit(Neighborhood&, offset_m) for the other points of the same neighbourhood.
   template <class Visit>

@@ -51,8 +51,7 @@ struct GridCell {
 /// Level 0 holds the maximum over the stored points of exp(-d^2 / 2 sigma^2), scaled to 0..255. A
 /// cell of level 1 holds the maximum of the four by four level-0 cells in it. The smallest drift of
 /// the points is held as well, so that a search can be restricted to what was mapped with little
-/// drift: in cells of two by two level-0 cells, and for level 1 in cells c of s = 16 by 16 over the
-/// level-0 cells c s .. c s + 2 (s - 1) in each axis.
+/// drift: in cells of two by two level-0 cells, and for level 1 of sixteen by sixteen.
 ///
 /// Stored in square tiles that exist only where points are. Searches read a LikelihoodWindow.
 class LikelihoodPyramid {

@@ -32,8 +32,8 @@ class LikelihoodProfile {
   /// @param cell the one that holds the point.
   void CenterAt(double center_m, int cell, const LikelihoodFall& fall);
   /// Makes this the profile of cells s = 2^shift times as wide as those of one that was centred at
-  /// a point: c holds the greatest value over s c .. s c + s - 1, and so many cells beyond.
-  void Coarsen(const LikelihoodProfile& fine, int shift, int beyond);
+  /// a point: c holds the greatest value over s c .. s c + s - 1.
+  void Coarsen(const LikelihoodProfile& fine, int shift);
 
  private:
   int first_ = 0;
