@@ -26,7 +26,7 @@ std::vector<Observation> DriveOf(const Scene& scene, std::uint64_t seed) {
 /// What is thought after each scan.
 std::vector<PlaceDoubt> Doubts(const std::vector<Observation>& observations) {
   Mapper mapper;
-  CarryWatch watch{FreeSpaceOptions{}};
+  CarryWatch watch{MapperOptions{}};
   std::vector<PlaceDoubt> doubts;
   for (const Observation& observation : observations) {
     const MappingStep step = mapper.Process(observation);

@@ -59,6 +59,28 @@ TEST(MapCorrector, KeepsTheScansOfEachRobotInAChainOfItsOwn) {
   EXPECT_LT(WorstError_m(correction.map_node, T_map_true), 0.2 * before_m);
 }
 
+// The part of the map where it is may be metres off: that says nothing of where the robot is there.
+TEST(MapCorrector, HangsARobotThatWasFoundOnTheNodeBesideIt) {
+  const Answers relevant = Relevant(Drive(OfficeLoop()));
+  constexpr NodeId kBeside = 4;
+  MapCorrector corrector;
+  NodeMaker first;
+  for (NodeId i = 0; i <= kBeside; ++i) corrector.Add(*first.Take(relevant.steps[i]));
+  NodeMaker second;
+  ScanNode found = *second.Take(relevant.steps[kBeside + 1]);
+  const Pose2 T_beside_found{.x_m = 0.5, .y_m = -0.1, .theta_rad = 0.2};
+  found.robot = 1;
+  found.found = {kBeside, UncertainPose2::WithSigmas(T_beside_found, 0.03, 0.004)};
+  found.map_robot = UncertainPose2::WithSigmas(found.map_robot.T_a_b, 2.0, 0.1);
+  corrector.Add(std::move(found));
+  const PoseGraph graph = corrector.Correct().graph;
+  const auto entry = std::ranges::find(graph.edges, kBeside + 1, &PoseEdge::to);
+  ASSERT_NE(entry, graph.edges.end());
+  EXPECT_EQ(entry->from, kBeside);
+  EXPECT_EQ(entry->T_from_to, T_beside_found);
+  EXPECT_GT(entry->information(0, 0), 1.0 / (0.1 * 0.1));
+}
+
 TEST(MapCorrector, ProposesWhereTheMapContradictsItselfAndIsContentThen) {
   Answers answers = Drive(OfficeLoop());
   Bend(answers.steps, 0.0003);

@@ -25,6 +25,9 @@ constexpr double kTurnSigma_rad = 0.001;
 constexpr double kSlipSigma_m = 0.4;
 constexpr double kSlipSigma_rad = 0.15;
 constexpr double kMinOverlapWithLast = 0.5;
+// One scan that fits nothing may be a bad one; after so many, what was seen before may lie
+// anywhere.
+constexpr int kUnmatchedInARow = 2;
 // How far the answers may be off as a first guess.
 constexpr StartError kStartError{.translation_m = 0.1, .rotation_rad = 0.02};
 
@@ -67,6 +70,13 @@ Eigen::Matrix3d Growth(const ScanNode& node,
   return (chain_last * Since(last.map_robot, node.map_robot)).covariance;
 }
 
+// A motion is as uncertain as odometry is, and as what is believed of it is apart from that: where
+// the map has called a robot back, the answers have moved and the robot has not.
+UncertainPose2 Believed(const UncertainPose2& by_odometry, const Pose2& answered) {
+  const Eigen::Vector3d apart = Difference(by_odometry.T_a_b, answered);
+  return {.T_a_b = answered, .covariance = by_odometry.covariance + apart * apart.transpose()};
+}
+
 ScanMapOptions SubmapOptions(ScanMapOptions options) {
   options.insertion = InsertionRule::kNewSurface;
   options.max_density_points = std::min(options.max_density_points, kSubmapDensityPoints);
@@ -97,12 +107,14 @@ void ScanChains::Add(std::span<const ScanNode> nodes) {
     T_chain_node_.push_back(attached.chain_node.T_a_b);
     covariance_.push_back(attached.chain_node.covariance);
     Tie(id, attached, chain);
+    if (!hangs) NoteHold(attached, chain);
   }
   chain.nodes.push_back(id);
   InsertIntoSubmaps(id, ToPoints(node.scan), chain);
 }
 
-// What is known of where a further robot came in: its pose in the map.
+// What is known of where a further robot came in: its pose in the map, or as seen from a node
+// there.
 void ScanChains::Begin(const ScanNode& node) {
   const auto id = static_cast<NodeId>(T_chain_node_.size());
   T_chain_node_.push_back(node.map_robot.T_a_b);
@@ -112,7 +124,12 @@ void ScanChains::Begin(const ScanNode& node) {
     map_first_ = node.map_robot;
     return;
   }
-  edges_.push_back(EdgeTo(0, id, map_first_.T_a_b, entered));
+  if (node.found) {
+    const UncertainPose2 found = AtLeast(node.found->node_robot, kLeastSigma_m, kLeastSigma_rad);
+    edges_.push_back(EdgeTo(node.found->node, id, {}, found));
+  } else {
+    edges_.push_back(EdgeTo(0, id, map_first_.T_a_b, entered));
+  }
   ties_.push_back(edges_.back());
 }
 
@@ -175,7 +192,7 @@ ScanChains::Attachment ScanChains::Attach(NodeId id,
   SubmapSurfaces& reference = chain.last_surfaces.front();
   const UncertainPose2 chain_last{.T_a_b = T_chain_node_[chain.nodes.back()]};
   UncertainPose2 predicted = AtLeast(chain_last * node.odometry, kLeastSigma_m, kLeastSigma_rad);
-  if (node.T_last_node) predicted.T_a_b = chain_last.T_a_b * *node.T_last_node;
+  if (node.T_last_node) predicted = Believed(predicted, chain_last.T_a_b * *node.T_last_node);
   const std::vector<ScanPoint> points = PointsAround(id, predicted.T_a_b, nodes);
   MatchPrior prior{.predicted = predicted,
                    .start = predicted.T_a_b,
@@ -195,14 +212,23 @@ ScanChains::Attachment ScanChains::Attach(NodeId id,
   return Matched(match, predicted, Growth(node, nodes[chain.nodes.back()], chain_last));
 }
 
+// Scans are not rigid with surfaces by which none was held for a while.
+void ScanChains::NoteHold(const Attachment& attached, Chain& chain) {
+  chain.unmatched = attached.of_match.isZero() ? chain.unmatched + 1 : 0;
+  if (chain.unmatched >= kUnmatchedInARow) chain.last_surfaces.clear();
+}
+
+void ScanChains::BeginSubmap(NodeId id, Chain& chain) {
+  const std::size_t ordinal = chain.submaps.size();
+  chain.submaps.push_back(submaps_.size());
+  submaps_.push_back({.robot = robot_[id], .ordinal = ordinal, .nodes = {}});
+  chain.last_surfaces.emplace_back(map_options_.surfaces);
+  if (chain.last_surfaces.size() > 2) chain.last_surfaces.pop_front();
+}
+
 void ScanChains::InsertIntoSubmaps(NodeId id, std::span<const ScanPoint> points, Chain& chain) {
-  if (parts_[id].begins && parts_[id].turn % kSubmapStep == 0) {
-    const std::size_t ordinal = chain.submaps.size();
-    chain.submaps.push_back(submaps_.size());
-    submaps_.push_back({.robot = robot_[id], .ordinal = ordinal, .nodes = {}});
-    chain.last_surfaces.emplace_back(map_options_.surfaces);
-    if (chain.last_surfaces.size() > 2) chain.last_surfaces.pop_front();
-  }
+  const bool is_due = parts_[id].begins && parts_[id].turn % kSubmapStep == 0;
+  if (is_due || chain.last_surfaces.empty()) BeginSubmap(id, chain);
   for (SubmapSurfaces& submap : chain.last_surfaces) Insert(id, points, submap);
   for (const std::size_t submap : std::span(chain.submaps).last(chain.last_surfaces.size())) {
     submaps_[submap].nodes.push_back(id);

@@ -41,7 +41,8 @@ class ScanChains {
 
   /// Poses of the nodes, each in the frame of its chain.
   std::span<const Pose2> T_chain_node() const { return T_chain_node_; }
-  /// Edges from each node to the next of its robot, and from the first node to that of each robot.
+  /// Edges from each node to the next of its robot, and to the first one of each robot from that of
+  /// all, or from one beside which it was found.
   std::span<const PoseEdge> edges() const { return edges_; }
   /// The same poses by what they are known from: each node's motion from the one before, and its
   /// match, which is with the first node of a submap. The edges above count what the matches with
@@ -83,6 +84,7 @@ class ScanChains {
     ScanTurns turns;
     std::vector<std::size_t> submaps;          // Indices of its own.
     std::deque<SubmapSurfaces> last_surfaces;  // Of the last two submaps, which still grow.
+    int unmatched = 0;                         // So many of the last nodes fit no surfaces.
   };
 
   // A node in its chain, and where that is known from, along the axes of the chain.
@@ -102,6 +104,8 @@ class ScanChains {
   std::vector<ScanPoint> PointsAround(NodeId node,
                                       const Pose2& T_chain_robot,
                                       std::span<const ScanNode> nodes) const;
+  static void NoteHold(const Attachment& attached, Chain& chain);
+  void BeginSubmap(NodeId id, Chain& chain);
   void InsertIntoSubmaps(NodeId id, std::span<const ScanPoint> points, Chain& chain);
   void Insert(NodeId id, std::span<const ScanPoint> points, SubmapSurfaces& submap) const;
 

@@ -2,20 +2,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "qwsm/correction/self_correcting_mapper.hpp"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "anchored_path.hpp"
 #include "qwsm/geometry/frame_covariance.hpp"
 #include "qwsm/mapping/scan_locator.hpp"
 
 namespace qwsm {
+namespace {
+
+ScanId NearestScan(const ScanMap& map, const Pose2& T_map_robot) {
+  const auto squared_distance_m2 = [&](const RelevantScan& scan) {
+    return (scan.map_robot.T_a_b.translation_m() - T_map_robot.translation_m()).squaredNorm();
+  };
+  return std::ranges::min_element(map.scans(), {}, squared_distance_m2)->id;
+}
+
+}  // namespace
 
 SelfCorrectingMapper::SelfCorrectingMapper(const MapperOptions& options, WorkBeside beside)
     : options_(options),
       mapper_(options),
       corrector_(options, std::move(beside), ChainsOf::kOneRobot),
       path_(std::make_unique<AnchoredPath>()),
-      watch_(options.free_space) {}
+      watch_(options) {}
 
 SelfCorrectingMapper::~SelfCorrectingMapper() = default;
 
@@ -51,11 +63,12 @@ void SelfCorrectingMapper::Note(const Observation& observation, std::size_t answ
   doubtful_.observations.push_back(observation);
 }
 
-void SelfCorrectingMapper::Take(const MappingStep& step) {
+void SelfCorrectingMapper::Take(const MappingStep& step, const std::optional<FoundBeside>& found) {
   path_->Take(step, nodes_.map_last().value_or(UncertainPose2{}));
   auto node = nodes_.Take(step);
   if (!node) return;
   node->robot = components_ - 1;
+  node->found = found;
   corrector_.Add(std::move(*node));
 }
 
@@ -126,17 +139,24 @@ MappingStep SelfCorrectingMapper::Search(const Observation& observation) {
   return AsLost(std::move(step), lost_->belief());
 }
 
-// The place was found by a few points of the scan; all of them tell it better.
+// The place was found by a few points of the scan; all of them tell it better. It is as uncertain
+// as the part of the map that they fit.
 MappingStep SelfCorrectingMapper::Find(const Observation& observation) {
   const LostRobot lost = *std::exchange(lost_, std::nullopt);
+  const std::vector<ScanPoint> points = ToPoints(observation.scan);
   const MatchResult match =
-      ScanLocator(options_.locator)
-          .Locate(mapper_.map(), ToPoints(observation.scan), lost.map_found());
-  const UncertainPose2 map_robot{.T_a_b = match.T_ref_cur, .covariance = match.covariance};
+      ScanLocator(options_.locator).Locate(mapper_.map(), points, lost.map_found());
+  const Pose2& T_map_robot = match.T_ref_cur;
+  const Eigen::Matrix3d of_map =
+      mapper_.map().CovarianceUnder(points, T_map_robot).At(T_map_robot.translation_m());
+  const UncertainPose2 map_robot{.T_a_b = T_map_robot, .covariance = of_map + match.covariance};
   const std::size_t scans_before = mapper_.map().scans().size();
   doubtful_ = {.answers_before = path_->size(), .observations = std::exchange(since_lost_, {})};
-  Join(lost.FrameFor(map_robot));
-  mapper_.PlaceAt(map_robot);
+  const ScanId beside = NearestScan(mapper_.map(), T_map_robot);
+  const UncertainPose2 beside_map{.T_a_b = mapper_.map().scans()[beside].map_robot.T_a_b.Inverse()};
+  const UncertainPose2 map_matched{.T_a_b = T_map_robot, .covariance = match.covariance};
+  Join(lost.FrameFor(map_robot), {beside, beside_map * lost.FrameFor(map_matched)});
+  mapper_.PlaceAt(map_matched);
   MappingStep step = mapper_.Process(observation);
   step.epoch = static_cast<int>(epochs_.size());
   Take(step);
@@ -145,15 +165,20 @@ MappingStep SelfCorrectingMapper::Find(const Observation& observation) {
   return step;
 }
 
-void SelfCorrectingMapper::Join(const UncertainPose2& map_local) {
+// @param local the robot's own frame, as seen from a node of the map.
+void SelfCorrectingMapper::Join(const UncertainPose2& map_local, const FoundBeside& local) {
   ++components_;
   bool begins = true;
   for (MappingStep& step : std::exchange(lost_steps_, {})) {
+    std::optional<FoundBeside> found;
+    if (std::exchange(begins, false)) {
+      step.closed_loop = true;
+      found = {local.node, local.node_robot * step.map_relevant};
+    }
     step.map_robot = map_local * step.map_robot;
     step.map_relevant = map_local * step.map_relevant;
-    step.closed_loop = step.closed_loop || std::exchange(begins, false);
     if (step.relevant) mapper_.Extend(step.relevant_scan, step.map_relevant);
-    Take(step);
+    Take(step, found);
   }
 }
 

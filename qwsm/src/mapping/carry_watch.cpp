@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "qwsm/mapping/scan_locator.hpp"
+
 namespace qwsm {
 namespace {
 
@@ -16,6 +18,23 @@ constexpr int kMostLooksOfFoundPlace = 20;
 constexpr double kCarriedNats = -23.0;  // As for PlaceWatch.
 // No look suffices, not for a doubt either: somebody may step into the way.
 constexpr double kLeastOfALook = 0.5 * kCarriedNats;
+// A robot that has drifted may be so far off; scans from near there see what it sees.
+constexpr double kOffSigmas = 3.0;
+constexpr double kMostOff_m = 15.0;
+constexpr double kWitnesses_m = 10.0;
+
+// The scans of a map until one of them that were taken near a place, as a map of their own.
+ScanMap NearbyBefore(const ScanMap& map,
+                     ScanId before,
+                     const Eigen::Vector2d& here_m,
+                     double reach_m) {
+  ScanMap nearby(map.options());
+  for (const RelevantScan& scan : map.scans().first(before)) {
+    if ((scan.map_robot.T_a_b.translation_m() - here_m).norm() > reach_m) continue;
+    nearby.Insert(scan.scan, ToPoints(scan.scan), scan.map_robot);
+  }
+  return nearby;
+}
 
 }  // namespace
 
@@ -33,7 +52,13 @@ PlaceDoubt CarryWatch::Look(const ScanMap& map, const LaserScan& scan, const Map
     ++question_->looks;
     question_->nats = std::min(0.0, question_->nats + std::max(kLeastOfALook, fit.Nats()));
   }
-  if (question_->nats < kCarriedNats) return PlaceDoubt::kLost;
+  if (question_->nats < kCarriedNats) {
+    if (question_->is_of_found_place || !HasDrifted(map, scan, step.map_robot)) {
+      return PlaceDoubt::kLost;
+    }
+    Close();
+    return PlaceDoubt::kNone;
+  }
   const bool is_in_doubt = question_->nats < kLeastOfALook;
   const int most_looks = question_->is_of_found_place ? kMostLooksOfFoundPlace : kMostLooks;
   if (question_->looks > most_looks) Close();
@@ -63,6 +88,23 @@ bool CarryWatch::IsAnswered(const ScanMap& map, const ScanAtPlace& placed) const
   const auto before = static_cast<ScanId>(asked.scans_before);
   return ViewBreak::IsAsBefore(PlaceEvidence::ExplainedBefore(map, placed, before),
                                asked.explained_before);
+}
+
+// Whether the map as it was before goes together with the scan as near to the robot as it is known.
+bool CarryWatch::HasDrifted(const ScanMap& map,
+                            const LaserScan& scan,
+                            const UncertainPose2& map_robot) const {
+  const double drift_m = std::min(kMostOff_m, kOffSigmas * map_robot.SigmaXY_m());
+  const ScanMap nearby = NearbyBefore(map,
+                                      static_cast<ScanId>(question_->scans_before),
+                                      map_robot.T_a_b.translation_m(),
+                                      kWitnesses_m + drift_m);
+  if (nearby.empty()) return false;
+  const MatchResult match = ScanLocator(options_.locator).Locate(nearby, ToPoints(scan), map_robot);
+  const auto all = static_cast<ScanId>(nearby.scans().size());
+  return PlaceEvidence(options_.free_space)
+             .WeighBothWays(nearby, {scan, match.T_ref_cur}, all)
+             .Nats() > 0.0;
 }
 
 void CarryWatch::BeginAnew(const ScanMap& map) {

@@ -78,7 +78,7 @@ class SelfCorrectingMapper {
   MappingStep Map(const Observation& observation);
   void GoOnIn(CorrectedMap corrected, Timestamp stamp);
   void Note(const Observation& observation, std::size_t answers_before);
-  void Take(const MappingStep& step);
+  void Take(const MappingStep& step, const std::optional<FoundBeside>& found = {});
   MappingStep Lose();
   void TakeBack(ScanId first);
   void GiveUp();
@@ -86,7 +86,7 @@ class SelfCorrectingMapper {
   MappingStep FollowLost(const Observation& observation);
   MappingStep Search(const Observation& observation);
   MappingStep Find(const Observation& observation);
-  void Join(const UncertainPose2& map_local);
+  void Join(const UncertainPose2& map_local, const FoundBeside& local);
 
   MapperOptions options_;
   Mapper mapper_;

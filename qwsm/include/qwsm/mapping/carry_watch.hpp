@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "qwsm/mapping/mapper_options.hpp"
 #include "qwsm/mapping/mapping_step.hpp"
 #include "qwsm/mapping/place_evidence.hpp"
 #include "qwsm/mapping/place_watch.hpp"
@@ -20,11 +21,13 @@ namespace qwsm {
 /// What it has mapped since explains its scans wherever it is, and where it has not been before
 /// nothing does: so the map as it was before bears witness alone, and what neither it nor the scan
 /// looked at counts for nothing. A robot that drifts contradicts its map as well, which loops mend:
-/// without a break of the view nothing is asked. Where a robot was found that was lost, the same is
-/// asked for as long: what comes into view there must be what the map foretells.
+/// without a break of the view nothing is asked, and before a robot is called lost it is sought
+/// where it may have drifted. Where a robot was found that was lost, the same is asked for as long:
+/// what comes into view there must be what the map foretells.
 class CarryWatch {
  public:
-  explicit CarryWatch(const FreeSpaceOptions& options) : evidence_(options) {}
+  explicit CarryWatch(const MapperOptions& options)
+      : options_(options), evidence_(options.free_space) {}
 
   /// Weighs a scan that was tracked. @param map after the scan has extended it, if it did.
   PlaceDoubt Look(const ScanMap& map, const LaserScan& scan, const MappingStep& step);
@@ -56,8 +59,10 @@ class CarryWatch {
   bool IsAsked(const ScanMap& map, const MappingStep& step);
   bool IsAnswered(const ScanMap& map, const ScanAtPlace& placed) const;
   bool IsDue(const Pose2& T_map_robot) const;
+  bool HasDrifted(const ScanMap& map, const LaserScan& scan, const UncertainPose2& map_robot) const;
   void Close();
 
+  MapperOptions options_;
   PlaceEvidence evidence_;
   ViewBreak view_;
   std::size_t scans_ = 0;  // Of the map, after the last scan.
