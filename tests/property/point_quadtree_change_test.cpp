@@ -140,8 +140,10 @@ TEST(PointQuadtree, RefusesPointsItCannotHold) {
     EXPECT_FALSE(tree.Insert({bad, 0.0}, 0));
     EXPECT_FALSE(tree.Insert({0.0, bad}, 0));
   }
+  EXPECT_FALSE(tree.Insert({0.0, 0.0}, PointQuadtree::kScanEnd));
   EXPECT_TRUE(tree.empty());
-  ASSERT_TRUE(tree.Insert({0.0, 0.0}, 0));
+  ASSERT_TRUE(tree.Insert({0.0, 0.0}, PointQuadtree::kScanEnd - 1));
+  EXPECT_EQ(tree.Scan(0), PointQuadtree::kScanEnd - 1);
   for (const double bad : {kNan, kInfinity, -kInfinity, 1e300, 3e6, -1.5e6}) {
     EXPECT_FALSE(tree.Insert({bad, 0.0}, 0));
     EXPECT_FALSE(tree.Insert({0.0, bad}, 0));

@@ -95,6 +95,8 @@ class Quadtree(unittest.TestCase):
         tree = qwsm.PointQuadtree()
         with self.assertRaisesRegex(ValueError, r"points_m\[1\] is not finite"):
             tree.insert([[0.0, 0.0], [np.nan, 0.0]])
+        with self.assertRaisesRegex(ValueError, "scan must be below 2147483647, not 4294967295"):
+            tree.insert([[0.0, 0.0]], scan=2**32 - 1)
         with self.assertRaisesRegex(ValueError, r"shape \(n, 2\), not \(1, 3\)"):
             tree.nearest([[1.0, 2.0, 3.0]], 1.0)
         with self.assertRaisesRegex(IndexError, "no point 7"):

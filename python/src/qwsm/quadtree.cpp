@@ -22,6 +22,10 @@ py::array_t<PointId> InsertPoints(PointQuadtree& tree,
                                   const ArrayOf<double>& points_m,
                                   ScanId scan) {
   CheckColumns(points_m, 2, "points_m");
+  if (scan >= PointQuadtree::kScanEnd) {
+    throw std::invalid_argument(
+        fmt::format("scan must be below {}, not {}", PointQuadtree::kScanEnd, scan));
+  }
   py::array_t<PointId> ids(points_m.shape(0));
   for (py::ssize_t i = 0; i < points_m.shape(0); ++i) {
     const auto insertion = tree.Insert(RowOf(points_m, i), scan);

@@ -54,7 +54,7 @@ PointQuadtree::PointQuadtree(const PointQuadtreeOptions& options)
 
 std::optional<PointQuadtree::Insertion> PointQuadtree::Insert(const Eigen::Vector2d& p_m,
                                                               ScanId scan) {
-  if (scan >= Origin::kScanEnd || (tree_.empty() && !CenterOn(p_m))) return std::nullopt;
+  if (scan >= kScanEnd || (tree_.empty() && !CenterOn(p_m))) return std::nullopt;
   const std::optional<FixedPoint> p = Locate(p_m);
   if (!p) return std::nullopt;
   revision_.Advance();

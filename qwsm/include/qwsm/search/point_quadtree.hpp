@@ -60,6 +60,9 @@ struct PointQuadtreeStatistics {
 /// measured by quadtree_bench. Const members may run on several threads at once.
 class PointQuadtree {
  public:
+  /// Scans are numbered below: 2^31 - 1.
+  static constexpr ScanId kScanEnd = quadtree::Origin::kScanEnd;
+
   struct Insertion {
     PointId id = 0;
     bool merged = false;  ///< The point was added to one already stored in its cell.
@@ -71,7 +74,7 @@ class PointQuadtree {
 
   /// Adds a point. Refused with nothing returned and nothing changed: a point that is not finite,
   /// or not within 1.4e9 cells (1431 km at a millimetre), by x and by y, of the first point stored;
-  /// a scan not below 2^31 - 1.
+  /// a scan not below kScanEnd.
   std::optional<Insertion> Insert(const Eigen::Vector2d& p_m, ScanId scan);
 
   /// Takes out what a scan contributed: its own points, and its share of merged ones.
