@@ -219,37 +219,32 @@ OccupancyPainter::CellIndex OccupancyPainter::CellOf(const Eigen::Vector2d& p_ma
   return {static_cast<int>(cells.x()), static_cast<int>(cells.y())};
 }
 
-OccupancyPainter::Cell& OccupancyPainter::At(CellIndex index) {
-  const CellIndex in_first{index.x + at_.x, index.y + at_.y};
-  const std::uint64_t key = Key(in_first);
-  if (last_tile_ == nullptr || key != last_key_) {
-    last_key_ = key;
-    last_tile_ = &tiles_[key];
-  }
-  return last_tile_->At(in_first);
-}
-
 CellState OccupancyPainter::StateOfCell(const Cell& cell) const {
   if (cell.seen == 0) return CellState::kUnknown;
   const bool is_occupied = cell.hits > 0 && cell.hits >= options_.occupied_share * cell.seen;
   return is_occupied ? CellState::kOccupied : CellState::kFree;
 }
 
-// Counts the current scan, once. True if it had not been counted.
-bool OccupancyPainter::CountSeen(Cell& cell) {
-  if (cell.last_scan == scan_) return false;
-  cell.last_scan = scan_;
-  if (cell.seen == std::numeric_limits<std::uint16_t>::max()) {
-    cell.seen /= 2;
-    cell.hits /= 2;
+// Counts the current scan in a cell, once. @return the cell if it had not been counted.
+OccupancyPainter::Cell* OccupancyPainter::CountSeen(CellIndex index) {
+  const CellIndex in_first{index.x + at_.x, index.y + at_.y};
+  const std::uint64_t key = Key(in_first);
+  if (last_tile_ == nullptr || key != last_key_) {
+    last_key_ = key;
+    last_tile_ = &tiles_[key];
   }
-  ++cell.seen;
-  return true;
+  Cell* cell = last_tile_->FirstTime(scan_, in_first);
+  if (cell == nullptr) return nullptr;
+  if (cell->seen == std::numeric_limits<std::uint16_t>::max()) {
+    cell->seen /= 2;
+    cell->hits /= 2;
+  }
+  ++cell->seen;
+  return cell;
 }
 
 void OccupancyPainter::CountHit(CellIndex index) {
-  Cell& cell = At(index);
-  if (CountSeen(cell)) ++cell.hits;
+  if (Cell* cell = CountSeen(index)) ++cell->hits;
 }
 
 // All cells on the line but the last one, by Bresenham's algorithm (1965).
@@ -260,7 +255,7 @@ void OccupancyPainter::CountFreeLine(CellIndex from, CellIndex to) {
   const int step_y = from.y < to.y ? 1 : -1;
   int error = dx + dy;
   for (CellIndex at = from; at.x != to.x || at.y != to.y;) {
-    CountSeen(At(at));
+    CountSeen(at);
     const int doubled = 2 * error;
     if (doubled >= dy) {
       error += dy;

@@ -50,7 +50,6 @@ class OccupancyPainter {
     int y = 0;
   };
   struct Cell {
-    std::uint32_t last_scan = 0;
     std::uint16_t seen = 0;
     std::uint16_t hits = 0;
   };
@@ -60,8 +59,19 @@ class OccupancyPainter {
     static constexpr int kBits = 5;
     static constexpr int kSide = 1 << kBits;
 
-    Cell& At(CellIndex index) { return cells_[Number(index)]; }
     const Cell& At(CellIndex index) const { return cells_[Number(index)]; }
+    /// A cell, the first time that a scan asks for it; null from then on.
+    Cell* FirstTime(std::uint32_t scan, CellIndex index) {
+      if (last_scan_ != scan) {
+        last_scan_ = scan;
+        asked_for_.fill(0);
+      }
+      const std::uint32_t column = 1U << (index.x & (kSide - 1));
+      std::uint32_t& row = asked_for_[static_cast<std::size_t>(index.y & (kSide - 1))];
+      if ((row & column) != 0) return nullptr;
+      row |= column;
+      return &cells_[Number(index)];
+    }
 
    private:
     static std::size_t Number(CellIndex index) {
@@ -69,6 +79,9 @@ class OccupancyPainter {
     }
 
     std::array<Cell, std::size_t{kSide} * kSide> cells_{};
+    std::array<std::uint32_t, kSide>
+        asked_for_{};  // By the last scan, a bit for each cell of a row.
+    std::uint32_t last_scan_ = 0;
   };
 
   // Of the tile that holds a cell, counted from the corner of the first frame.
@@ -88,8 +101,7 @@ class OccupancyPainter {
   void GrowTo(const Frame& grown);
   CellIndex Offset(const Frame& inner, const Frame& outer) const;
   CellIndex CellOf(const Eigen::Vector2d& p_map_m) const;
-  Cell& At(CellIndex index);
-  bool CountSeen(Cell& cell);
+  Cell* CountSeen(CellIndex index);
   void CountHit(CellIndex index);
   void CountFreeLine(CellIndex from, CellIndex to);
   CellState StateOfCell(const Cell& cell) const;
