@@ -90,7 +90,7 @@ std::size_t PointQuadtree::RemoveScan(ScanId scan) {
   const auto add = [&](PointId id, const quadtree::UnitPoint& p) {
     points.emplace_back(id, quadtree::CellAt(p));
   };
-  quadtree::VisitAll(tree_, tree_.root().node, add);
+  quadtree::VisitAll(tree_, add);
   std::ranges::sort(points, {}, &std::pair<PointId, quadtree::Cell>::first);
   std::size_t withdrawn = 0;
   for (const auto& [id, cell] : points) withdrawn += Withdraw(id, cell, scan);

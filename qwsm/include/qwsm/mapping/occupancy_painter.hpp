@@ -79,8 +79,8 @@ class OccupancyPainter {
     }
 
     std::array<Cell, std::size_t{kSide} * kSide> cells_{};
-    std::array<std::uint32_t, kSide>
-        asked_for_{};  // By the last scan, a bit for each cell of a row.
+    // By the last scan, a bit for each cell of a row.
+    std::array<std::uint32_t, kSide> asked_for_{};
     std::uint32_t last_scan_ = 0;
   };
 

@@ -181,7 +181,7 @@ void PointQuadtree::ForEach(Visit visit) const {
   const auto visit_point = [&](PointId id, const quadtree::UnitPoint& p) {
     visit(id, ToMetres(p));
   };
-  quadtree::VisitAll(tree_, tree_.root().node, visit_point);
+  quadtree::VisitAll(tree_, visit_point);
 }
 
 template <class Visit>

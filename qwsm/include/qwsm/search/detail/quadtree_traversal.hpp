@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "qwsm/search/detail/cell_quadtree.hpp"
 
@@ -170,18 +171,6 @@ class CountingDisk {
   int count_ = 0;
 };
 
-/// Calls visit(id, UnitPoint) for the points of a node.
-template <class Visit>
-void VisitAll(const CellQuadtree& tree, NodeRef node, const Visit& visit) {
-  if (!node) return;
-  if (node.is_inner()) {
-    for (const NodeRef child : tree.inner(node.index()).children) VisitAll(tree, child, visit);
-    return;
-  }
-  const Leaf& leaf = tree.leaf(node.index());
-  for (int i = 0; i < leaf.count; ++i) visit(leaf.id(i), PositionAt(leaf, i));
-}
-
 /// Calls visit(id, UnitPoint) for the points of a subtree in a box, border included.
 template <class Visit>
 void VisitBox(const CellQuadtree& tree,
@@ -208,6 +197,13 @@ void VisitBox(const CellQuadtree& tree,
     const bool inside = low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y;
     if (inside) visit(leaf.id(i), p);
   }
+}
+
+/// Calls visit(id, UnitPoint) for all points.
+template <class Visit>
+void VisitAll(const CellQuadtree& tree, const Visit& visit) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  VisitBox(tree, tree.root(), {-kFar, -kFar}, {kFar, kFar}, visit);
 }
 
 }  // namespace qwsm::quadtree
