@@ -25,7 +25,7 @@ sim::ScenarioOptions Office(const TeamOptions& options) {
   for (int i = 0; i < options.robots; ++i) {
     sim::RobotOptions robot;
     robot.name = "robot" + std::to_string(i + 1);
-    robot.laser.beams = 361;
+    robot.laser.beams = options.beams;
     robot.laser.rate_hz = options.rate_hz;
     robot.laser.useful_range_m = 30.0;
     scenario.robots.push_back(robot);

@@ -15,9 +15,10 @@
 
 namespace qwsm::test {
 
-/// A number of robots that drive through one office and see each other, with 361 beams each.
+/// A number of robots that drive through one office and see each other.
 struct TeamOptions {
   int robots = 16;
+  int beams = 361;
   double rate_hz = 10.0;
   double duration_s = 60.0;
 };
