@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "qwsm/mapping/mapper.hpp"
+#include "qwsm/mapping/view_break.hpp"
 #include "tests/support/carried.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/simulated_drive.hpp"
@@ -61,6 +62,23 @@ TEST(CarryWatch, DoubtsNothingForAScanThatShowsSomethingElse) {
   for (float& range_m : drive[40].scan.ranges_m) range_m = std::min(range_m, 0.4F);
   const std::vector<PlaceDoubt> doubts = Doubts(drive);
   EXPECT_EQ(std::ranges::count(doubts, PlaceDoubt::kNone), std::ssize(doubts));
+}
+
+// Where a loop closes the map as it was drawn until then lies beside, and explains less.
+TEST(ViewBreak, IsNoneWhereALoopCloses) {
+  MappingStep step{.status = StepStatus::kMatched};
+  step.match.overlap = 1.0;
+  ViewBreak view;
+  EXPECT_FALSE(view.Take(step));
+  step.match.overlap = 0.7;
+  step.map_robot.T_a_b.x_m = 0.6;
+  step.closed_loop = true;
+  EXPECT_FALSE(view.Take(step));
+  EXPECT_FALSE(view.Take(step));
+
+  step.closed_loop = false;
+  step.map_robot.T_a_b.x_m = 0.0;
+  EXPECT_TRUE(view.Take(step));
 }
 
 }  // namespace

@@ -31,9 +31,8 @@ bool ViewBreak::Take(const MappingStep& step) {
   const double explained = is_matched ? step.match.overlap : 0.0;
   const double before = std::exchange(explained_, explained);
   const std::optional<Pose2> T_map_last = std::exchange(T_map_last_, step.map_robot.T_a_b);
-  if (!T_map_last || !IsSameView(step.odometry_motion.T_a_b)) return false;
-  const bool is_elsewhere =
-      !step.closed_loop && !IsSameView(T_map_last->Inverse() * step.map_robot.T_a_b);
+  if (!T_map_last || step.closed_loop || !IsSameView(step.odometry_motion.T_a_b)) return false;
+  const bool is_elsewhere = !IsSameView(T_map_last->Inverse() * step.map_robot.T_a_b);
   return is_elsewhere || !IsAsBefore(explained, before);
 }
 

@@ -10,7 +10,7 @@ namespace qwsm {
 
 /// Notices that a map does not explain any more what it explained a moment ago, or explains it
 /// elsewhere, though the robot has hardly moved since: no robot leaves a map from one scan to the
-/// next.
+/// next. Where it closes a loop it leaves what it has drawn wrongly, and nothing breaks.
 class ViewBreak {
  public:
   /// Takes the answer to the next scan. @return whether the view breaks with it.
