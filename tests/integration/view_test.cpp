@@ -348,7 +348,8 @@ TEST_F(View, AMarkMovesWithTheScanItStandsOn) {
   team::TeamEpoch epoch;
   epoch.scans.push_back(
       {.key = key, .T_map_robot_before = {}, .map_robot = {.T_a_b = {2.0, 1.0, 0.0}}});
-  first->Follow(epoch);
+  // Whichever of them has heard of the scan by now: both follow, as all services do.
+  for (auto* exchange : {first.get(), second.get()}) exchange->Follow(epoch);
   for (int i = 0; i < 200 && heard_x() != 3.0; ++i) usleep(20'000);
   EXPECT_EQ(heard_x(), 3.0);
   EXPECT_THROW(first->Tell({.id = "m2", .kind = "nonsense"}), dds::MarkError);
