@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+#include <cmath>
+
 namespace qwsm {
 namespace {
 
@@ -16,7 +19,10 @@ UncertainPose2 MatchedAt(double x_m) {
 /// Follows a robot of which each match stays behind by so much more.
 DeadReckoning AfterScans(int scans, double behind_m) {
   DeadReckoning reckoning;
-  for (int i = 0; i < scans; ++i) reckoning.Follow(kStep, MatchedAt(i * (0.1 - behind_m)));
+  for (int i = 0; i < scans; ++i) {
+    const UncertainPose2 matched = MatchedAt(i * (0.1 - behind_m));
+    reckoning.Follow(kStep, matched.T_a_b, matched.covariance.inverse(), 0);
+  }
   return reckoning;
 }
 
@@ -31,6 +37,14 @@ TEST(DeadReckoning, GoesBackTenToTwentyScans) {
   }
 }
 
+TEST(DeadReckoning, KnowsWhatTheMapHadWhenItBegan) {
+  DeadReckoning reckoning;
+  for (std::size_t i = 0; i < 25; ++i) {
+    reckoning.Follow(kStep, {}, MatchedAt(0.0).covariance.inverse(), i);
+  }
+  EXPECT_EQ(reckoning.scans_before(), 10U);
+}
+
 TEST(DeadReckoning, SaysNothingBefore) {
   EXPECT_FALSE(AfterScans(9, 0.0).Predict(kStep));
   DeadReckoning reckoning = AfterScans(30, 0.0);
@@ -43,6 +57,17 @@ TEST(DeadReckoning, KnowsWhatOdometryMayBeOffBy) {
   EXPECT_FALSE(IsFarFrom(reckoned, MatchedAt(2.0)));
   EXPECT_FALSE(IsFarFrom(reckoned, MatchedAt(1.9)));  // Two sigmas of twenty steps.
   EXPECT_TRUE(IsFarFrom(reckoned, MatchedAt(1.5)));
+}
+
+// Where scans tell nothing, as along a corridor, it is as uncertain as odometry has proved to be.
+TEST(DeadReckoning, BeginsWhereOdometryHasTheRobotIfScansTellNothing) {
+  DeadReckoning reckoning = AfterScans(20, 0.0);
+  for (int i = 20; i < 40; ++i) {
+    reckoning.Follow(kStep, {i * 0.1, 0.0, 0.0}, Eigen::Matrix3d::Zero(), 0);
+  }
+  const UncertainPose2 reckoned = *reckoning.Predict(kStep);
+  EXPECT_GT(reckoned.SigmaXY_m(), 0.01 * std::sqrt(20.0));
+  EXPECT_LT(reckoned.SigmaXY_m(), 2.0 * 0.01 * std::sqrt(41.0));
 }
 
 TEST(DeadReckoning, FollowsAMapThatIsMoved) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "qwsm/sensor/scan_points.hpp"
+#include "tests/support/bent_drive.hpp"
 #include "tests/support/carried.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/simulated_drive.hpp"

@@ -14,6 +14,9 @@ constexpr double kSeenFrom_m = 10.0;        // Scans farther off see little of w
 constexpr double kForgotten_m = 20.0;       // Of a robot that goes on, scans farther off.
 constexpr double kPointsThatTellOne = 3.0;  // As in matching.
 
+constexpr double kConvincingNats = 4.6;  // A chance of 1 in 100.
+
+constexpr double kOnSurface_m = 0.05;
 constexpr double kOneSurface_m = 0.15;  // Points so near to each other are of one surface.
 
 // How a point of a scan fares at the right place and at the best wrong one: medians of single scans
@@ -33,10 +36,13 @@ double Share(std::ptrdiff_t count, std::size_t of) {
 }
 
 // Whether a scan before has put a point on the surface there.
-bool IsStored(const SurfaceMap& surfaces, const Eigen::Vector2d& p_map_m, ScanId before) {
+bool IsStored(const SurfaceMap& surfaces,
+              const Eigen::Vector2d& p_map_m,
+              ScanId before,
+              double within_m = kOneSurface_m) {
   const PointQuadtree& stored = surfaces.quadtree();
   bool is_stored = false;
-  stored.ForEachInRadius(p_map_m, kOneSurface_m, [&](PointId id, const Eigen::Vector2d&) {
+  stored.ForEachInRadius(p_map_m, within_m, [&](PointId id, const Eigen::Vector2d&) {
     is_stored = is_stored || stored.Scan(id) < before;
   });
   return is_stored;
@@ -46,13 +52,13 @@ bool IsStored(const SurfaceMap& surfaces, const Eigen::Vector2d& p_map_m, ScanId
 double ShareStored(const SurfaceMap& surfaces,
                    std::span<const ScanPoint> points,
                    const Pose2& T_map_robot,
-                   ScanId before) {
+                   ScanId before,
+                   double within_m = kOneSurface_m) {
   const RigidTransform2 to_map(T_map_robot);
-  return Share(std::ranges::count_if(points,
-                                     [&](const ScanPoint& point) {
-                                       return IsStored(surfaces, to_map * point.p_robot_m, before);
-                                     }),
-               points.size());
+  const auto is_stored = [&](const ScanPoint& point) {
+    return IsStored(surfaces, to_map * point.p_robot_m, before, within_m);
+  };
+  return Share(std::ranges::count_if(points, is_stored), points.size());
 }
 
 // What scans before have stored around the robot, in its frame.
@@ -93,6 +99,10 @@ double PlaceEvidence::Told(std::span<const ScanPoint> points) {
   return static_cast<double>(points.size()) / kPointsThatTellOne;
 }
 
+double PlaceEvidence::ToldBySurfaces(std::span<const ScanPoint> points) {
+  return Told(ThinOut(points, kOneSurface_m));
+}
+
 PlaceFit PlaceEvidence::Weigh(const ScanMap& map,
                               std::span<const ScanPoint> points,
                               const MatchResult& match,
@@ -107,6 +117,13 @@ double PlaceEvidence::ExplainedBefore(const ScanMap& map,
                                       ScanId before) {
   const std::vector<ScanPoint> thinned = ThinOut(ToPoints(placed.scan), kOneSurface_m);
   return ShareStored(map.surfaces(), thinned, placed.T_map_robot, before);
+}
+
+double PlaceEvidence::ExplainedBefore(const ScanMap& map,
+                                      std::span<const ScanPoint> points,
+                                      const Pose2& T_map_robot,
+                                      ScanId before) {
+  return ShareStored(map.surfaces(), points, T_map_robot, before, kOnSurface_m);
 }
 
 MutualFit PlaceEvidence::WeighBothWays(const ScanMap& map,
@@ -166,6 +183,13 @@ double PlaceEvidence::ShareSeenThrough(const ScanMap& map,
     image->second.MarkSeenThrough(points, T_map_scan.Inverse() * T_map_robot, marks);
   }
   return Share(std::ranges::count(marks, 1), points.size());
+}
+
+bool IsConvincinglyBetter(std::span<const ScanPoint> points, double explained, double other) {
+  const double told = PlaceEvidence::Told(points);
+  const double nats = PlaceFit{.told = told, .explained = explained}.Nats();
+  const double of_other = PlaceFit{.told = told, .explained = other}.Nats();
+  return nats >= kConvincingNats && nats - of_other >= kConvincingNats;
 }
 
 }  // namespace qwsm

@@ -23,28 +23,6 @@ ScanLocatorOptions LocatorOptions(const MapperOptions& options) {
   return locator;
 }
 
-// A pose beside odometry has to explain a scan so much better: a chance of 1 in 100.
-constexpr double kConvincingNats = 4.6;
-
-// Whether a scan was taken at the pose of the one overlap, neither at that of the other nor at a
-// place that is like it.
-bool IsConvincinglyBetter(std::span<const ScanPoint> points, double overlap, double other) {
-  const double told = PlaceEvidence::Told(points);
-  const double nats = PlaceFit{.told = told, .explained = overlap}.Nats();
-  const double of_other = PlaceFit{.told = told, .explained = other}.Nats();
-  return nats >= kConvincingNats && nats - of_other >= kConvincingNats;
-}
-
-// Whether any pose could be convincingly better: where nearly all of the scan is explained, none
-// is, and need not be sought.
-bool MayBeBeaten(std::span<const ScanPoint> points, const MatchResult& match) {
-  return IsConvincinglyBetter(points, 1.0, match.overlap);
-}
-
-UncertainPose2 PoseOf(const MatchResult& match) {
-  return {.T_a_b = match.T_ref_cur, .covariance = match.covariance};
-}
-
 }  // namespace
 
 RobotTracker::RobotTracker(const MapperOptions& options)
@@ -64,6 +42,7 @@ void RobotTracker::PlaceAt(const UncertainPose2& map_robot,
   submap_.Clear();
   seen_free_.Clear();
   dead_reckoning_.Clear();
+  apart_.reset();
   map_last_ = map_robot;
   local_last_ = map_robot;
   lasers_.Clear();
@@ -83,6 +62,7 @@ void RobotTracker::FollowCorrection(const UncertainPose2& map_robot) {
   submap_.Move(T_new_old);
   seen_free_.Move(T_new_old);
   dead_reckoning_.Move(T_new_old);
+  if (apart_) apart_->Move(T_new_old);
   slip_.Interrupt();
 }
 
@@ -92,11 +72,11 @@ TrackedScan RobotTracker::Track(const ScanMap& map, const Observation& observati
   Sighting sighting = LookTwice(map, observation, T_odom_robot);
   MappingStep& step = sighting.step;
   const Observation& still = sighting.observation;
-  LearnMotion(sighting);
+  LearnMotion(sighting, map.scans().size());
   // A scan whose pose is dead-reckoned extends the map like any other once the robot has moved on:
   // beyond the surfaces mapped so far no scan can be matched, and the map would end there for good.
   // The covariance of the pose goes with its points.
-  const bool has_moved_on = HasMovedOn(still.scan, sighting.points, step);
+  const bool has_moved_on = !apart_ && HasMovedOn(still.scan, sighting.points, step);
   const bool extends = has_moved_on && (options_.extend_map || step.status == StepStatus::kFirst);
   if (extends) CloseLoop(map, still.scan, sighting.points, step);
   slip_.Learn(observation, sighting.velocity, step);
@@ -159,40 +139,43 @@ void RobotTracker::Locate(const ScanMap& map, Sighting& sighting) const {
   if (!IsPosition((map_last_ * last_robot.conservative).T_a_b)) {
     last_robot = PosePrediction::Unmoved();
   }
-  step.match = LocateNear(map, observation, points, local_last_ * last_robot.conservative);
+  step.match = LocateNear(map, observation, points, PathOfMatches() * last_robot.conservative);
   sighting.dropped_odometry = DropFailedOdometry(map, observation, points, last_robot, step);
-  const bool was_held_back =
-      !sighting.dropped_odometry && CatchUpWithOdometry(map, points, last_robot.adapted, step);
+  if (!sighting.dropped_odometry) {
+    sighting.apart = ComparePaths(map, points, last_robot.adapted, step.match);
+  }
   step.odometry_motion = last_robot.adapted;
   step.odometry_adds_up = gyro_.leads() && !sighting.dropped_odometry &&
-                          !IsFarFrom(local_last_ * last_robot.adapted, PoseOf(step.match));
+                          !IsFarFrom(local_last_ * last_robot.adapted, step.match.pose());
   step.map_robot = map_last_ * last_robot.conservative;
   step.local_covariance = (local_last_ * last_robot.conservative).covariance;
   const UncertainPose2 last_in_map{.T_a_b = map_last_.T_a_b};
   Judge(map, points, (last_in_map * last_robot.conservative).covariance, step);
-  if (was_held_back && step.status != StepStatus::kDeadReckoned) {
-    step.reason = "held back before: where odometry has it";
-    step.closed_loop = true;
-  }
+  JudgePaths(sighting, step);
   sighting.last_robot = last_robot;
 }
 
 // What a scan tells of the motion before it. The first one tells nothing.
-void RobotTracker::LearnMotion(const Sighting& sighting) {
+void RobotTracker::LearnMotion(const Sighting& sighting, std::size_t scans) {
   if (!sighting.last_robot) return;
   const MappingStep& step = sighting.step;
   const UncertainPose2& last_robot = sighting.last_robot->adapted;
   if (sighting.dropped_odometry) dead_reckoning_.Clear();
-  if (step.closed_loop) {
-    LeavePath();
-  } else if (step.status == StepStatus::kMatched) {
+  apart_ = sighting.apart;
+  if (step.status == StepStatus::kMatched) {
     motion_.Adapt(local_last_ * last_robot,
                   step.match,
                   sighting.observation.T_odom_robot,
                   lasers_.ShareOfPeriod(sighting.observation.scan));
   }
+  const bool is_found = step.status != StepStatus::kDeadReckoned;
   dead_reckoning_.Follow(last_robot,
-                         {.T_a_b = step.map_robot.T_a_b, .covariance = step.local_covariance});
+                         apart_ ? apart_->by_odometry().T_a_b : step.map_robot.T_a_b,
+                         is_found ? InformationAdded(step.match) : Eigen::Matrix3d::Zero(),
+                         scans);
+  if (!apart_ || !apart_->is_decided()) return;
+  if (!apart_->is_by_odometry()) dead_reckoning_.Clear();
+  apart_.reset();
 }
 
 // Where the robot would be if it had moved as before, whatever odometry tells, the scan may agree
@@ -205,8 +188,9 @@ bool RobotTracker::DropFailedOdometry(const ScanMap& map,
                                       MappingStep& step) const {
   if (!observation.T_odom_robot) return true;
   const double share = lasers_.ShareOfPeriod(observation.scan);
-  const bool is_surprising =
-      motion_.IsSurprising(observation.T_odom_robot, share) && MayBeBeaten(points, step.match);
+  // Where nearly all of the scan is explained, no pose is convincingly better, nor need be sought.
+  const bool is_surprising = motion_.IsSurprising(observation.T_odom_robot, share) &&
+                             IsConvincinglyBetter(points, 1.0, step.match.overlap);
   if (!is_odometry_suspect_ && !is_surprising) return false;
   const PosePrediction without_odometry = motion_.Predict(std::nullopt, share);
   const MatchResult other =
@@ -235,22 +219,43 @@ MatchResult RobotTracker::LocateNear(const ScanMap& map,
 }
 
 // The last matches may have been wrong, each a little, beside an odometry that has proved to be
-// better than that: then the scan agrees with the map better where that has the robot.
-// @return whether it does, and the robot is there.
-bool RobotTracker::CatchUpWithOdometry(const ScanMap& map,
-                                       std::span<const ScanPoint> points,
-                                       const UncertainPose2& last_robot,
-                                       MappingStep& step) const {
-  const std::optional<UncertainPose2> reckoned = dead_reckoning_.Predict(last_robot);
-  const UncertainPose2 found = PoseOf(step.match);
-  if (!reckoned || !MayBeBeaten(points, step.match) || !IsFarFrom(*reckoned, found)) return false;
+// better than that.
+// @param match is that where odometry has the robot, if that is believed.
+// @return both paths, if either may be right.
+std::optional<PathsApart> RobotTracker::ComparePaths(const ScanMap& map,
+                                                     std::span<const ScanPoint> points,
+                                                     const UncertainPose2& last_robot,
+                                                     MatchResult& match) const {
+  const std::optional<UncertainPose2> reckoned =
+      apart_ ? apart_->by_odometry() * last_robot : dead_reckoning_.Predict(last_robot);
+  if (!reckoned || !IsFarFrom(*reckoned, match.pose())) return std::nullopt;
   const MatchResult there = locator_.Locate(map, points, *reckoned, seen_free_);
-  const bool agrees_better = there.overlap > step.match.overlap;
-  if (!agrees_better || IsFarFrom(*reckoned, PoseOf(there)) || !IsFarFrom(found, PoseOf(there))) {
-    return false;
+  if (IsFarFrom(*reckoned, there.pose()) || !IsFarFrom(there.pose(), match.pose())) {
+    return std::nullopt;
   }
-  step.match = there;
-  return true;
+  const auto before = static_cast<ScanId>(dead_reckoning_.scans_before());
+  const auto end_at = [&](const MatchResult& pose) -> PathEnd {
+    return {pose, PlaceEvidence::ExplainedBefore(map, points, pose.T_ref_cur, before)};
+  };
+  auto apart = PathsApart::Weigh(points,
+                                 apart_,
+                                 PathOfMatches() * last_robot,
+                                 end_at(match),
+                                 end_at(there),
+                                 options_.free_space.max_moving_share);
+  if (apart && apart->is_by_odometry()) match = there;
+  return apart;
+}
+
+// While two poses may be right, none is one that the map confirms.
+void RobotTracker::JudgePaths(const Sighting& sighting, MappingStep& step) const {
+  if (step.status == StepStatus::kDeadReckoned) return;
+  const bool is_by_odometry = sighting.apart && sighting.apart->is_by_odometry();
+  const bool was_by_odometry = apart_ && apart_->is_by_odometry();
+  step.closed_loop = is_by_odometry != was_by_odometry;
+  if (!sighting.apart) return;
+  step.status = StepStatus::kExtended;
+  step.reason = is_by_odometry ? "where odometry has it" : "not where odometry has it";
 }
 
 // The verdicts of Visser et al. (2009, section 4): a good correspondence is the pose, a bad one
@@ -287,7 +292,7 @@ void RobotTracker::Judge(const ScanMap& map,
       UncertainPose2::WithSigmas({}, options_.match_floor_m, options_.match_floor_rad).covariance;
   step.map_robot = {.T_a_b = found.T_a_b,
                     .covariance = CovarianceOfEither(found, probability, predicted)};
-  step.local_covariance = CovarianceOfEither(PoseOf(match), probability, locally_predicted);
+  step.local_covariance = CovarianceOfEither(match.pose(), probability, locally_predicted);
 }
 
 StepStatus RobotTracker::StatusOf(const MatchResult& match) const {
@@ -331,6 +336,7 @@ void RobotTracker::LeavePath() {
   submap_.Clear();
   seen_free_.Clear();
   dead_reckoning_.Clear();
+  apart_.reset();
 }
 
 // What extends the map is what was seen, from where it was seen. Of a robot with several lasers the

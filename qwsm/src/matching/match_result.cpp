@@ -3,6 +3,7 @@
 #include "qwsm/matching/match_result.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 
 namespace qwsm {
@@ -25,6 +26,10 @@ std::string_view Name(MatchStatus status) {
 
 bool HasMatched(const MatchResult& match) {
   return match.status == MatchStatus::kConverged || match.status == MatchStatus::kIterationLimit;
+}
+
+Eigen::Matrix3d InformationAdded(const MatchResult& match) {
+  return match.covariance.inverse() - match.predicted.covariance.inverse();
 }
 
 Degeneracy DegeneracyOf(const Eigen::Matrix3d& information) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 
 #include "qwsm/geometry/pose2.hpp"
@@ -16,18 +17,32 @@ class DeadReckoning {
   /// @param last_robot motion since the last scan, as uncertain as odometry has proved to be.
   /// @return nothing for the first scans.
   std::optional<UncertainPose2> Predict(const UncertainPose2& last_robot) const;
+  /// How many scans the map had when that began.
+  std::size_t scans_before() const { return scans_before_; }
 
-  /// Goes on after a scan. @param found where the robot was found to be.
-  void Follow(const UncertainPose2& last_robot, const UncertainPose2& found);
+  /// Goes on after a scan.
+  /// @param T_map_robot where the robot was found to be.
+  /// @param told information of the scan about that, without what odometry tells; zero if it tells
+  ///   nothing.
+  /// @param scans of the map.
+  void Follow(const UncertainPose2& last_robot,
+              const Pose2& T_map_robot,
+              const Eigen::Matrix3d& told,
+              std::size_t scans);
+  /// Begins anew where the robot is.
   void Clear();
   /// Follows a map that was moved here. @param T_new_old the old map's frame in the new one.
   void Move(const Pose2& T_new_old);
 
  private:
+  // Where the robot was found at the last scan, were odometry always as good as it has proved.
+  UncertainPose2 map_last_;
   // Ways that began at a pose found, this one and, ten scans later, the next one.
   std::optional<UncertainPose2> map_robot_;
   std::optional<UncertainPose2> map_robot_of_next_;
   int scans_of_next_ = 0;
+  std::size_t scans_before_ = 0;
+  std::size_t scans_before_next_ = 0;
 };
 
 /// Whether a pose is as far from where it is expected as chance brings once in a million cases.

@@ -55,6 +55,8 @@ class PlaceEvidence {
 
   /// How many points tell something that no other one tells: neighbours share their errors.
   static double Told(std::span<const ScanPoint> points);
+  /// The same where all points of one surface tell as much as the few by which it is met from afar.
+  static double ToldBySurfaces(std::span<const ScanPoint> points);
 
   /// Says whether what a scan of the map saw to be free counts.
   using Counts = std::function<bool(ScanId)>;
@@ -69,6 +71,11 @@ class PlaceEvidence {
 
   /// Share of a scan that is explained by what the map had before one of its scans.
   static double ExplainedBefore(const ScanMap& map, const ScanAtPlace& placed, ScanId before);
+  /// The same of points that have to lie on a surface as near as a match puts them.
+  static double ExplainedBefore(const ScanMap& map,
+                                std::span<const ScanPoint> points,
+                                const Pose2& T_map_robot,
+                                ScanId before);
 
   /// Weighs a scan by what the map had before one of its scans, and that by what the scan saw.
   MutualFit WeighBothWays(const ScanMap& map, const ScanAtPlace& placed, ScanId before);
@@ -91,5 +98,10 @@ class PlaceEvidence {
   // Of the scans that were asked for so far, each in its robot's frame: wherever these are put.
   std::map<ScanId, FreeRangeImage> images_;
 };
+
+/// Whether a scan was taken at the pose where so much of it is explained, neither at another one nor
+/// at a place that is like it, but for a chance of 1 in 100.
+/// @param other share that is explained at the other pose.
+bool IsConvincinglyBetter(std::span<const ScanPoint> points, double explained, double other);
 
 }  // namespace qwsm

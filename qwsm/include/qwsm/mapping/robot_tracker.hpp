@@ -16,6 +16,7 @@
 #include "qwsm/mapping/mapping_step.hpp"
 #include "qwsm/mapping/motion_model.hpp"
 #include "qwsm/mapping/observation.hpp"
+#include "qwsm/mapping/paths_apart.hpp"
 #include "qwsm/mapping/scan_locator.hpp"
 #include "qwsm/mapping/scan_map.hpp"
 #include "qwsm/mapping/slip_estimator.hpp"
@@ -65,6 +66,7 @@ class RobotTracker {
     MappingStep step{};
     std::optional<PosePrediction> last_robot{};  // Motion since the last scan, if there was one.
     bool dropped_odometry = false;
+    std::optional<PathsApart> apart{};  // Where matches and odometry have the robot, if not alike.
   };
 
   Sighting LookTwice(const ScanMap& map,
@@ -85,10 +87,12 @@ class RobotTracker {
                           std::span<const ScanPoint> points,
                           PosePrediction& last_robot,
                           MappingStep& step) const;
-  bool CatchUpWithOdometry(const ScanMap& map,
-                           std::span<const ScanPoint> points,
-                           const UncertainPose2& last_robot,
-                           MappingStep& step) const;
+  const UncertainPose2& PathOfMatches() const { return apart_ ? apart_->by_match() : local_last_; }
+  std::optional<PathsApart> ComparePaths(const ScanMap& map,
+                                         std::span<const ScanPoint> points,
+                                         const UncertainPose2& last_robot,
+                                         MatchResult& match) const;
+  void JudgePaths(const Sighting& sighting, MappingStep& step) const;
   void Judge(const ScanMap& map,
              std::span<const ScanPoint> points,
              const Eigen::Matrix3d& motion_covariance,
@@ -101,7 +105,7 @@ class RobotTracker {
                  const LaserScan& scan,
                  std::span<const ScanPoint> points,
                  MappingStep& step);
-  void LearnMotion(const Sighting& sighting);
+  void LearnMotion(const Sighting& sighting, std::size_t scans);
   void LeavePath();
   void Remember(const Sighting& sighting, bool has_moved_on);
   void LearnOdometry(const Sighting& sighting);
@@ -124,6 +128,7 @@ class RobotTracker {
   MotionModel motion_;
   ScanLocator locator_;
   DeadReckoning dead_reckoning_;
+  std::optional<PathsApart> apart_;  // Until it is known which path is right.
   LaserTurns lasers_;
   LoopDetector loop_detector_;
   LocalSubmap submap_;

@@ -48,10 +48,15 @@ struct [[nodiscard]] MatchResult {
   double overlap = 0.0;          ///< Share of the scan's points that agree with the reference.
   /// Reduced chi-square of the pairs: their mean squared error in units of its modelled variance.
   double reduced_chi2 = 1.0;
+
+  UncertainPose2 pose() const { return {.T_a_b = T_ref_cur, .covariance = covariance}; }
 };
 
 /// Whether the pose is one that pairs tell.
 bool HasMatched(const MatchResult& match);
+
+/// Information about (x, y, theta) by which the answer is more certain than its prediction.
+Eigen::Matrix3d InformationAdded(const MatchResult& match);
 
 /// In which direction of the plane information about a pose is least, and how degenerate it is
 /// (Zhang, Kaess & Singh 2016): along a corridor the walls tell next to nothing.

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "qwsm/mapping/paths_apart.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "qwsm/geometry/frame_covariance.hpp"
+#include "qwsm/mapping/place_evidence.hpp"
+
+namespace qwsm {
+namespace {
+
+// A chance of 1 in 100: of a slip with one scan, of the wrong path, and that what is seen of the
+// map fits there by chance.
+constexpr double kSlipNats = 4.6;
+constexpr double kDecidingNats = 4.6;
+constexpr double kLeastOfTheRest = 4.6;
+
+// By how much a scan speaks for the pose of the match rather than for the other one. What was put
+// up since the paths parted lies where the matches had the robot: the map as it was before bears
+// witness, unless next to nothing of it is seen.
+double LeadOf(double told, const PathEnd& by_match, const PathEnd& by_odometry) {
+  const PlaceFit matched{.told = told, .explained = by_match.explained_before};
+  const PlaceFit reckoned{.told = told, .explained = by_odometry.explained_before};
+  if (std::max(matched.NatsWithinMap(), reckoned.NatsWithinMap()) >= kLeastOfTheRest) {
+    return matched.Nats() - reckoned.Nats();
+  }
+  return PlaceFit{.told = told, .explained = by_match.match.overlap}.Nats() -
+         PlaceFit{.told = told, .explained = by_odometry.match.overlap}.Nats();
+}
+
+}  // namespace
+
+std::optional<PathsApart> PathsApart::Weigh(std::span<const ScanPoint> points,
+                                            const std::optional<PathsApart>& before,
+                                            const UncertainPose2& expected,
+                                            const PathEnd& by_match,
+                                            const PathEnd& by_odometry,
+                                            double max_moving_share) {
+  const double told = PlaceEvidence::ToldBySurfaces(points);
+  const PlaceFit reckoned{.told = told, .explained = by_odometry.match.overlap};
+  const double least_still = (1.0 - max_moving_share) * by_match.match.overlap;
+  if (reckoned.explained < least_still || reckoned.NatsWithinMap() < kLeastOfTheRest) {
+    return std::nullopt;
+  }
+  PathsApart apart = before.value_or(PathsApart{});
+  apart.by_match_ = by_match.match.pose();
+  apart.by_odometry_ = by_odometry.match.pose();
+  const double slip =
+      std::min(kSlipNats, 0.5 * SquaredMahalanobisDistance(expected, apart.by_match_));
+  apart.nats_for_match_ += LeadOf(told, by_match, by_odometry) - slip;
+  return apart;
+}
+
+bool PathsApart::is_decided() const { return std::abs(nats_for_match_) > kDecidingNats; }
+
+void PathsApart::Move(const Pose2& T_new_old) {
+  const UncertainPose2 new_old{.T_a_b = T_new_old};
+  by_match_ = new_old * by_match_;
+  by_odometry_ = new_old * by_odometry_;
+}
+
+}  // namespace qwsm
