@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <vector>
@@ -60,6 +61,18 @@ sim::ScenarioOptions CampusSeenTo(double range_m, int seed) {
   return campus;
 }
 
+// An office in which people walk, by a laser of small robots.
+sim::ScenarioOptions OfficeByASmallLaser(int seed) {
+  sim::ScenarioOptions office = sim::testing::Drive(sim::LayoutKind::kOffice, seed);
+  office.layout.office.persons = 3;
+  sim::LaserOptions& laser = office.robots.front().laser;
+  laser.beams = 682;
+  laser.field_of_view_rad = 240.0 * std::numbers::pi / 180.0;
+  laser.rate_hz = 10.0;
+  laser.useful_range_m = 5.6;
+  return office;
+}
+
 // One drive has one drift: three together tell more.
 TEST(CorrectedDrive, IsAsWrongAsItsCovariancesTell) {
   constexpr int kSeeds = 3;
@@ -101,6 +114,39 @@ TEST(CorrectedDrive, IsNotLostWhereItHasDrifted) {
     const std::vector<FoundPose> poses = Corrected(CampusSeenTo(range_m, 1));
     EXPECT_LT(AteRmse_m(poses), 0.15);
     EXPECT_LT(MeanNees(poses), 15.0);
+  }
+}
+
+// Here a loop closes where the map was drawn beside.
+TEST(CorrectedDrive, IsNotLostWhereALoopCloses) {
+  sim::ScenarioOptions campus = CampusSeenTo(10.0, 7);
+  sim::LaserOptions& laser = campus.robots.front().laser;
+  laser.beams = 360;
+  laser.field_of_view_rad = 2.0 * std::numbers::pi;
+  laser.rate_hz = 5.5;
+  EXPECT_LT(AteRmse_m(Corrected(campus)), 0.15);
+}
+
+// And here a single surface in view is taken for another one.
+TEST(CorrectedDrive, IsNotLostWhereItSeesNextToNothing) {
+  for (const int seed : {3, 7}) {
+    SCOPED_TRACE(seed);
+    sim::ScenarioOptions campus = CampusSeenTo(12.0, seed);
+    sim::LaserOptions& laser = campus.robots.front().laser;
+    laser.beams = 181;
+    laser.field_of_view_rad = std::numbers::pi;
+    EXPECT_LT(AteRmse_m(Corrected(campus)), 0.3);
+  }
+}
+
+// In a corridor whoever walks there is all that tells of the way along it, if the laser sees no
+// farther.
+TEST(CorrectedDrive, IsTakenAlongByNobodyWhoWalksInACorridor) {
+  for (int seed = 1; seed <= 4; ++seed) {
+    SCOPED_TRACE(seed);
+    const std::vector<FoundPose> poses = Corrected(OfficeByASmallLaser(seed));
+    EXPECT_LT(AteRmse_m(poses), 0.1);
+    EXPECT_LT(MeanNees(poses), 100.0);
   }
 }
 

@@ -22,6 +22,14 @@ constexpr double kLeastOfALook = 0.5 * kCarriedNats;
 constexpr double kOffSigmas = 3.0;
 constexpr double kMostOff_m = 15.0;
 constexpr double kWitnesses_m = 10.0;
+// Who sees so little that no place could be told from another one by it does not notice that it is
+// elsewhere: a chance of 1 in 10.
+constexpr double kLeastTold = 2.3;
+
+bool TellsOfAPlace(const LaserScan& scan) {
+  const double told = PlaceEvidence::ToldBySurfaces(ToPoints(scan));
+  return PlaceFit{.told = told, .explained = 1.0}.Nats() >= kLeastTold;
+}
 
 // The scans of a map until one of them that were taken near a place, as a map of their own.
 ScanMap NearbyBefore(const ScanMap& map,
@@ -39,7 +47,7 @@ ScanMap NearbyBefore(const ScanMap& map,
 }  // namespace
 
 PlaceDoubt CarryWatch::Look(const ScanMap& map, const LaserScan& scan, const MappingStep& step) {
-  if (!IsAsked(map, step)) return PlaceDoubt::kNone;
+  if (!IsAsked(map, scan, step)) return PlaceDoubt::kNone;
   const Pose2& T_map_robot = step.map_robot.T_a_b;
   if (IsAnswered(map, {scan, T_map_robot})) {
     Close();
@@ -66,11 +74,11 @@ PlaceDoubt CarryWatch::Look(const ScanMap& map, const LaserScan& scan, const Map
 }
 
 // Whether the view has broken, now or some scans ago.
-bool CarryWatch::IsAsked(const ScanMap& map, const MappingStep& step) {
+bool CarryWatch::IsAsked(const ScanMap& map, const LaserScan& scan, const MappingStep& step) {
   const std::size_t scans_before = std::exchange(scans_, map.scans().size());
   const Pose2 T_map_before = std::exchange(T_map_last_, step.map_robot.T_a_b);
   const double explained_before = view_.explained();
-  if (view_.Take(step) && !question_) {
+  if (view_.Take(step) && !question_ && TellsOfAPlace(scan)) {
     question_ = {.scans_before = scans_before,
                  .explained_before = explained_before,
                  .T_map_reckoned = T_map_before};

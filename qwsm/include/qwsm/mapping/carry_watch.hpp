@@ -56,7 +56,7 @@ class CarryWatch {
     std::optional<Pose2> T_map_looked{};  // Where a scan was weighed last.
   };
 
-  bool IsAsked(const ScanMap& map, const MappingStep& step);
+  bool IsAsked(const ScanMap& map, const LaserScan& scan, const MappingStep& step);
   bool IsAnswered(const ScanMap& map, const ScanAtPlace& placed) const;
   bool IsDue(const Pose2& T_map_robot) const;
   bool HasDrifted(const ScanMap& map, const LaserScan& scan, const UncertainPose2& map_robot) const;
