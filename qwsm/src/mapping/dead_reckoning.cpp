@@ -13,19 +13,11 @@ namespace {
 constexpr int kScans = 10;
 constexpr double kFarChi2 = 30.7;  // Of three degrees of freedom: once in a million.
 
-void GoOn(std::optional<UncertainPose2>& map_robot, const UncertainPose2& last_robot) {
-  if (map_robot) map_robot = *map_robot * last_robot;
-}
-
-void MoveTo(std::optional<UncertainPose2>& map_robot, const UncertainPose2& new_old) {
-  if (map_robot) map_robot = new_old * *map_robot;
-}
-
 }  // namespace
 
 std::optional<UncertainPose2> DeadReckoning::Predict(const UncertainPose2& last_robot) const {
-  if (!map_robot_) return std::nullopt;
-  return *map_robot_ * last_robot;
+  if (!way_) return std::nullopt;
+  return way_->map_robot * last_robot;
 }
 
 void DeadReckoning::Follow(const UncertainPose2& last_robot,
@@ -35,26 +27,26 @@ void DeadReckoning::Follow(const UncertainPose2& last_robot,
   const Eigen::Matrix3d reckoned = (map_last_ * last_robot).covariance;
   const Eigen::Matrix3d share = Eigen::Matrix3d::Identity() + reckoned * told;
   map_last_ = {.T_a_b = T_map_robot, .covariance = share.inverse() * reckoned};
-  GoOn(map_robot_, last_robot);
-  GoOn(map_robot_of_next_, last_robot);
-  if (map_robot_of_next_ && ++scans_of_next_ < kScans) return;
-  map_robot_ = map_robot_of_next_;
-  map_robot_of_next_ = map_last_;
-  scans_before_ = std::exchange(scans_before_next_, scans);
+  for (std::optional<Way>* way : {&way_, &next_}) {
+    if (*way) (*way)->map_robot = (*way)->map_robot * last_robot;
+  }
+  if (next_ && ++scans_of_next_ < kScans) return;
+  way_ = std::exchange(next_, Way{.map_robot = map_last_, .scans_before = scans});
   scans_of_next_ = 0;
 }
 
 void DeadReckoning::Clear() {
-  map_robot_.reset();
-  map_robot_of_next_.reset();
+  way_.reset();
+  next_.reset();
   scans_of_next_ = 0;
 }
 
 void DeadReckoning::Move(const Pose2& T_new_old) {
   const UncertainPose2 new_old{.T_a_b = T_new_old};
   map_last_ = new_old * map_last_;
-  MoveTo(map_robot_, new_old);
-  MoveTo(map_robot_of_next_, new_old);
+  for (std::optional<Way>* way : {&way_, &next_}) {
+    if (*way) (*way)->map_robot = new_old * (*way)->map_robot;
+  }
 }
 
 bool IsFarFrom(const UncertainPose2& expected, const UncertainPose2& found) {

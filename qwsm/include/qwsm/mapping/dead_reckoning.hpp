@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <optional>
 
 #include "qwsm/geometry/pose2.hpp"
@@ -18,7 +19,7 @@ class DeadReckoning {
   /// @return nothing for the first scans.
   std::optional<UncertainPose2> Predict(const UncertainPose2& last_robot) const;
   /// How many scans the map had when that began.
-  std::size_t scans_before() const { return scans_before_; }
+  std::size_t scans_before() const { return way_ ? way_->scans_before : 0; }
 
   /// Goes on after a scan.
   /// @param T_map_robot where the robot was found to be.
@@ -35,14 +36,17 @@ class DeadReckoning {
   void Move(const Pose2& T_new_old);
 
  private:
+  // By odometry alone since a pose found.
+  struct Way {
+    UncertainPose2 map_robot;
+    std::size_t scans_before = 0;  // That the map had when it began.
+  };
+
   // Where the robot was found at the last scan, were odometry always as good as it has proved.
   UncertainPose2 map_last_;
-  // Ways that began at a pose found, this one and, ten scans later, the next one.
-  std::optional<UncertainPose2> map_robot_;
-  std::optional<UncertainPose2> map_robot_of_next_;
+  std::optional<Way> way_;
+  std::optional<Way> next_;  // Began ten scans later.
   int scans_of_next_ = 0;
-  std::size_t scans_before_ = 0;
-  std::size_t scans_before_next_ = 0;
 };
 
 /// Whether a pose is as far from where it is expected as chance brings once in a million cases.
