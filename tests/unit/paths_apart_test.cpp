@@ -102,6 +102,15 @@ TEST(PathsApart, AreNoneWhereTheRestTellsLittle) {
   EXPECT_FALSE(weigh(10)) << "a few trees";
 }
 
+TEST(PathsApart, BelieveOdometryWhereThatShowsMore) {
+  const MatchResult by_match = MatchAt(0.3, 0.4);
+  const MatchResult by_odometry = MatchAt(0.0, 0.5);
+  const auto apart =
+      PathsApart::Weigh(SparseWall(10), {}, kExpected, {by_match}, {by_odometry}, kMovingShare);
+  ASSERT_TRUE(apart);
+  EXPECT_TRUE(apart->is_by_odometry());
+}
+
 TEST(PathsApart, FollowAMapThatIsMoved) {
   PathsApart apart = *After(1, 1, 0.95);
   apart.Move({3.0, -1.0, 0.0});

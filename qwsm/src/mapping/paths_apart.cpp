@@ -11,11 +11,11 @@
 namespace qwsm {
 namespace {
 
-// A chance of 1 in 100: of a slip with one scan, of the wrong path, and that what is seen of the
-// map fits there by chance.
+// A chance of 1 in 100: of a slip with one scan, and of the wrong path.
 constexpr double kSlipNats = 4.6;
 constexpr double kDecidingNats = 4.6;
-constexpr double kLeastOfTheRest = 4.6;
+// And of 1 in 10 that what is seen of the map fits there by chance.
+constexpr double kLeastOfTheRest = 2.3;
 
 // By how much a scan speaks for the pose of the match rather than for the other one. What was put
 // up since the paths parted lies where the matches had the robot: the map as it was before bears
@@ -40,8 +40,10 @@ std::optional<PathsApart> PathsApart::Weigh(std::span<const ScanPoint> points,
                                             double max_moving_share) {
   const double told = PlaceEvidence::ToldBySurfaces(points);
   const PlaceFit reckoned{.told = told, .explained = by_odometry.match.overlap};
+  const bool shows_less = reckoned.explained <= by_match.match.overlap;
   const double least_still = (1.0 - max_moving_share) * by_match.match.overlap;
-  if (reckoned.explained < least_still || reckoned.NatsWithinMap() < kLeastOfTheRest) {
+  if (shows_less &&
+      (reckoned.explained < least_still || reckoned.NatsWithinMap() < kLeastOfTheRest)) {
     return std::nullopt;
   }
   PathsApart apart = before.value_or(PathsApart{});

@@ -31,8 +31,8 @@ class PathsApart {
   /// @param expected where the matches' path was to go on, as uncertain as odometry has proved to
   ///   be.
   /// @param max_moving_share of the points that may be of somebody who walks.
-  /// @return nothing if the matches alone can be right: at the other pose the scan shows too little
-  ///   of the map, or too much that would have moved.
+  /// @return nothing if the matches alone can be right: at the other pose the scan shows less of the
+  ///   map, and too little of it, or too much that would have moved.
   static std::optional<PathsApart> Weigh(std::span<const ScanPoint> points,
                                          const std::optional<PathsApart>& before,
                                          const UncertainPose2& expected,
