@@ -154,9 +154,8 @@ MappingStep SelfCorrectingMapper::Find(const Observation& observation) {
   doubtful_ = {.answers_before = path_->size(), .observations = std::exchange(since_lost_, {})};
   const ScanId beside = NearestScan(mapper_.map(), T_map_robot);
   const UncertainPose2 beside_map{.T_a_b = mapper_.map().scans()[beside].map_robot.T_a_b.Inverse()};
-  const UncertainPose2 map_matched{.T_a_b = T_map_robot, .covariance = match.covariance};
-  Join(lost.FrameFor(map_robot), {beside, beside_map * lost.FrameFor(map_matched)});
-  mapper_.PlaceAt(map_matched);
+  Join(lost.FrameFor(map_robot), {beside, beside_map * lost.FrameFor(match.pose())});
+  mapper_.PlaceAt(match.pose());
   MappingStep step = mapper_.Process(observation);
   step.epoch = static_cast<int>(epochs_.size());
   Take(step);

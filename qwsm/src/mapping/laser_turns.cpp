@@ -128,7 +128,7 @@ std::optional<LaserTurns::Look> LaserTurns::LookOf(const Observation& observatio
   const MatchResult& match = step.match;
   const Eigen::Matrix3d predicted = match.predicted.covariance.inverse();
   const Eigen::Matrix3d covariance =
-      (PositivePart(match.covariance.inverse() - predicted) + NextToNothing()).inverse();
+      (PositivePart(InformationAdded(match)) + NextToNothing()).inverse();
   const Eigen::Vector3d away =
       covariance * predicted * Difference(match.T_ref_cur, match.predicted.T_a_b);
   return Look{.map_robot = {.T_a_b = Shifted(match.T_ref_cur, away), .covariance = covariance},

@@ -187,7 +187,7 @@ struct Attempt {
   // corridor it is, the estimate cannot tell.
   std::optional<UncertainPose2> AgreedFrom(std::span<const Pose2> candidates) const {
     const MatchResult best = MatchSubmap(candidates.front());
-    UncertainPose2 agreed{.T_a_b = best.T_ref_cur, .covariance = best.covariance};
+    UncertainPose2 agreed = best.pose();
     if (best.status != MatchStatus::kConverged ||
         InformationRatioWithHeadingGiven(best.pair_information) < kMinSubmapRatio ||
         agreed.SigmaXY_m() > kMaxSigmaShare * estimated.SigmaXY_m() ||

@@ -39,7 +39,7 @@ double Share(std::ptrdiff_t count, std::size_t of) {
 bool IsStored(const SurfaceMap& surfaces,
               const Eigen::Vector2d& p_map_m,
               ScanId before,
-              double within_m = kOneSurface_m) {
+              double within_m) {
   const PointQuadtree& stored = surfaces.quadtree();
   bool is_stored = false;
   stored.ForEachInRadius(p_map_m, within_m, [&](PointId id, const Eigen::Vector2d&) {

@@ -183,7 +183,7 @@ void PlaceFinder::Weigh(const Sight& sight, double news) {
     one.is_held = is_held;
     if (lead_nats > 0.0) {
       ++one.looks;
-      one.map_robot = {.T_a_b = match.T_ref_cur, .covariance = match.covariance};
+      one.map_robot = match.pose();
     }
   }
 }

@@ -39,10 +39,7 @@ void RobotTracker::PlaceAt(const UncertainPose2& map_robot,
   motion_.Remember({}, T_odom_robot);
   gyro_.Restart(T_odom_robot);
   slip_.Interrupt();
-  submap_.Clear();
-  seen_free_.Clear();
-  dead_reckoning_.Clear();
-  apart_.reset();
+  LeavePath();
   map_last_ = map_robot;
   local_last_ = map_robot;
   lasers_.Clear();
@@ -151,7 +148,7 @@ void RobotTracker::Locate(const ScanMap& map, Sighting& sighting) const {
   step.local_covariance = (local_last_ * last_robot.conservative).covariance;
   const UncertainPose2 last_in_map{.T_a_b = map_last_.T_a_b};
   Judge(map, points, (last_in_map * last_robot.conservative).covariance, step);
-  JudgePaths(sighting, step);
+  JudgePaths(sighting);
   sighting.last_robot = last_robot;
 }
 
@@ -248,7 +245,8 @@ std::optional<PathsApart> RobotTracker::ComparePaths(const ScanMap& map,
 }
 
 // While two poses may be right, none is one that the map confirms.
-void RobotTracker::JudgePaths(const Sighting& sighting, MappingStep& step) const {
+void RobotTracker::JudgePaths(Sighting& sighting) const {
+  MappingStep& step = sighting.step;
   if (step.status == StepStatus::kDeadReckoned) return;
   const bool is_by_odometry = sighting.apart && sighting.apart->is_by_odometry();
   const bool was_by_odometry = apart_ && apart_->is_by_odometry();

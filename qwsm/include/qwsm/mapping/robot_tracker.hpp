@@ -92,7 +92,7 @@ class RobotTracker {
                                          std::span<const ScanPoint> points,
                                          const UncertainPose2& last_robot,
                                          MatchResult& match) const;
-  void JudgePaths(const Sighting& sighting, MappingStep& step) const;
+  void JudgePaths(Sighting& sighting) const;
   void Judge(const ScanMap& map,
              std::span<const ScanPoint> points,
              const Eigen::Matrix3d& motion_covariance,
