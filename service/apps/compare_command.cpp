@@ -35,7 +35,7 @@ ExitCode RunCompare(const RunArguments& arguments) {
           pipeline::ComparisonText(contest.contestants()),
           session.folder().path().string());
   }
-  return Conclude(end);
+  return session.Conclude(end);
 }
 
 }  // namespace

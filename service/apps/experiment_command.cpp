@@ -96,7 +96,7 @@ ExitCode RunExperiment(ExperimentArguments arguments) {
   } else if (!arguments.run.verbosity.quiet) {
     Print("{}\nresults        {}\n", ExperimentText(experiment.runs), folder.path().string());
   }
-  return Conclude({.end = experiment.end, .failure = {}});
+  return session.Conclude({.end = experiment.end, .failure = {}});
 }
 
 }  // namespace

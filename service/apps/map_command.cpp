@@ -206,12 +206,13 @@ ExitCode MapAll(const MapArguments& arguments,
   if (live) live->Finish(map, corrected ? "the log is at its end, the map corrected" : kAtEnd);
   KeepMap(arguments, session, map, WithThoseOfPage(of_log, live.get()));
   session.Summarize(results, map);
-  if (live && end.end == pipeline::ReplayEnd::kExhausted) {
+  const ExitCode code = session.Conclude(end);
+  if (live && code == ExitCode::kDone) {
     KeepPage(
         [&live](const pipeline::Interruption& interruption) { live->StayUntil(interruption); });
     KeepMap(arguments, session, map, WithThoseOfPage(of_log, live.get()));
   }
-  return Conclude(end);
+  return code;
 }
 
 /// Goes on in a map that was made before, once the robot is recognised in it. Where that is a grid

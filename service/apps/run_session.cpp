@@ -13,7 +13,6 @@
 #include "service/io/files/atomic_file.hpp"
 #include "service/pipeline/results/json_lines_sink.hpp"
 #include "service/pipeline/results/run_report.hpp"
-#include "service/pipeline/run/interruption.hpp"
 #include "service/pipeline/run/progress_display.hpp"
 #include "service/pipeline/text/messages.hpp"
 
@@ -85,14 +84,15 @@ RunSession::RunSession(const RunArguments& arguments, const options::ProgramOpti
     : arguments_(arguments),
       folder_(arguments.output
                   ? ResultsFolder(*arguments.output, arguments.force, InputsOf(arguments))
-                  : ResultsFolder::ForNow("results")) {
+                  : ResultsFolder::ForNow("results")),
+      interruption_(std::make_shared<const Interruption>()) {
   CopyMessagesTo(folder_ / "run.log");
   messages::Info("version {}", Version());
   io::WriteTextFile(folder_ / "config.yaml", config::DumpOptions(options));
 }
 
 RunSession RunSession::Part(const std::string& name) const {
-  return {arguments_, ResultsFolder(folder_ / name, arguments_.force, InputsOf(arguments_))};
+  return {arguments_, ResultsFolder(folder_ / name, arguments_.force, InputsOf(arguments_)), interruption_};
 }
 
 RunTitle RunSession::Title(const std::string& command, const ReplayResult& result) const {
@@ -125,8 +125,7 @@ ReplayResult RunSession::Run(const std::string& task,
   ProgressDisplay progress(
       task, source, arguments_.verbosity.quiet ? ProgressStyle::kNone : StyleFor(stderr));
   runs.back().sinks.push_back(&progress);  // Once per scan.
-  const Interruption interruption;
-  ReplayResult result = Replay(source, runs, [&] { return interruption.requested(); });
+  ReplayResult result = Replay(source, runs, [&] { return is_interrupted(); });
   progress.Clear();
   for (const std::string& line : source.Describe()) messages::Info(line);
   return result;
@@ -139,10 +138,10 @@ void RunSession::Summarize(const ResultsWriter& results, const ScanMap& map) con
         folder_.path().string());
 }
 
-ExitCode Conclude(const ReplayResult& result) {
+ExitCode RunSession::Conclude(const ReplayResult& result) const {
   switch (result.end) {
     case ReplayEnd::kExhausted:
-      return ExitCode::kDone;
+      return is_interrupted() ? ExitCode::kInterrupted : ExitCode::kDone;
     case ReplayEnd::kInterrupted:
       return ExitCode::kInterrupted;
     case ReplayEnd::kSourceFailed:

@@ -12,6 +12,7 @@
 #include "service/apps/command.hpp"
 #include "service/pipeline/results/results_folder.hpp"
 #include "service/pipeline/results/results_writer.hpp"
+#include "service/pipeline/run/interruption.hpp"
 #include "service/pipeline/run/log_source.hpp"
 #include "service/pipeline/run/replay.hpp"
 
@@ -53,6 +54,7 @@ std::unique_ptr<pipeline::LogSource> OpenLogs(const RunArguments& arguments,
 ExitCode TellPlan(const std::string& what, const RunArguments& arguments);
 
 /// One run of a command: its folder is ready, its messages and configuration are recorded there.
+/// From then on there is something to keep: Ctrl-C ends the scans, and results are written whole.
 class RunSession {
  public:
   /// Makes the folder of the results. @throws io::WriteError where it cannot be had.
@@ -82,15 +84,23 @@ class RunSession {
   /// Tells what came out, if a person reads standard output.
   void Summarize(const pipeline::ResultsWriter& results, const ScanMap& map) const;
 
+  bool is_interrupted() const { return interruption_->requested(); }
+
+  /// The exit code of a run whose scans ended so, once its results are written: it says why they
+  /// failed, and whether the run was interrupted, after its last scan, too.
+  ExitCode Conclude(const pipeline::ReplayResult& result) const;
+
  private:
-  RunSession(RunArguments arguments, pipeline::ResultsFolder folder)
-      : arguments_(std::move(arguments)), folder_(std::move(folder)) {}
+  RunSession(RunArguments arguments,
+             pipeline::ResultsFolder folder,
+             std::shared_ptr<const pipeline::Interruption> interruption)
+      : arguments_(std::move(arguments)),
+        folder_(std::move(folder)),
+        interruption_(std::move(interruption)) {}
 
   RunArguments arguments_;
   pipeline::ResultsFolder folder_;
+  std::shared_ptr<const pipeline::Interruption> interruption_;  ///< One for all parts.
 };
-
-/// The exit code of a replay that ended so; says why it failed.
-ExitCode Conclude(const pipeline::ReplayResult& result);
 
 }  // namespace qwsm::apps

@@ -66,16 +66,18 @@ pipeline::CorrectedRun CorrectTogether(const ScanMap& map,
   return {.correction = std::move(joint.correction), .map = std::move(joint.map), .epochs = {}};
 }
 
-}  // namespace
-
-ExitCode ConcludeDrive(const pipeline::ReplayResult& end,
+/// The exit code of a drive that ended so; tells of a robot that is lost in the end.
+ExitCode ConcludeDrive(const RunSession& session,
+                       const pipeline::ReplayResult& end,
                        const Localizer& localizer,
                        const pipeline::LostAndFound& lost_and_found) {
   if (end.end == pipeline::ReplayEnd::kExhausted && lost_and_found.held() > 0) {
     return ConcludeLost(localizer.belief(), lost_and_found.held());
   }
-  return Conclude(end);
+  return session.Conclude(end);
 }
+
+}  // namespace
 
 bool IsGrid(const std::filesystem::path& path) {
   const std::filesystem::path ending = path.extension();
@@ -111,7 +113,7 @@ ExitCode FollowInMap(const std::string& task,
   results.Finish(localizer.map(), options.mapper.matcher, options.rendering);
   pipeline::WriteMarks(session.folder().path(), robot.marks.Placed({}));
   session.Summarize(results, localizer.map());
-  return ConcludeDrive(end, localizer, lost_and_found);
+  return ConcludeDrive(session, end, localizer, lost_and_found);
 }
 
 ContinuedMap CorrectAfterFollowing(const RobotInMap& robot,
@@ -136,7 +138,7 @@ ContinuedMap CorrectAfterFollowing(const RobotInMap& robot,
       MovedWithScans(marks_before, localizer.map().scans(), correction.map_node);
   std::ranges::move(robot.marks.Placed(correction.map_robot), std::back_inserter(marks));
   pipeline::WriteMarks(session.folder().path(), marks);
-  return {.code = ConcludeDrive(end, localizer, lost_and_found),
+  return {.code = ConcludeDrive(session, end, localizer, lost_and_found),
           .map = std::move(corrected.map),
           .marks = std::move(marks)};
 }

@@ -10,7 +10,6 @@
 #include "qwsm/mapping/localizer.hpp"
 #include "service/apps/run_session.hpp"
 #include "service/pipeline/results/journal_marks.hpp"
-#include "service/pipeline/results/lost_and_found.hpp"
 
 namespace qwsm::apps {
 
@@ -32,11 +31,6 @@ struct RobotInMap {
 
 /// Whether a file is an occupancy grid of another program, by its name.
 bool IsGrid(const std::filesystem::path& path);
-
-/// The exit code of a drive that ended so; tells of a robot that is lost in the end.
-ExitCode ConcludeDrive(const pipeline::ReplayResult& end,
-                       const Localizer& localizer,
-                       const pipeline::LostAndFound& lost_and_found);
 
 /// Follows a robot through a map that was made before, and leaves the results.
 /// @param task as `localize`, for messages.

@@ -62,7 +62,7 @@ class TeamMapping {
       messages::Error("{}: is not in the map of the others, but in one of its own", robot.name);
       if (code == ExitCode::kDone) code = ExitCode::kFailed;
     }
-    return code;
+    return session_.is_interrupted() ? ExitCode::kInterrupted : code;
   }
 
  private:
@@ -88,7 +88,7 @@ class TeamMapping {
     robot.results->SetTitle(robot.session.Title("map", end));
     robot.truth = source->truth();
     robots_.push_back(std::move(robot));
-    return Conclude(end);
+    return session_.Conclude(end);
   }
 
   MappedRobot Begin(const std::string& name) const {

@@ -198,6 +198,24 @@ TEST_F(InterruptedMapCommand, WritesAllResultsOfWhatItDid) {
   EXPECT_TRUE(fs::exists(results_ / "map.png"));
 }
 
+TEST_F(InterruptedMapCommand, WritesAllResultsAfterTheLastScanToo) {
+  // Somebody reads the corrected path while it is written, which is when he interrupts.
+  fs::create_directory(results_);
+  fs::create_symlink(pipe_, results_ / "trajectory.tum.part");
+  Program program({"map", log_, "--output", results_, "--force"});
+  std::ifstream path(pipe_);
+  program.Signal(SIGINT);
+  std::size_t count = 0;
+  for (std::string line; std::getline(path, line);) ++count;
+  const Outcome outcome = program.Wait();
+  EXPECT_EQ(outcome.exit_code, 130);
+  EXPECT_NE(outcome.errors.find("interrupted"), std::string::npos) << outcome.errors;
+  EXPECT_EQ(count, 1000U);
+  EXPECT_EQ(CountLines(results_ / "scans.csv"), count + 1);
+  EXPECT_TRUE(fs::exists(results_ / "metrics.json"));
+  EXPECT_TRUE(fs::exists(results_ / "map.png"));
+}
+
 TEST_F(InterruptedMapCommand, QuitsWhenInterruptedTwice) {
   Program program({"map", log_, "--output", results_, "--json"}, {.output = pipe_});
   std::ifstream lines(pipe_);

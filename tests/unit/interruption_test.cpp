@@ -15,6 +15,18 @@ TEST(Interruption, CtrlCIsNoted) {
   EXPECT_TRUE(interruption.requested());
 }
 
+TEST(Interruption, OneWithinAnotherTakesTheCtrlCOfItsTime) {
+  const Interruption run("the run\n");
+  {
+    const Interruption page("the page\n");
+    raise(SIGINT);
+    EXPECT_TRUE(page.requested());
+  }
+  EXPECT_FALSE(run.requested());
+  raise(SIGINT);  // The first one for the run, which goes on.
+  EXPECT_TRUE(run.requested());
+}
+
 TEST(Interruption, WhoeverIsToIgnoreCtrlCStillEndsWhenTold) {
   ASSERT_NE(signal(SIGINT, SIG_IGN), SIG_ERR);
   {

@@ -154,7 +154,7 @@ ExitCode RunRegister(const RegisterArguments& arguments) {
   } else if (!arguments.verbosity.quiet) {
     qwsm::apps::Print("{}results        {}\n", summary, folder.path().string());
   }
-  return registration.interrupted ? ExitCode::kInterrupted : ExitCode::kDone;
+  return registration.interrupted || interruption.requested() ? ExitCode::kInterrupted : ExitCode::kDone;
 }
 
 }  // namespace

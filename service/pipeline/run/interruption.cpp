@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cerrno>
 #include <string_view>
+#include <utility>
 
 namespace qwsm::pipeline {
 namespace {
@@ -42,9 +43,9 @@ extern "C" void HandleSignal(int number) {
 
 }  // namespace
 
-Interruption::Interruption(std::string_view answer) {
-  interrupted = false;
-  answer_to_person = answer;
+Interruption::Interruption(std::string_view answer)
+    : outer_requested_(interrupted.exchange(false)),
+      outer_answer_(std::exchange(answer_to_person, answer)) {
   struct sigaction action {};
   action.sa_handler = HandleSignal;
   action.sa_flags = SA_RESTART;  // What is being written is written whole.
@@ -57,6 +58,8 @@ Interruption::Interruption(std::string_view answer) {
 Interruption::~Interruption() {
   sigaction(SIGINT, &old_interrupt_, nullptr);
   sigaction(SIGTERM, &old_terminate_, nullptr);
+  answer_to_person = outer_answer_;
+  interrupted = outer_requested_;
 }
 
 bool Interruption::requested() const { return interrupted; }
