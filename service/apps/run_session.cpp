@@ -92,7 +92,9 @@ RunSession::RunSession(const RunArguments& arguments, const options::ProgramOpti
 }
 
 RunSession RunSession::Part(const std::string& name) const {
-  return {arguments_, ResultsFolder(folder_ / name, arguments_.force, InputsOf(arguments_)), interruption_};
+  return {arguments_,
+          ResultsFolder(folder_ / name, arguments_.force, InputsOf(arguments_)),
+          interruption_};
 }
 
 RunTitle RunSession::Title(const std::string& command, const ReplayResult& result) const {

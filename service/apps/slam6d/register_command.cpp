@@ -154,7 +154,8 @@ ExitCode RunRegister(const RegisterArguments& arguments) {
   } else if (!arguments.verbosity.quiet) {
     qwsm::apps::Print("{}results        {}\n", summary, folder.path().string());
   }
-  return registration.interrupted || interruption.requested() ? ExitCode::kInterrupted : ExitCode::kDone;
+  return registration.interrupted || interruption.requested() ? ExitCode::kInterrupted
+                                                              : ExitCode::kDone;
 }
 
 }  // namespace
