@@ -84,9 +84,9 @@ TEST(CorrectedDrive, IsAsWrongAsItsCovariancesTell) {
   EXPECT_LT(sum / kSeeds, 4.5);
 }
 
-// On wet grass, where wheels turn further than the robot goes and matches of single trees do not
-// tell by how much.
-TEST(CorrectedDrive, IsHalfAsWrongWithAGyro) {
+// On wet grass wheels turn further than the robot goes. That is learned from the matches, so that
+// whoever has no gyro does next to as well as with one; before it was, he did half as well.
+TEST(CorrectedDrive, IsAsGoodByWheelsAsWithAGyro) {
   double with_gyro_m = 0.0;
   double by_wheels_m = 0.0;
   for (int seed = 11; seed <= 16; ++seed) {
@@ -95,7 +95,8 @@ TEST(CorrectedDrive, IsHalfAsWrongWithAGyro) {
     park.robots.front().gyro.enabled = true;
     with_gyro_m += AteRmse_m(Corrected(park));
   }
-  EXPECT_LT(with_gyro_m, 0.5 * by_wheels_m);
+  EXPECT_LT(with_gyro_m, 6 * 0.06);
+  EXPECT_LT(by_wheels_m, 1.5 * with_gyro_m);
 }
 
 // Among these trees the robot turns twice with none in view, and comes back more than eight metres

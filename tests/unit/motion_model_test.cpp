@@ -18,18 +18,17 @@ class Drive {
  public:
   explicit Drive(MotionModel& model) : model_(model) { model_.Remember({}, odometry_); }
 
-  /// @param information of the pairs that find each pose.
-  void Go(int steps, double error_sigma, const Eigen::Vector3d& information) {
+  /// @param sigmas of where each pose is found to be, in m, m, rad.
+  void Go(int steps, double error_sigma, const Eigen::Vector3d& sigmas) {
+    const Eigen::Matrix3d found_covariance = sigmas.cwiseAbs2().asDiagonal();
     for (int step = 0; step < steps; ++step) {
       const Pose2 told{kStep_m + error_sigma * normal_(random_),
                        error_sigma * normal_(random_),
                        error_sigma * normal_(random_)};
       odometry_ = odometry_ * told;
-      MatchResult found{.status = MatchStatus::kConverged, .T_ref_cur = {kStep_m, 0.0, 0.0}};
-      found.pair_information = information.asDiagonal();
-      found.covariance = kMatchSigma * kMatchSigma * Eigen::Matrix3d::Identity();
+      const UncertainPose2 found{.T_a_b = {kStep_m, 0.0, 0.0}, .covariance = found_covariance};
       model_.Adapt(model_.Predict(odometry_).adapted, found, odometry_);
-      model_.Remember(found.T_ref_cur, odometry_);
+      model_.Remember(found.T_a_b, odometry_);
     }
   }
 
@@ -45,8 +44,8 @@ class Drive {
 double SigmaAlong(const UncertainPose2& pose) { return std::sqrt(pose.covariance(0, 0)); }
 double SigmaAcross(const UncertainPose2& pose) { return std::sqrt(pose.covariance(1, 1)); }
 
-const Eigen::Vector3d kToldEverywhere(1e5, 1e5, 1e6);
-const Eigen::Vector3d kToldAcrossOnly(1e3, 1e5, 1e6);
+const Eigen::Vector3d kToldEverywhere(kMatchSigma, kMatchSigma, kMatchSigma);
+const Eigen::Vector3d kToldAcrossOnly(10.0 * kMatchSigma, kMatchSigma, kMatchSigma);
 
 TEST(MotionModel, AdaptsToHowGoodOdometryIs) {
   MotionModel model;

@@ -66,6 +66,44 @@ TEST_F(WalkingAhead, DoesNotWhereTheWayWasSeenFree) {
   EXPECT_NEAR(ErrorAlong(seen_free), 0.0, 0.02);
 }
 
+TEST_F(WalkingAhead, DoesNotWhereOdometryHasProvedBetterThanThat) {
+  const PosePrediction predicted{.conservative = Expected(truth_, 0.05),
+                                 .adapted = Expected(truth_, 0.005)};
+  EXPECT_NEAR(ScanLocator().Locate(map_, points_, predicted).T_ref_cur.x_m, truth_.x_m, 0.01);
+}
+
+/// Odometry that was good to millimetres, in a room.
+class ProvedOdometry : public testing::Test {
+ protected:
+  MatchResult Locate(const Pose2& truth) const {
+    const PosePrediction predicted{.conservative = Expected({}, 0.1),
+                                   .adapted = Expected({}, 0.005)};
+    return ScanLocator().Locate(map_, ToPoints(ScanOf(world_, truth)), predicted);
+  }
+
+  World world_ = [] {
+    World room = CorridorWithSomeoneAt(3.0);
+    room.walls.push_back({.from_m = {5.0, -1.0}, .to_m = {5.0, 1.0}});
+    return room;
+  }();
+  ScanMap map_ = MapOfScan(ScanOf(world_, {}), {});
+};
+
+TEST_F(ProvedOdometry, IsNotBelievedWhereTheWheelsHaveSlipped) {
+  const Pose2 truth{0.2, 0.02, 0.03};
+  const MatchResult match = Locate(truth);
+  EXPECT_NEAR((match.T_ref_cur.translation_m() - truth.translation_m()).norm(), 0.0, 0.01);
+  EXPECT_NEAR(match.T_ref_cur.theta_rad, truth.theta_rad, 0.005);
+  EXPECT_GT(match.predicted.SigmaXY_m(), 0.05) << "by what a slip would do";
+}
+
+TEST_F(ProvedOdometry, HoldsThePoseWhereTheyHaveNot) {
+  const Pose2 truth{0.004, 0.0, 0.0};
+  const MatchResult match = Locate(truth);
+  EXPECT_NEAR((match.T_ref_cur.translation_m() - truth.translation_m()).norm(), 0.0, 0.005);
+  EXPECT_LT(match.predicted.SigmaXY_m(), 0.01);
+}
+
 TEST(ScanLocator, FindsAPoseFarBeyondTheFirstWindow) {
   const World world = CorridorWithSomeoneAt(3.0);
   const ScanMap map = MapOfScan(ScanOf(world, {}), {});

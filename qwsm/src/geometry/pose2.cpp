@@ -29,6 +29,12 @@ Eigen::Vector2d operator*(const Pose2& T_a_b, const Eigen::Vector2d& p_b_m) {
   return {T_a_b.x_m + c * p_b_m.x() - s * p_b_m.y(), T_a_b.y_m + s * p_b_m.x() + c * p_b_m.y()};
 }
 
+Pose2 WithTurn(const Pose2& motion, double turn_rad) {
+  const Pose2 half{.theta_rad = 0.5 * NormalizeAngle(turn_rad - motion.theta_rad)};
+  const Eigen::Vector2d way_m = half * motion.translation_m();
+  return {way_m.x(), way_m.y(), NormalizeAngle(turn_rad)};
+}
+
 bool IsFinite(const Pose2& pose) {
   return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.theta_rad);
 }

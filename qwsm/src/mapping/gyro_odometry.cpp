@@ -17,13 +17,6 @@ constexpr double kBenefitOfDoubt = 2.0;         // A gyro does not slip.
 constexpr int kLeastTurns = 10;                 // Before it is known which of both is better.
 constexpr double kMostSigmas = 3.0;             // One wrong match is not to move the bias far.
 
-// The motion with another turn, along an arc as long.
-Pose2 Turned(const Pose2& motion, double turn_rad) {
-  const Pose2 half{.theta_rad = 0.5 * NormalizeAngle(turn_rad - motion.theta_rad)};
-  const Eigen::Vector2d way_m = half * motion.translation_m();
-  return {way_m.x(), way_m.y(), NormalizeAngle(turn_rad)};
-}
-
 }  // namespace
 
 std::optional<GyroOdometry::Turn> GyroOdometry::TurnSince(const Observation& observation) const {
@@ -52,9 +45,7 @@ std::optional<Pose2> GyroOdometry::Follow(const Observation& observation) {
     const bool is_apart = leads_ || (T_wheels_last_ && T_odom_robot_ != *T_wheels_last_);
     if (is_apart) {
       const Pose2 motion = T_wheels_last_->Inverse() * *observation.T_odom_robot;
-      T_odom_robot_ =
-          T_odom_robot_ *
-          (leads_ ? Turned(creep_.TakenOut(motion), turn_->by_gyro_rad) : motion);
+      T_odom_robot_ = T_odom_robot_ * (leads_ ? WithTurn(motion, turn_->by_gyro_rad) : motion);
     } else {
       T_odom_robot_ = *observation.T_odom_robot;
     }
@@ -82,12 +73,6 @@ void GyroOdometry::Learn(double turn_rad, double sigma_rad) {
   const double gain = bias_variance_ * duration_s / variance;
   bias_rad_s_ -= gain * std::clamp(of_gyro_rad, -most_rad, most_rad);
   bias_variance_ *= 1.0 - gain * duration_s;
-}
-
-void GyroOdometry::LearnWay(const UncertainPose2& before,
-                            const UncertainPose2& motion,
-                            const UncertainPose2& found) {
-  if (leads_) creep_.Learn(before, motion, found);
 }
 
 void GyroOdometry::Restart(const std::optional<Pose2>& T_odom_robot) {

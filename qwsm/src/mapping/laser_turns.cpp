@@ -19,13 +19,6 @@ constexpr double kLatePeriods = 1.5;        // Scans come a little later than th
 // which it is known to slip now and then.
 constexpr double kSmallestScale = 1e-3;
 
-// What next to nothing is told of: a position within metres.
-Eigen::Matrix3d NextToNothing() { return Eigen::Vector3d(0.1, 0.1, 1.0).asDiagonal(); }
-
-Pose2 Shifted(const Pose2& pose, const Eigen::Vector3d& step) {
-  return {pose.x_m + step.x(), pose.y_m + step.y(), NormalizeAngle(pose.theta_rad + step.z())};
-}
-
 bool HasFoundPose(const MappingStep& step) {
   const bool is_matched =
       step.status == StepStatus::kMatched || step.status == StepStatus::kExtended;
@@ -121,30 +114,19 @@ std::optional<UncertainPose2> LaserTurns::last_look() const {
   return lasers_.back().look->map_robot;
 }
 
-// What was matched without what it was fused with.
 std::optional<LaserTurns::Look> LaserTurns::LookOf(const Observation& observation,
                                                    const MappingStep& step) {
   if (!HasFoundPose(step) || !observation.T_odom_robot) return std::nullopt;
-  const MatchResult& match = step.match;
-  const Eigen::Matrix3d predicted = match.predicted.covariance.inverse();
-  const Eigen::Matrix3d covariance =
-      (PositivePart(InformationAdded(match)) + NextToNothing()).inverse();
-  const Eigen::Vector3d away =
-      covariance * predicted * Difference(match.T_ref_cur, match.predicted.T_a_b);
-  return Look{.map_robot = {.T_a_b = Shifted(match.T_ref_cur, away), .covariance = covariance},
-              .T_odom_robot = *observation.T_odom_robot};
+  return Look{.map_robot = ToldAlone(step.match), .T_odom_robot = *observation.T_odom_robot};
 }
 
 void LaserTurns::Adapt(const Observation& observation, const Look& look) {
-  const MatchResult found{.T_ref_cur = look.map_robot.T_a_b,
-                          .covariance = look.map_robot.covariance,
-                          .pair_information = look.map_robot.covariance.inverse()};
   std::vector<std::tuple<UncertainPose2, Pose2, double>> others;
   VisitOthers(observation, [&](const UncertainPose2& map_robot, const Pose2& motion, double share) {
     others.emplace_back(map_robot, motion, share);
   });
   for (const auto& [map_robot, motion, share] : others) {
-    motion_.Adapt(map_robot, found, motion, share);
+    motion_.Adapt(map_robot, look.map_robot, motion, share);
   }
 }
 

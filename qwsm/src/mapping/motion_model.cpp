@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "qwsm/mapping/motion_model.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "qwsm/matching/match_result.hpp"
 
 namespace qwsm {
 namespace {
@@ -77,7 +80,7 @@ UncertainPose2 MotionModel::AsProved(const Pose2& motion, double share) const {
 }
 
 void MotionModel::Adapt(const UncertainPose2& predicted,
-                        const MatchResult& found,
+                        const UncertainPose2& found,
                         const std::optional<Pose2>& T_odom_robot,
                         double share) {
   if (!T_odom_robot || !T_odom_last_) return;
@@ -85,23 +88,22 @@ void MotionModel::Adapt(const UncertainPose2& predicted,
 }
 
 void MotionModel::Adapt(const UncertainPose2& predicted,
-                        const MatchResult& found,
+                        const UncertainPose2& found,
                         const Pose2& motion,
                         double share) {
   const Eigen::Array33d sigmas = ModelledSigmas(motion, share) * adapted_scale_.sqrt();
   const Eigen::Matrix3d noise = Diagonal(sigmas);
   const Eigen::Array33d shares = sigmas.colwise() / sigmas.rowwise().sum();
 
-  // Covariance of the innovation: found without regard to the prediction, the pose misses it by the
-  // errors of both.
+  // Covariance of the innovation: the pose misses the prediction by the errors of both.
   const Eigen::Matrix3d expected = predicted.covariance + found.covariance;
-  const double turn_rad = NormalizeAngle(found.T_ref_cur.theta_rad - predicted.T_a_b.theta_rad);
+  const double turn_rad = NormalizeAngle(found.T_a_b.theta_rad - predicted.T_a_b.theta_rad);
   UpdateScale(2, shares, turn_rad * turn_rad / expected(2, 2), noise(2, 2) / expected(2, 2));
 
   const Eigen::Matrix2d R_last_ref = (predicted.T_a_b * motion.Inverse()).Rotation().transpose();
   const Eigen::Vector2d innovation_m =
-      found.T_ref_cur.translation_m() - predicted.T_a_b.translation_m();
-  const Degeneracy degeneracy = DegeneracyOf(found.pair_information);
+      found.T_a_b.translation_m() - predicted.T_a_b.translation_m();
+  const Degeneracy degeneracy = DegeneracyOf(found.covariance.inverse());
   const Eigen::Vector2d& weakest = degeneracy.weakest_direction;
   const Eigen::Vector2d strongest(-weakest.y(), weakest.x());
   for (const Eigen::Vector2d& direction : {strongest, weakest}) {

@@ -38,6 +38,7 @@ void RobotTracker::PlaceAt(const UncertainPose2& map_robot,
                            const std::optional<Pose2>& T_odom_robot) {
   motion_.Remember({}, T_odom_robot);
   gyro_.Restart(T_odom_robot);
+  calibration_.Restart(T_odom_robot);
   slip_.Interrupt();
   LeavePath();
   map_last_ = map_robot;
@@ -64,7 +65,8 @@ void RobotTracker::FollowCorrection(const UncertainPose2& map_robot) {
 }
 
 TrackedScan RobotTracker::Track(const ScanMap& map, const Observation& observation) {
-  const std::optional<Pose2> T_odom_robot = gyro_.Follow(observation);
+  const std::optional<Pose2> T_by_gyro = gyro_.Follow(observation);
+  const std::optional<Pose2> T_odom_robot = calibration_.Follow(T_by_gyro, gyro_.leads());
   motion_.SetHeadingByGyro(gyro_.leads());
   Sighting sighting = LookTwice(map, observation, T_odom_robot);
   MappingStep& step = sighting.step;
@@ -136,7 +138,7 @@ void RobotTracker::Locate(const ScanMap& map, Sighting& sighting) const {
   if (!IsPosition((map_last_ * last_robot.conservative).T_a_b)) {
     last_robot = PosePrediction::Unmoved();
   }
-  step.match = LocateNear(map, observation, points, PathOfMatches() * last_robot.conservative);
+  step.match = LocateNear(map, observation, points, PathOfMatches() * last_robot);
   sighting.dropped_odometry = DropFailedOdometry(map, observation, points, last_robot, step);
   if (!sighting.dropped_odometry) {
     sighting.apart = ComparePaths(map, points, last_robot.adapted, step.match);
@@ -161,7 +163,7 @@ void RobotTracker::LearnMotion(const Sighting& sighting, std::size_t scans) {
   apart_ = sighting.apart;
   if (step.status == StepStatus::kMatched) {
     motion_.Adapt(local_last_ * last_robot,
-                  step.match,
+                  ToldAlone(step.match),
                   sighting.observation.T_odom_robot,
                   lasers_.ShareOfPeriod(sighting.observation.scan));
   }
@@ -206,7 +208,7 @@ bool RobotTracker::DropFailedOdometry(const ScanMap& map,
 MatchResult RobotTracker::LocateNear(const ScanMap& map,
                                      const Observation& observation,
                                      std::span<const ScanPoint> points,
-                                     const UncertainPose2& predicted) const {
+                                     const PosePrediction& predicted) const {
   const std::optional<UncertainPose2> told = lasers_.ToldByOthers(observation);
   if (!told) return locator_.Locate(map, points, predicted, seen_free_);
   const MatchResult match = locator_.Locate(map, points, Fused(predicted, *told), seen_free_);
@@ -369,7 +371,8 @@ void RobotTracker::LearnOdometry(const Sighting& sighting) {
   if (!look || sighting.step.status == StepStatus::kFirst) return;
   gyro_.Learn(NormalizeAngle(look->T_a_b.theta_rad - local_last_.T_a_b.theta_rad),
               std::sqrt(look->covariance(2, 2) + local_last_.covariance(2, 2)));
-  if (!sighting.dropped_odometry) gyro_.LearnWay(local_last_, sighting.step.odometry_motion, *look);
+  if (sighting.dropped_odometry || sighting.step.status != StepStatus::kMatched) return;
+  calibration_.Learn(local_last_, sighting.step.odometry_motion, *look);
 }
 
 void RobotTracker::Remember(const Sighting& sighting, bool has_moved_on) {

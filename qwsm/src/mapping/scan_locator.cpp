@@ -5,10 +5,25 @@
 #include <algorithm>
 #include <optional>
 
+#include "qwsm/geometry/frame_covariance.hpp"
+#include "qwsm/mapping/place_evidence.hpp"
+
 namespace qwsm {
 namespace {
 
 constexpr std::size_t kMinSearchPoints = 2;  // One fits anywhere.
+// Wheels slip once in a hundred scans: where a pose is farther than that, of three degrees of
+// freedom, from where it is expected, or the scan tells more than that for another one.
+constexpr double kSlippedChi2 = 11.3;
+constexpr double kSlippedNats = 4.6;
+
+// By how much a scan speaks for a pose rather than for another one, in nats, by the shares of it
+// that agree with the map there.
+double LeadOver(std::span<const ScanPoint> points, double explained, double other) {
+  const double told = PlaceEvidence::ToldBySurfaces(points);
+  return PlaceFit{.told = told, .explained = explained}.Nats() -
+         PlaceFit{.told = told, .explained = other}.Nats();
+}
 
 // One scan to be located.
 struct Task {
@@ -89,6 +104,20 @@ MatchResult ScanLocator::Locate(const ScanMap& map,
   const double known_score = best ? std::max(0.0, best->score - kRounding) : 0.0;
   const MatchResult wide = task.Match(task.Search(inflated, sigmas, known_score), inflated);
   return wide.overlap > full.overlap + options_.widen_gain ? wide : full;
+}
+
+MatchResult ScanLocator::Locate(const ScanMap& map,
+                                std::span<const ScanPoint> points,
+                                const PosePrediction& predicted,
+                                const FreeSpace& seen_free) const {
+  const MatchResult as_proved = Locate(map, points, predicted.adapted, seen_free);
+  const bool is_as_proved =
+      SquaredMahalanobisDistance(predicted.adapted, as_proved.pose()) < kSlippedChi2;
+  if (is_as_proved && as_proved.overlap >= options_.confident_overlap) return as_proved;
+  const MatchResult slipped = Locate(map, points, predicted.conservative, seen_free);
+  const double least_lead = is_as_proved ? kSlippedNats : 0.0;
+  const bool has_slipped = LeadOver(points, slipped.overlap, as_proved.overlap) >= least_lead;
+  return has_slipped ? slipped : as_proved;
 }
 
 }  // namespace qwsm

@@ -6,6 +6,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "qwsm/geometry/frame_covariance.hpp"
+
 namespace qwsm {
 
 std::string_view Name(MatchStatus status) {
@@ -30,6 +32,15 @@ bool HasMatched(const MatchResult& match) {
 
 Eigen::Matrix3d InformationAdded(const MatchResult& match) {
   return match.covariance.inverse() - match.predicted.covariance.inverse();
+}
+
+UncertainPose2 ToldAlone(const MatchResult& match) {
+  const Eigen::Matrix3d next_to_nothing = Eigen::Vector3d(0.1, 0.1, 1.0).asDiagonal();
+  const Eigen::Matrix3d covariance =
+      (PositivePart(InformationAdded(match)) + next_to_nothing).inverse();
+  const Eigen::Vector3d away = covariance * match.predicted.covariance.inverse() *
+                               Difference(match.T_ref_cur, match.predicted.T_a_b);
+  return {.T_a_b = Shifted(match.T_ref_cur, away), .covariance = covariance};
 }
 
 Degeneracy DegeneracyOf(const Eigen::Matrix3d& information) {

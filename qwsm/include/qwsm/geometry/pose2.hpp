@@ -33,6 +33,16 @@ inline Eigen::Vector3d Difference(const Pose2& a, const Pose2& b) {
   return {a.x_m - b.x_m, a.y_m - b.y_m, NormalizeAngle(a.theta_rad - b.theta_rad)};
 }
 
+/// The pose of which that is the difference to another one.
+inline Pose2 Shifted(const Pose2& pose, const Eigen::Vector3d& difference) {
+  return {pose.x_m + difference.x(),
+          pose.y_m + difference.y(),
+          NormalizeAngle(pose.theta_rad + difference.z())};
+}
+
+/// The motion with another turn, along an arc as long.
+Pose2 WithTurn(const Pose2& motion, double turn_rad);
+
 /// Whether all three numbers are finite.
 bool IsFinite(const Pose2& pose);
 

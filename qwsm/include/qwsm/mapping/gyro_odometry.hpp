@@ -6,7 +6,6 @@
 
 #include "qwsm/geometry/pose2.hpp"
 #include "qwsm/mapping/observation.hpp"
-#include "qwsm/mapping/wheel_creep.hpp"
 
 namespace qwsm {
 
@@ -14,12 +13,9 @@ namespace qwsm {
 /// badly.
 ///
 /// The gyro's bias is learned from the turns that matches find (a Kalman filter of one state), and
-/// so is how good it is: it counts once its bias is known to within its noise, and while it predicts
-/// turns better than the wheels do. One whose axis points down, or whose unit is wrong, is left out
-/// by itself. Without a gyro odometry is returned as it is.
-///
-/// Where the heading is known, what is left of the wheels' error is mostly their creep, which is
-/// learned and taken out of the way as well.
+/// so is how good it is: it counts once its bias is known to within its noise, and while it
+/// predicts turns better than the wheels do. One whose axis points down, or whose unit is wrong, is
+/// left out by itself. Without a gyro odometry is returned as it is.
 class GyroOdometry {
  public:
   /// The odometry of the observation, in a frame that drifts away from the wheels' as the gyro and
@@ -29,12 +25,6 @@ class GyroOdometry {
   /// Takes the turn between the last two observations as matches found it.
   /// @param sigma_rad of that turn.
   void Learn(double turn_rad, double sigma_rad);
-
-  /// Takes the last motion, and where matches found the robot after it.
-  /// @param before where it was before; in the frame of the match, like `found`.
-  void LearnWay(const UncertainPose2& before,
-                const UncertainPose2& motion,
-                const UncertainPose2& found);
 
   /// Goes on from this reading of the wheels.
   void Restart(const std::optional<Pose2>& T_odom_robot);
@@ -65,7 +55,6 @@ class GyroOdometry {
   bool leads_ = false;
   double bias_rad_s_ = 0.0;
   double bias_variance_ = 0.0025;  // Of (0.05 rad/s)^2, as cheap ones have.
-  WheelCreep creep_;
   int learned_ = 0;                // Turns.
   double wheels_chi2_ = 0.0;       // Mean squares of late, in units of what matches cannot tell.
   double gyro_chi2_ = 0.0;

@@ -10,11 +10,17 @@
 #include "qwsm/mapping/mapping_step.hpp"
 #include "qwsm/mapping/motion_model.hpp"
 #include "qwsm/mapping/observation.hpp"
+#include "qwsm/mapping/pose_prediction.hpp"
 
 namespace qwsm {
 
 /// What two estimates of one pose, whose errors have nothing in common, say together.
 UncertainPose2 Fused(const UncertainPose2& a, const UncertainPose2& b);
+/// A prediction and what else is told of the pose.
+inline PosePrediction Fused(const PosePrediction& predicted, const UncertainPose2& told) {
+  return {.conservative = Fused(predicted.conservative, told),
+          .adapted = Fused(predicted.adapted, told)};
+}
 
 /// The lasers of a robot that has several, and what each found last: where the robot is, is what
 /// all of them say that scanned within the time between two scans of one.

@@ -7,7 +7,6 @@
 
 #include "qwsm/geometry/pose2.hpp"
 #include "qwsm/mapping/pose_prediction.hpp"
-#include "qwsm/matching/match_result.hpp"
 
 namespace qwsm {
 
@@ -90,13 +89,14 @@ class MotionModel {
   /// in the directions of which the pairs tell enough: along a corridor the scale would follow a
   /// single moving object.
   /// @param predicted with the adapted covariance; in the frame of the match.
+  /// @param found by what the scan alone tells.
   void Adapt(const UncertainPose2& predicted,
-             const MatchResult& found,
+             const UncertainPose2& found,
              const std::optional<Pose2>& T_odom_robot,
              double share = 1.0);
   /// The same for a motion that odometry read.
   void Adapt(const UncertainPose2& predicted,
-             const MatchResult& found,
+             const UncertainPose2& found,
              const Pose2& motion,
              double share);
 

@@ -20,4 +20,10 @@ struct PosePrediction {
   }
 };
 
+/// What is expected in the frame of a path, of which the motion since its end is predicted.
+inline PosePrediction operator*(const UncertainPose2& map_last, const PosePrediction& last_robot) {
+  return {.conservative = map_last * last_robot.conservative,
+          .adapted = map_last * last_robot.adapted};
+}
+
 }  // namespace qwsm

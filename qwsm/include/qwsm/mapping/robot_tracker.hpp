@@ -16,6 +16,7 @@
 #include "qwsm/mapping/mapping_step.hpp"
 #include "qwsm/mapping/motion_model.hpp"
 #include "qwsm/mapping/observation.hpp"
+#include "qwsm/mapping/odometry_calibration.hpp"
 #include "qwsm/mapping/paths_apart.hpp"
 #include "qwsm/mapping/scan_locator.hpp"
 #include "qwsm/mapping/scan_map.hpp"
@@ -81,7 +82,7 @@ class RobotTracker {
   MatchResult LocateNear(const ScanMap& map,
                          const Observation& observation,
                          std::span<const ScanPoint> points,
-                         const UncertainPose2& predicted) const;
+                         const PosePrediction& predicted) const;
   bool DropFailedOdometry(const ScanMap& map,
                           const Observation& observation,
                           std::span<const ScanPoint> points,
@@ -124,6 +125,7 @@ class RobotTracker {
 
   MapperOptions options_;
   GyroOdometry gyro_;
+  OdometryCalibration calibration_;
   SlipEstimator slip_;
   MotionModel motion_;
   ScanLocator locator_;

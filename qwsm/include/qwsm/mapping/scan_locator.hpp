@@ -8,6 +8,7 @@
 
 #include "qwsm/mapping/free_space.hpp"
 #include "qwsm/mapping/loop_closure_options.hpp"
+#include "qwsm/mapping/pose_prediction.hpp"
 #include "qwsm/mapping/scan_map.hpp"
 #include "qwsm/matching/correlative_search.hpp"
 #include "qwsm/matching/weighted_scan_matcher.hpp"
@@ -110,6 +111,14 @@ class ScanLocator {
   MatchResult Locate(const ScanMap& map,
                      std::span<const ScanPoint> points,
                      const UncertainPose2& predicted,
+                     const FreeSpace& seen_free = FreeSpace{}) const;
+
+  /// The same where odometry tells the prediction: it is as good as it has proved, or the wheels
+  /// have slipped. That they have, once in a hundred scans, the scan has to tell: by where it is
+  /// found, or by what more of it agrees with the map elsewhere.
+  MatchResult Locate(const ScanMap& map,
+                     std::span<const ScanPoint> points,
+                     const PosePrediction& predicted,
                      const FreeSpace& seen_free = FreeSpace{}) const;
 
   const ScanLocatorOptions& options() const { return options_; }

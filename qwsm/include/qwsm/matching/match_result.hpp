@@ -58,6 +58,10 @@ bool HasMatched(const MatchResult& match);
 /// Information about (x, y, theta) by which the answer is more certain than its prediction.
 Eigen::Matrix3d InformationAdded(const MatchResult& match);
 
+/// What the pairs tell of the pose, without the prediction they were fused with. What they tell
+/// nothing of is known to metres.
+UncertainPose2 ToldAlone(const MatchResult& match);
+
 /// In which direction of the plane information about a pose is least, and how degenerate it is
 /// (Zhang, Kaess & Singh 2016): along a corridor the walls tell next to nothing.
 struct Degeneracy {
