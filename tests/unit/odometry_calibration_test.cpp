@@ -120,6 +120,14 @@ TEST(OdometryCalibration, WhereNothingMovesNothingIsLearned) {
   EXPECT_EQ(calibration.turn_error(), 0.0);
 }
 
+TEST(OdometryCalibration, AnAbsurdReadingSpoilsNothing) {
+  DrivingRobot robot(kErrors, 0.3);
+  robot.Drive();
+  robot.Step(1e300);
+  EXPECT_NEAR(robot.calibration().way_error(), kErrors.way, 0.02);
+  EXPECT_NEAR(robot.calibration().turn_error(), kErrors.turn, 0.02);
+}
+
 TEST(OdometryCalibration, ATurnByAGyroStaysWhatItIs) {
   DrivingRobot robot(kErrors, 0.3);
   for (int i = 0; i < kMotions; ++i) robot.Step(0.0, true);

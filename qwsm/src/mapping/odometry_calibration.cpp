@@ -69,7 +69,7 @@ void OdometryCalibration::Learn(const UncertainPose2& before,
 void OdometryCalibration::Learn(const Eigen::Vector3d& told, double less, double variance) {
   const Eigen::Vector3d shared = covariance_ * told;
   const double expected_variance = told.dot(shared) + variance;
-  if (!(expected_variance > 0.0)) return;
+  if (!(expected_variance > 0.0) || !std::isfinite(expected_variance)) return;
   const double most = kFarthest_sigmas * std::sqrt(expected_variance);
   const Eigen::Vector3d gain = shared / expected_variance;
   errors_ += gain * std::clamp(less, -most, most);
