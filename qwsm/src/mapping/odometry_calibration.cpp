@@ -59,14 +59,14 @@ void OdometryCalibration::Learn(const UncertainPose2& before,
   if (ahead_m != 0.0 && DegeneracyOf(found.covariance.inverse()).ratio() >= kLeastToldRatio) {
     const Eigen::Vector2d onwards =
         before.T_a_b.Rotation() * motion.T_a_b.translation_m().normalized();
-    Learn({std::abs(ahead_m), 0.0, 0.0},
-          onwards.dot(less.head<2>()),
-          onwards.dot(noise.topLeftCorner<2, 2>() * onwards));
+    Update({std::abs(ahead_m), 0.0, 0.0},
+           onwards.dot(less.head<2>()),
+           onwards.dot(noise.topLeftCorner<2, 2>() * onwards));
   }
-  if (!is_turn_by_gyro_) Learn({0.0, turn_rad, ahead_m}, less.z(), noise(2, 2));
+  if (!is_turn_by_gyro_) Update({0.0, turn_rad, ahead_m}, less.z(), noise(2, 2));
 }
 
-void OdometryCalibration::Learn(const Eigen::Vector3d& told, double less, double variance) {
+void OdometryCalibration::Update(const Eigen::Vector3d& told, double less, double variance) {
   const Eigen::Vector3d shared = covariance_ * told;
   const double expected_variance = told.dot(shared) + variance;
   if (!(expected_variance > 0.0) || !std::isfinite(expected_variance)) return;

@@ -7,13 +7,12 @@
 
 #include "qwsm/geometry/frame_covariance.hpp"
 #include "qwsm/mapping/place_evidence.hpp"
+#include "qwsm/mapping/pose_prediction.hpp"
 
 namespace qwsm {
 namespace {
 
-// A chance of 1 in 100: of a slip with one scan, and of the wrong path.
-constexpr double kSlipNats = 4.6;
-constexpr double kDecidingNats = 4.6;
+constexpr double kDecidingNats = 4.6;  // A chance of 1 in 100 of the wrong path.
 // And of 1 in 10 that what is seen of the map fits there by chance.
 constexpr double kLeastOfTheRest = 2.3;
 
@@ -24,10 +23,9 @@ double LeadOf(double told, const PathEnd& by_match, const PathEnd& by_odometry) 
   const PlaceFit matched{.told = told, .explained = by_match.explained_before};
   const PlaceFit reckoned{.told = told, .explained = by_odometry.explained_before};
   if (std::max(matched.NatsWithinMap(), reckoned.NatsWithinMap()) >= kLeastOfTheRest) {
-    return matched.Nats() - reckoned.Nats();
+    return LeadInNats(told, matched.explained, reckoned.explained);
   }
-  return PlaceFit{.told = told, .explained = by_match.match.overlap}.Nats() -
-         PlaceFit{.told = told, .explained = by_odometry.match.overlap}.Nats();
+  return LeadInNats(told, by_match.match.overlap, by_odometry.match.overlap);
 }
 
 }  // namespace

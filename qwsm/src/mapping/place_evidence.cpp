@@ -185,11 +185,15 @@ double PlaceEvidence::ShareSeenThrough(const ScanMap& map,
   return Share(std::ranges::count(marks, 1), points.size());
 }
 
+double LeadInNats(double told, double explained, double other) {
+  return PlaceFit{.told = told, .explained = explained}.Nats() -
+         PlaceFit{.told = told, .explained = other}.Nats();
+}
+
 bool IsConvincinglyBetter(std::span<const ScanPoint> points, double explained, double other) {
   const double told = PlaceEvidence::Told(points);
   const double nats = PlaceFit{.told = told, .explained = explained}.Nats();
-  const double of_other = PlaceFit{.told = told, .explained = other}.Nats();
-  return nats >= kConvincingNats && nats - of_other >= kConvincingNats;
+  return nats >= kConvincingNats && LeadInNats(told, explained, other) >= kConvincingNats;
 }
 
 }  // namespace qwsm

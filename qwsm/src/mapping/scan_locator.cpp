@@ -12,18 +12,9 @@ namespace qwsm {
 namespace {
 
 constexpr std::size_t kMinSearchPoints = 2;  // One fits anywhere.
-// Wheels slip once in a hundred scans: where a pose is farther than that, of three degrees of
-// freedom, from where it is expected, or the scan tells more than that for another one.
+// As seldom as wheels slip a pose is farther from where it is expected, of three degrees of
+// freedom.
 constexpr double kSlippedChi2 = 11.3;
-constexpr double kSlippedNats = 4.6;
-
-// By how much a scan speaks for a pose rather than for another one, in nats, by the shares of it
-// that agree with the map there.
-double LeadOver(std::span<const ScanPoint> points, double explained, double other) {
-  const double told = PlaceEvidence::ToldBySurfaces(points);
-  return PlaceFit{.told = told, .explained = explained}.Nats() -
-         PlaceFit{.told = told, .explained = other}.Nats();
-}
 
 // One scan to be located.
 struct Task {
@@ -115,8 +106,9 @@ MatchResult ScanLocator::Locate(const ScanMap& map,
       SquaredMahalanobisDistance(predicted.adapted, as_proved.pose()) < kSlippedChi2;
   if (is_as_proved && as_proved.overlap >= options_.confident_overlap) return as_proved;
   const MatchResult slipped = Locate(map, points, predicted.conservative, seen_free);
-  const double least_lead = is_as_proved ? kSlippedNats : 0.0;
-  const bool has_slipped = LeadOver(points, slipped.overlap, as_proved.overlap) >= least_lead;
+  const double lead =
+      LeadInNats(PlaceEvidence::ToldBySurfaces(points), slipped.overlap, as_proved.overlap);
+  const bool has_slipped = lead >= (is_as_proved ? kSlipNats : 0.0);
   return has_slipped ? slipped : as_proved;
 }
 

@@ -43,7 +43,7 @@ class OdometryCalibration {
   Pose2 Corrected(const Pose2& told) const;
   // Takes by how much less something was than expected. @param told how much each error makes of
   // it.
-  void Learn(const Eigen::Vector3d& told, double less, double variance);
+  void Update(const Eigen::Vector3d& told, double less, double variance);
 
   std::optional<Pose2> T_odom_last_;
   Pose2 T_corrected_;

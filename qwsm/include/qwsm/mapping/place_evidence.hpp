@@ -99,6 +99,10 @@ class PlaceEvidence {
   std::map<ScanId, FreeRangeImage> images_;
 };
 
+/// By how many nats a scan that tells so much speaks for a pose, where that share of it is
+/// explained, rather than for another one.
+double LeadInNats(double told, double explained, double other);
+
 /// Whether a scan was taken at the pose where so much of it is explained, neither at another one nor
 /// at a place that is like it, but for a chance of 1 in 100.
 /// @param other share that is explained at the other pose.

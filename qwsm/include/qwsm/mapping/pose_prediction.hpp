@@ -6,6 +6,9 @@
 
 namespace qwsm {
 
+/// Wheels slip with one scan of a hundred: so many nats speak against it.
+inline constexpr double kSlipNats = 4.6;
+
 /// What is expected of a pose before a scan tells. Both have the same `T_a_b`.
 struct PosePrediction {
   UncertainPose2 conservative;  ///< Pose as uncertain as a slip of the wheels may make it.
