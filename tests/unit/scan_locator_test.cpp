@@ -72,6 +72,29 @@ TEST_F(WalkingAhead, DoesNotWhereOdometryHasProvedBetterThanThat) {
   EXPECT_NEAR(ScanLocator().Locate(map_, points_, predicted).T_ref_cur.x_m, truth_.x_m, 0.01);
 }
 
+/// The same close before a depth camera, which sees hardly more than that somebody, by a hundred
+/// points.
+TEST(WalkingAheadOfACamera, DoesNotDragThePoseAlong) {
+  constexpr double kStart_m = 2.0;
+  const auto scan_of = [](double x_m, const Pose2& T_world_robot) {
+    std::mt19937_64 random(3);
+    return Measure({.beams = 640, .field_of_view_rad = 1.2, .range_max_m = 6.0},
+                   CorridorWithSomeoneAt(x_m),
+                   T_world_robot,
+                   random);
+  };
+  const ScanMap map = MapOfScan(scan_of(kStart_m, {}), {});
+  const Pose2 truth{0.02, 0.0, 0.0};
+  for (const double walk_m : {0.13, 0.15, 0.2}) {
+    const std::vector<ScanPoint> points = ToPoints(scan_of(kStart_m + walk_m, truth));
+    const PosePrediction predicted{.conservative = Expected(truth, 0.05),
+                                   .adapted = Expected(truth, 0.006)};
+    const MatchResult match = ScanLocator().Locate(map, points, predicted);
+    EXPECT_NEAR(match.T_ref_cur.x_m, truth.x_m, 0.15 * walk_m) << walk_m;
+    EXPECT_NEAR(match.T_ref_cur.theta_rad, 0.0, 0.003) << walk_m;
+  }
+}
+
 /// Odometry that was good to millimetres, in a room.
 class ProvedOdometry : public testing::Test {
  protected:

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace qwsm {
@@ -48,17 +49,47 @@ bool IsStored(const SurfaceMap& surfaces,
   return is_stored;
 }
 
-// Share of points of a scan that scans before have stored.
+// Whether more than one of the scans before have put a point on the surface there: who walked by
+// was there for one.
+bool IsConfirmed(const SurfaceMap& surfaces, const Eigen::Vector2d& p_map_m, ScanId before) {
+  const PointQuadtree& stored = surfaces.quadtree();
+  std::optional<ScanId> first;
+  bool is_confirmed = false;
+  stored.ForEachInRadius(p_map_m, kOneSurface_m, [&](PointId id, const Eigen::Vector2d&) {
+    const ScanId scan = stored.Scan(id);
+    if (scan >= before) return;
+    is_confirmed = is_confirmed || scan != first.value_or(scan);
+    first = scan;
+  });
+  return is_confirmed;
+}
+
+// The points of a scan for which is_there(p_map_m).
+template <class IsThere>
+PointsThatAgree PointsThere(std::span<const ScanPoint> points,
+                            const Pose2& T_map_robot,
+                            IsThere is_there) {
+  const RigidTransform2 to_map(T_map_robot);
+  PointsThatAgree agree;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!is_there(to_map * points[i].p_robot_m)) continue;
+    agree.points.push_back(points[i]);
+    agree.share += NewsOf(points, i);
+  }
+  if (!points.empty()) agree.share /= CountNews(points);
+  return agree;
+}
+
+// Share of a scan that scans before have stored.
 double ShareStored(const SurfaceMap& surfaces,
                    std::span<const ScanPoint> points,
                    const Pose2& T_map_robot,
                    ScanId before,
-                   double within_m = kOneSurface_m) {
-  const RigidTransform2 to_map(T_map_robot);
-  const auto is_stored = [&](const ScanPoint& point) {
-    return IsStored(surfaces, to_map * point.p_robot_m, before, within_m);
+                   double within_m) {
+  const auto is_stored = [&](const Eigen::Vector2d& p_map_m) {
+    return IsStored(surfaces, p_map_m, before, within_m);
   };
-  return Share(std::ranges::count_if(points, is_stored), points.size());
+  return PointsThere(points, T_map_robot, is_stored).share;
 }
 
 // What scans before have stored around the robot, in its frame.
@@ -76,7 +107,11 @@ std::vector<ScanPoint> StoredAround(const SurfaceMap& surfaces,
                         around.push_back({.p_robot_m = T_robot_map * p_map_m,
                                           .beam_robot = Eigen::Vector2d::Zero()});
                       });
-  return ThinOut(around, kOneSurface_m);
+  std::vector<ScanPoint> thinned = ThinOut(around, kOneSurface_m);
+  std::erase_if(thinned, [&](const ScanPoint& point) {
+    return !IsConfirmed(surfaces, T_map_robot * point.p_robot_m, before);
+  });
+  return thinned;
 }
 
 }  // namespace
@@ -96,7 +131,7 @@ double PlaceFit::NatsInOwnMap() const {
 }
 
 double PlaceEvidence::Told(std::span<const ScanPoint> points) {
-  return static_cast<double>(points.size()) / kPointsThatTellOne;
+  return CountNews(points) / kPointsThatTellOne;
 }
 
 double PlaceEvidence::ToldBySurfaces(std::span<const ScanPoint> points) {
@@ -116,7 +151,7 @@ double PlaceEvidence::ExplainedBefore(const ScanMap& map,
                                       const ScanAtPlace& placed,
                                       ScanId before) {
   const std::vector<ScanPoint> thinned = ThinOut(ToPoints(placed.scan), kOneSurface_m);
-  return ShareStored(map.surfaces(), thinned, placed.T_map_robot, before);
+  return ShareStored(map.surfaces(), thinned, placed.T_map_robot, before, kOneSurface_m);
 }
 
 double PlaceEvidence::ExplainedBefore(const ScanMap& map,
@@ -126,14 +161,21 @@ double PlaceEvidence::ExplainedBefore(const ScanMap& map,
   return ShareStored(map.surfaces(), points, T_map_robot, before, kOnSurface_m);
 }
 
+PointsThatAgree PlaceEvidence::PointsOnSurfaces(const SurfaceMap& surfaces,
+                                                std::span<const ScanPoint> points,
+                                                const Pose2& T_map_robot) {
+  return PointsThere(points, T_map_robot, [&](const Eigen::Vector2d& p_map_m) {
+    return surfaces.quadtree().Nearest(p_map_m, kOnSurface_m).has_value();
+  });
+}
+
 MutualFit PlaceEvidence::WeighBothWays(const ScanMap& map,
                                        const ScanAtPlace& placed,
                                        ScanId before) {
   const std::vector<ScanPoint> points = ToPoints(placed.scan);
   const std::vector<ScanPoint> thinned = ThinOut(points, kOneSurface_m);
   const auto counts = [before](ScanId scan) { return scan < before; };
-  PlaceFit of_scan{.told = Told(thinned),
-                   .explained = ShareStored(map.surfaces(), thinned, placed.T_map_robot, before)};
+  PlaceFit of_scan{.told = Told(thinned), .explained = ExplainedBefore(map, placed, before)};
   // From afar a map that drifted sees through its own walls, too.
   of_scan.seen_through = std::min(ShareSeenThrough(map, thinned, placed.T_map_robot, counts),
                                   1.0 - of_scan.explained);

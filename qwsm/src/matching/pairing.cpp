@@ -71,7 +71,11 @@ Pairing::Pairing(const SurfaceMap& map,
       points_(points),
       max_drift_code_(LikelihoodPyramid::DriftCode(max_drift_m2)),
       options_(options),
-      pairs_(points.size()) {}
+      pairs_(points.size()) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points_apart_ += pairs_[i].news = NewsOf(points, i);
+  }
+}
 
 NormalEquations Pairing::Linearize(const Pose2& T_map_cur, const AnnealedError& start_error) {
   FindNearest(T_map_cur, start_error);
@@ -86,7 +90,7 @@ NormalEquations Pairing::Linearize(const Pose2& T_map_cur, const AnnealedError& 
     if (options_.weighting == PairWeighting::kIdentity) {
       equations.AddPoint(
           Eigen::Matrix2d::Identity(), pair.nearest->position_m - pair.p_map, pair.arm);
-      ++equations.inliers;
+      equations.inliers += pair.news;
     } else if (pair.surface.is_line) {
       AddLine(R, point, pair, equations);
     } else {
@@ -167,7 +171,7 @@ void Pairing::AddObject(const Eigen::Matrix2d& R_map_cur,
 
 void Pairing::Weigh(double mahalanobis2, Pair& pair, NormalEquations& equations) const {
   pair.weight = RobustWeight(mahalanobis2, options_.outlier_sigmas);
-  if (mahalanobis2 < kInlierSigmas * kInlierSigmas) ++equations.inliers;
+  if (mahalanobis2 < kInlierSigmas * kInlierSigmas) equations.inliers += pair.news;
   equations.sum_of_weights += pair.weight;
   equations.weighted_chi2 += pair.weight * mahalanobis2;
 }

@@ -39,7 +39,7 @@ struct NormalEquations {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   Eigen::Vector3d b = Eigen::Vector3d::Zero();
   int pairs = 0;
-  int inliers = 0;
+  double inliers = 0.0;  // As many that lie apart.
   double sum_of_distances_m = 0.0;
   double sum_of_weights = 0.0;
   double weighted_chi2 = 0.0;  // Sum of the squared errors, weighted, each over its variance.
@@ -69,6 +69,9 @@ class Pairing {
   // Pairs every point, seen from the pose, with the surface nearest to it.
   NormalEquations Linearize(const Pose2& T_map_cur, const AnnealedError& start_error);
 
+  // How many points of the scan lie apart.
+  double points_apart() const { return points_apart_; }
+
   // A of the pairs found last, of the normals that both the map and the scan show: the noise of one
   // is not that of the other, so that it does not pass for information.
   Eigen::Matrix3d ConfirmedInformation(const Pose2& T_map_cur) const;
@@ -92,6 +95,7 @@ class Pairing {
     std::optional<PointId> id;  // The stored point it is paired with.
     Surface surface;            // The surface at that point.
     double weight = 1.0;        // Of the robust estimate.
+    double news = 1.0;          // Of the scan's point beside the one before.
   };
 
   void FindNearest(const Pose2& T_map_cur, const AnnealedError& start_error);
@@ -123,6 +127,7 @@ class Pairing {
   std::uint8_t max_drift_code_;
   const WeightedScanMatcherOptions& options_;
   std::vector<Pair> pairs_;
+  double points_apart_ = 0.0;
 };
 
 }  // namespace qwsm

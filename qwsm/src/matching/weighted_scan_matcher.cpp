@@ -118,11 +118,11 @@ bool IsDetermined(const Eigen::Matrix3d& covariance, double max_sigma_m) {
 
 // What the pairs say of themselves. @pre there are pairs
 void Record(const NormalEquations& pairs,
-            std::size_t points,
+            double points_apart,
             const WeightedScanMatcherOptions& options,
             MatchResult& result) {
   result.mean_residual_m = pairs.sum_of_distances_m / pairs.pairs;
-  result.overlap = static_cast<double>(pairs.inliers) / static_cast<double>(points);
+  result.overlap = pairs.inliers / points_apart;
   result.reduced_chi2 = ReducedChi2(pairs);
   result.pair_information = InformationByModel(pairs, options);
 }
@@ -198,7 +198,7 @@ MatchResult WeightedScanMatcher::Match(const SurfaceMap& reference,
     linear = Linearize(pairing, result.T_ref_cur, start_error, options_.min_information_ratio);
     result.pairs = linear.pairs.pairs;
     if (result.pairs < options_.min_pairs) return Stop(result, MatchStatus::kTooFewPairs);
-    Record(linear.pairs, points.size(), options_, result);
+    Record(linear.pairs, pairing.points_apart(), options_, result);
 
     const FusedStep fused = Fuse(linear.pairs, result, prior.predicted, options_.correlated_points);
     result.covariance = fused.covariance;

@@ -17,6 +17,8 @@ constexpr double kGap_m = 0.15;               // Neighbouring points further apa
 constexpr double kGapSpacings = 6.0;          // more beam spacings apart, lie on two surfaces.
 constexpr double kGapOfMean_m = 0.03;  // For points of which the mean is wanted, gaps are narrower.
 constexpr double kGapOfMeanSpacings = 3.0;
+constexpr double kAllNews_m = 0.033;      // Points this far apart share nothing, as those of a beam
+constexpr double kLeastNews = 0.01;       // per degree two metres away.
 constexpr double kMaxRoughness_m = 0.05;  // A wall is flatter than this.
 constexpr std::size_t kMaxBeamsAway = 2;  // Between neighbours, for a failed reading.
 constexpr double kInFront_m = 0.3;        // Nearer than its neighbours by this: another object.
@@ -195,6 +197,19 @@ std::vector<ScanPoint> HitsOf(const LaserScan& scan) {
 }
 
 }  // namespace
+
+double NewsOf(std::span<const ScanPoint> points, std::size_t i) {
+  if (i == 0) return 1.0;
+  const double apart_m2 = (points[i].p_robot_m - points[i - 1].p_robot_m).squaredNorm();
+  if (apart_m2 >= Squared(kAllNews_m)) return 1.0;
+  return std::max(kLeastNews, std::sqrt(apart_m2) / kAllNews_m);
+}
+
+double CountNews(std::span<const ScanPoint> points) {
+  double count = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) count += NewsOf(points, i);
+  return count;
+}
 
 std::vector<ScanPoint> ToPoints(const LaserScan& scan) {
   std::vector<ScanPoint> points = HitsOf(scan);

@@ -125,6 +125,8 @@ class FreeSpace {
  public:
   explicit FreeSpace(const FreeSpaceOptions& options = {}) : options_(options) {}
 
+  const FreeSpaceOptions& options() const { return options_; }
+
   void Add(const LaserScan& scan, const Pose2& T_map_robot);
   void Clear() { images_.clear(); }
   /// Follows a map that was moved here. @param T_new_old the old map's frame in the new one.

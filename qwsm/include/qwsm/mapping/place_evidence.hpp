@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <span>
+#include <vector>
 
 #include "qwsm/geometry/pose2.hpp"
 #include "qwsm/mapping/free_space.hpp"
@@ -48,6 +49,12 @@ struct ScanAtPlace {
   Pose2 T_map_robot;
 };
 
+/// The points of a scan that lie on surfaces of a map.
+struct PointsThatAgree {
+  std::vector<ScanPoint> points;
+  double share = 0.0;  ///< Of the scan, by points that lie apart.
+};
+
 /// Weighs what a scan tells for and against having been taken at a place of a map.
 class PlaceEvidence {
  public:
@@ -77,7 +84,13 @@ class PlaceEvidence {
                                 const Pose2& T_map_robot,
                                 ScanId before);
 
+  /// The points that lie on a surface as near as a match puts them.
+  static PointsThatAgree PointsOnSurfaces(const SurfaceMap& surfaces,
+                                          std::span<const ScanPoint> points,
+                                          const Pose2& T_map_robot);
+
   /// Weighs a scan by what the map had before one of its scans, and that by what the scan saw.
+  /// What one scan alone has stored does not speak: somebody may have stood there.
   MutualFit WeighBothWays(const ScanMap& map, const ScanAtPlace& placed, ScanId before);
 
   /// Gives back what was kept of scans of the map far from a robot that is followed.

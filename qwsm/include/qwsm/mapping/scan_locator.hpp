@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -124,6 +125,12 @@ class ScanLocator {
   const ScanLocatorOptions& options() const { return options_; }
 
  private:
+  std::optional<MatchResult> LocateByWhatStands(const ScanMap& map,
+                                                std::span<const ScanPoint> points,
+                                                const UncertainPose2& expected,
+                                                double overlap,
+                                                const FreeSpace& seen_free) const;
+
   ScanLocatorOptions options_;
   WeightedScanMatcher matcher_;
 };

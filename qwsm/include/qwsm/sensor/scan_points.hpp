@@ -36,6 +36,12 @@ std::vector<ScanPoint> ToPoints(const LaserScan& scan);
 /// Returns the point as another robot pose sees it.
 ScanPoint operator*(const RigidTransform2& T_other_robot, const ScanPoint& point);
 
+/// How much of points[i] is news beside the point before it: neighbours so near to each other show
+/// the same of a surface, or of somebody who stands close to the laser. From 0.01 to 1.
+double NewsOf(std::span<const ScanPoint> points, std::size_t i);
+/// The sum over all points: by how many that lie apart a scan shows as much.
+double CountNews(std::span<const ScanPoint> points);
+
 /// Calls visit(const ScanPoint&) for points at least `spacing_m` apart, walking along the scan: near
 /// surfaces, on which beams are dense, count no more than far ones.
 template <class Visit>
