@@ -17,8 +17,9 @@ constexpr double kGap_m = 0.15;               // Neighbouring points further apa
 constexpr double kGapSpacings = 6.0;          // more beam spacings apart, lie on two surfaces.
 constexpr double kGapOfMean_m = 0.03;  // For points of which the mean is wanted, gaps are narrower.
 constexpr double kGapOfMeanSpacings = 3.0;
-constexpr double kAllNews_m = 0.033;      // Points this far apart share nothing, as those of a beam
-constexpr double kLeastNews = 0.01;       // per degree two metres away.
+// Points this far apart share nothing: so far are those of a beam per degree, 1.9 m away.
+constexpr double kAllNews_m = 0.033;
+constexpr double kLeastNews = 0.01;
 constexpr double kMaxRoughness_m = 0.05;  // A wall is flatter than this.
 constexpr std::size_t kMaxBeamsAway = 2;  // Between neighbours, for a failed reading.
 constexpr double kInFront_m = 0.3;        // Nearer than its neighbours by this: another object.

@@ -45,8 +45,9 @@ struct [[nodiscard]] MatchResult {
   int iterations = 0;
   int pairs = 0;
   double mean_residual_m = 0.0;  ///< Mean distance of a point to its nearest stored point.
-  double overlap =
-      0.0;  ///< Share of the scan that agrees with the reference, by points that lie apart.
+  /// Share of the scan that agrees with the reference, in which points close together count less:
+  /// see NewsOf().
+  double overlap = 0.0;
   /// Reduced chi-square of the pairs: their mean squared error in units of its modelled variance.
   double reduced_chi2 = 1.0;
 
