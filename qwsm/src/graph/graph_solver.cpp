@@ -17,11 +17,7 @@ void Move(const NormalMatrix& equations,
           const Eigen::VectorXd& step,
           std::vector<Pose2>& T_map_node) {
   for (NodeId node = 1; node < T_map_node.size(); ++node) {
-    const auto of_node = step.segment<3>(equations.RowOf(node));
-    Pose2& pose = T_map_node[node];
-    pose.x_m += of_node.x();
-    pose.y_m += of_node.y();
-    pose.theta_rad = NormalizeAngle(pose.theta_rad + of_node.z());
+    T_map_node[node] = Shifted(T_map_node[node], step.segment<3>(equations.RowOf(node)));
   }
 }
 

@@ -161,11 +161,11 @@ double PlaceEvidence::ExplainedBefore(const ScanMap& map,
   return ShareStored(map.surfaces(), points, T_map_robot, before, kOnSurface_m);
 }
 
-PointsThatAgree PlaceEvidence::PointsOnSurfaces(const SurfaceMap& surfaces,
+PointsThatAgree PlaceEvidence::PointsOnSurfaces(const ScanMap& map,
                                                 std::span<const ScanPoint> points,
                                                 const Pose2& T_map_robot) {
   return PointsThere(points, T_map_robot, [&](const Eigen::Vector2d& p_map_m) {
-    return surfaces.quadtree().Nearest(p_map_m, kOnSurface_m).has_value();
+    return map.surfaces().quadtree().Nearest(p_map_m, kOnSurface_m).has_value();
   });
 }
 

@@ -109,30 +109,32 @@ MatchResult ScanLocator::Locate(const ScanMap& map,
   const bool is_as_proved = IsAsExpected(as_proved, predicted.adapted);
   if (is_as_proved && as_proved.overlap >= options_.confident_overlap) return as_proved;
   const MatchResult slipped = Locate(map, points, predicted.conservative, seen_free);
+  const double told = PlaceEvidence::ToldBySurfaces(points);
   if (!is_as_proved) {
-    const double overlap = std::max(as_proved.overlap, slipped.overlap);
-    const auto stands = LocateByWhatStands(map, points, predicted.adapted, overlap, seen_free);
+    const PlaceFit elsewhere{.told = told,
+                             .explained = std::max(as_proved.overlap, slipped.overlap)};
+    const auto stands = LocateByWhatStands(map, points, predicted.adapted, elsewhere, seen_free);
     if (stands) return *stands;
   }
-  const double lead =
-      LeadInNats(PlaceEvidence::ToldBySurfaces(points), slipped.overlap, as_proved.overlap);
+  const double lead = LeadInNats(told, slipped.overlap, as_proved.overlap);
   const bool has_slipped = lead >= (is_as_proved ? kSlipNats : 0.0);
   return has_slipped ? slipped : as_proved;
 }
 
 // Somebody who walks before the robot takes the match along, where the walls let him. Where the
 // robot is expected nearly all agrees that does so elsewhere, and the rest is he.
-// @param overlap share of the scan that agrees elsewhere.
+// @param elsewhere how much of the scan agrees there.
 std::optional<MatchResult> ScanLocator::LocateByWhatStands(const ScanMap& map,
                                                            std::span<const ScanPoint> points,
                                                            const UncertainPose2& expected,
-                                                           double overlap,
+                                                           const PlaceFit& elsewhere,
                                                            const FreeSpace& seen_free) const {
-  const PointsThatAgree stands =
-      PlaceEvidence::PointsOnSurfaces(map.surfaces(), points, expected.T_a_b);
-  if (stands.share < (1.0 - seen_free.options().max_moving_share) * overlap) return std::nullopt;
-  const double told = PlaceEvidence::ToldBySurfaces(points);
-  if (LeadInNats(told, overlap, stands.share) >= kSlipNats) return std::nullopt;
+  const PointsThatAgree stands = PlaceEvidence::PointsOnSurfaces(map, points, expected.T_a_b);
+  const double least_share = (1.0 - seen_free.options().max_moving_share) * elsewhere.explained;
+  if (stands.share < least_share) return std::nullopt;
+  if (LeadInNats(elsewhere.told, elsewhere.explained, stands.share) >= kSlipNats) {
+    return std::nullopt;
+  }
   MatchResult match = Locate(map, stands.points, expected, seen_free);
   match.overlap *= stands.share;
   if (!HasMatched(match) || !IsAsExpected(match, expected)) return std::nullopt;

@@ -89,10 +89,6 @@ Eigen::Matrix3d InformationByScatter(const NormalEquations& pairs, const Eigen::
   return 0.5 * (information + information.transpose());
 }
 
-Pose2 Moved(const Pose2& pose, const Eigen::Vector3d& step) {
-  return {pose.x_m + step.x(), pose.y_m + step.y(), NormalizeAngle(pose.theta_rad + step.z())};
-}
-
 bool IsSmall(const Eigen::Vector3d& step, const WeightedScanMatcherOptions& options) {
   return step.head<2>().norm() < options.translation_tolerance_m &&
          std::abs(step.z()) < options.rotation_tolerance_rad;
@@ -205,7 +201,7 @@ MatchResult WeightedScanMatcher::Match(const SurfaceMap& reference,
     if (!IsDetermined(fused.covariance, options_.max_sigma_m)) {
       return Stop(result, MatchStatus::kDegenerate);
     }
-    result.T_ref_cur = Moved(result.T_ref_cur, fused.step);
+    result.T_ref_cur = Shifted(result.T_ref_cur, fused.step);
     if (trace != nullptr) trace->push_back(EntryOf(result, start_error));
     if (start_error.IsZero() && IsSmall(fused.step, options_)) {
       result.status = MatchStatus::kConverged;

@@ -85,7 +85,7 @@ class PlaceEvidence {
                                 ScanId before);
 
   /// The points that lie on a surface as near as a match puts them.
-  static PointsThatAgree PointsOnSurfaces(const SurfaceMap& surfaces,
+  static PointsThatAgree PointsOnSurfaces(const ScanMap& map,
                                           std::span<const ScanPoint> points,
                                           const Pose2& T_map_robot);
 

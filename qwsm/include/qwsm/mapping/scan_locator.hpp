@@ -16,6 +16,8 @@
 
 namespace qwsm {
 
+struct PlaceFit;
+
 struct ScanLocatorOptions {
   CorrelativeSearchOptions search;
   WeightedScanMatcherOptions matcher;
@@ -128,7 +130,7 @@ class ScanLocator {
   std::optional<MatchResult> LocateByWhatStands(const ScanMap& map,
                                                 std::span<const ScanPoint> points,
                                                 const UncertainPose2& expected,
-                                                double overlap,
+                                                const PlaceFit& elsewhere,
                                                 const FreeSpace& seen_free) const;
 
   ScanLocatorOptions options_;
