@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <utility>
 
 #include "qwsm/geometry/frame_covariance.hpp"
@@ -24,7 +25,10 @@ std::function<void()> WorkAtOnce(std::function<void()> work) {
 BackgroundCorrector::BackgroundCorrector(const MapperOptions& options,
                                          WorkBeside beside,
                                          ChainsOf chains_of)
-    : beside_(std::move(beside)), chains_of_(chains_of), corrector_(options) {}
+    : beside_(std::move(beside)),
+      chains_of_(chains_of),
+      locator_(options.locator),
+      corrector_(options) {}
 
 BackgroundCorrector::~BackgroundCorrector() { Finish(); }
 
@@ -76,18 +80,39 @@ void BackgroundCorrector::Look() {
   });
 }
 
-// What came since the look keeps its place beside what was looked at.
+// What came since the look is placed anew beside what was looked at: while a loop is open, answers
+// slide from one of its ends to the other.
 std::optional<CorrectedMap> BackgroundCorrector::TakeUp(Proposal proposal) {
   corrector_.Adopt(proposal.map_node);
   CorrectedMap corrected{.map_node = std::move(proposal.map_node), .map = std::move(proposal.map)};
+  std::map<std::size_t, MovedPose> last_of_robot;
   for (ScanNode& node : news_) {
-    const std::size_t beside = LookedAtBeside(node);
-    node.map_robot = corrected.map_node[beside] * Since(map_node_[beside], node.map_robot);
-    corrected.map.Insert(node.scan, ToPoints(node.scan), node.map_robot);
+    const auto [known, is_first] = last_of_robot.try_emplace(node.robot);
+    MovedPose& last = known->second;
+    if (is_first) {
+      const std::size_t beside = LookedAtBeside(node);
+      last = {.before = map_node_[beside], .after = corrected.map_node[beside]};
+    }
+    const std::vector<ScanPoint> points = ToPoints(node.scan);
+    const UncertainPose2 placed = PlacedAnew(corrected.map, points, node, last);
+    corrected.map.Insert(node.scan, points, placed);
+    last = {.before = std::exchange(node.map_robot, placed), .after = placed};
   }
   map_node_ = corrected.map_node;
   for (const ScanNode& node : news_) corrected.map_node.push_back(node.map_robot);
   return corrected;
+}
+
+// Where the scan is found near the robot's last node; if nowhere, it keeps its place beside that.
+UncertainPose2 BackgroundCorrector::PlacedAnew(const ScanMap& map,
+                                               std::span<const ScanPoint> points,
+                                               const ScanNode& node,
+                                               const MovedPose& last) const {
+  UncertainPose2 placed = last.after * Since(last.before, node.map_robot);
+  const UncertainPose2 by_odometry = UncertainPose2{.T_a_b = last.after.T_a_b} * node.odometry;
+  const MatchResult match = locator_.Locate(map, points, About(placed.T_a_b, by_odometry));
+  if (HasMatched(match)) placed.T_a_b = match.T_ref_cur;
+  return placed;
 }
 
 void BackgroundCorrector::Adopt(std::span<const UncertainPose2> map_node) {

@@ -70,13 +70,6 @@ Eigen::Matrix3d Growth(const ScanNode& node,
   return (chain_last * Since(last.map_robot, node.map_robot)).covariance;
 }
 
-// A motion is as uncertain as odometry is, and as what is believed of it is apart from that: where
-// the map has called a robot back, the answers have moved and the robot has not.
-UncertainPose2 Believed(const UncertainPose2& by_odometry, const Pose2& answered) {
-  const Eigen::Vector3d apart = Difference(by_odometry.T_a_b, answered);
-  return {.T_a_b = answered, .covariance = by_odometry.covariance + apart * apart.transpose()};
-}
-
 ScanMapOptions SubmapOptions(ScanMapOptions options) {
   options.insertion = InsertionRule::kNewSurface;
   options.max_density_points = std::min(options.max_density_points, kSubmapDensityPoints);
@@ -192,7 +185,9 @@ ScanChains::Attachment ScanChains::Attach(NodeId id,
   SubmapSurfaces& reference = chain.last_surfaces.front();
   const UncertainPose2 chain_last{.T_a_b = T_chain_node_[chain.nodes.back()]};
   UncertainPose2 predicted = AtLeast(chain_last * node.odometry, kLeastSigma_m, kLeastSigma_rad);
-  if (node.T_last_node) predicted = Believed(predicted, chain_last.T_a_b * *node.T_last_node);
+  // A motion is as uncertain as odometry is, and as what is believed of it is apart from that:
+  // where the map has called a robot back, the answers have moved and the robot has not.
+  if (node.T_last_node) predicted = About(chain_last.T_a_b * *node.T_last_node, predicted);
   const std::vector<ScanPoint> points = PointsAround(id, predicted.T_a_b, nodes);
   MatchPrior prior{.predicted = predicted,
                    .start = predicted.T_a_b,

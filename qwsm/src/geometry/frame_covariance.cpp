@@ -49,6 +49,11 @@ UncertainPose2 Since(const UncertainPose2& map_earlier, const UncertainPose2& ma
   return UncertainPose2{.T_a_b = map_earlier.T_a_b.Inverse()} * since;
 }
 
+UncertainPose2 About(const Pose2& T_a_b, const UncertainPose2& estimate) {
+  const Eigen::Vector3d apart = Difference(estimate.T_a_b, T_a_b);
+  return {.T_a_b = T_a_b, .covariance = estimate.covariance + apart * apart.transpose()};
+}
+
 double SquaredMahalanobisDistance(const UncertainPose2& a, const UncertainPose2& b) {
   const Eigen::Vector3d apart = Difference(a.T_a_b, b.T_a_b);
   return apart.dot((a.covariance + b.covariance).inverse() * apart);

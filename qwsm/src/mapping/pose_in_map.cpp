@@ -24,9 +24,7 @@ UncertainPose2 InMap(const ScanMap& map,
 Eigen::Matrix3d CovarianceOfEither(const UncertainPose2& pose,
                                    double probability,
                                    const UncertainPose2& other) {
-  const Eigen::Vector3d apart = Difference(other.T_a_b, pose.T_a_b);
-  return probability * pose.covariance +
-         (1.0 - probability) * (other.covariance + apart * apart.transpose());
+  return probability * pose.covariance + (1.0 - probability) * About(pose.T_a_b, other).covariance;
 }
 
 }  // namespace qwsm

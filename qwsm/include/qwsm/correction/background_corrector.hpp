@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "qwsm/correction/map_corrector.hpp"
+#include "qwsm/mapping/scan_locator.hpp"
 
 namespace qwsm {
 
@@ -77,14 +78,24 @@ class BackgroundCorrector {
     std::vector<UncertainPose2> map_node;
     ScanMap map;
   };
+  // A pose in the map as it was, and as it is.
+  struct MovedPose {
+    UncertainPose2 before;
+    UncertainPose2 after;
+  };
 
   void Finish();
   void Look();
   std::optional<CorrectedMap> TakeUp(Proposal proposal);
+  UncertainPose2 PlacedAnew(const ScanMap& map,
+                            std::span<const ScanPoint> points,
+                            const ScanNode& node,
+                            const MovedPose& last) const;
   std::size_t LookedAtBeside(const ScanNode& node) const;
 
   WorkBeside beside_;
   ChainsOf chains_of_;
+  ScanLocator locator_;
   MapCorrector corrector_;            // Belongs to the look while there is one.
   std::vector<ScanNode> under_look_;  // Likewise.
   std::optional<Proposal> proposal_;  // Likewise.

@@ -29,6 +29,9 @@ struct FrameCovariance {
 /// A pose of the map as seen from an earlier one, as uncertain as it is more than that one.
 UncertainPose2 Since(const UncertainPose2& map_earlier, const UncertainPose2& map_robot);
 
+/// The estimate about another pose than its own: as much more uncertain as that is apart from it.
+UncertainPose2 About(const Pose2& T_a_b, const UncertainPose2& estimate);
+
 /// How far two independent estimates of a pose are apart, squared, in units of what both may be off
 /// by: chi-square of three degrees of freedom if they are of one pose.
 double SquaredMahalanobisDistance(const UncertainPose2& a, const UncertainPose2& b);
