@@ -117,5 +117,16 @@ TEST(PathsApart, FollowAMapThatIsMoved) {
   EXPECT_DOUBLE_EQ(apart.by_odometry().T_a_b.y_m, -1.0);
 }
 
+// Of five points three fit some wall or other; where odometry has the robot they are of a new one.
+TEST(PathsApart, HaveNotSlippedWhereAFewPointsFitElsewhere) {
+  const MatchResult elsewhere = MatchAt(2.0, 0.6);
+  MatchResult by_odometry = MatchAt(0.0, 0.0);
+  by_odometry.status = MatchStatus::kTooFewPairs;
+  EXPECT_FALSE(IsSlipTold(SparseWall(5), kExpected, elsewhere, by_odometry));
+  EXPECT_TRUE(IsSlipTold(SparseWall(60), kExpected, elsewhere, by_odometry));
+  EXPECT_TRUE(IsSlipTold(SparseWall(5), elsewhere.pose(), elsewhere, by_odometry))
+      << "that is where the matches go on";
+}
+
 }  // namespace
 }  // namespace qwsm

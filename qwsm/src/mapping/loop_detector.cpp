@@ -217,10 +217,10 @@ struct Attempt {
 
 }  // namespace
 
-std::optional<MatchResult> LoopDetector::Detect(const ScanMap& map,
-                                                std::span<const ScanPoint> points,
-                                                std::span<const ScanPoint> submap,
-                                                const UncertainPose2& estimated) const {
+std::optional<ClosedLoop> LoopDetector::Detect(const ScanMap& map,
+                                               std::span<const ScanPoint> points,
+                                               std::span<const ScanPoint> submap,
+                                               const UncertainPose2& estimated) const {
   if (submap.size() < kMinPoints) return std::nullopt;
   const LoopClosureOptions& options = options_.loop_closure;
   const double drift_m = estimated.SigmaXY_m();
@@ -243,13 +243,12 @@ std::optional<MatchResult> LoopDetector::Detect(const ScanMap& map,
                         .submap = submap,
                         .estimated = estimated,
                         .max_drift_m2 = max_drift_m2};
-  auto closed = attempt.MatchAtOneOf(attempt.CandidatesWithin(drift_since_m));
-  if (closed) {
-    const Pose2& T_map_robot = closed->T_ref_cur;
-    closed->covariance +=
-        map.CovarianceUnder(points, T_map_robot, max_drift_m2).At(T_map_robot.translation_m());
-  }
-  return closed;
+  const auto match = attempt.MatchAtOneOf(attempt.CandidatesWithin(drift_since_m));
+  if (!match) return std::nullopt;
+  UncertainPose2 map_robot = match->pose();
+  const FrameCovariance of_map = map.CovarianceUnder(points, map_robot.T_a_b, max_drift_m2);
+  map_robot.covariance += of_map.At(map_robot.T_a_b.translation_m());
+  return ClosedLoop{.match = *match, .map_robot = map_robot};
 }
 
 }  // namespace qwsm

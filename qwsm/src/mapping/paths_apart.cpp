@@ -28,6 +28,11 @@ double LeadOf(double told, const PathEnd& by_match, const PathEnd& by_odometry) 
   return LeadInNats(told, by_match.match.overlap, by_odometry.match.overlap);
 }
 
+// By how many nats a slip of the wheels from where a scan is expected speaks against a pose.
+double NatsAgainst(const UncertainPose2& expected, const UncertainPose2& slipped) {
+  return std::min(kSlipNats, 0.5 * SquaredMahalanobisDistance(expected, slipped));
+}
+
 }  // namespace
 
 std::optional<PathsApart> PathsApart::Weigh(std::span<const ScanPoint> points,
@@ -47,13 +52,21 @@ std::optional<PathsApart> PathsApart::Weigh(std::span<const ScanPoint> points,
   PathsApart apart = before.value_or(PathsApart{});
   apart.by_match_ = by_match.match.pose();
   apart.by_odometry_ = by_odometry.match.pose();
-  const double slip =
-      std::min(kSlipNats, 0.5 * SquaredMahalanobisDistance(expected, apart.by_match_));
-  apart.nats_for_match_ += LeadOf(told, by_match, by_odometry) - slip;
+  apart.nats_for_match_ +=
+      LeadOf(told, by_match, by_odometry) - NatsAgainst(expected, apart.by_match_);
   return apart;
 }
 
 bool PathsApart::is_decided() const { return std::abs(nats_for_match_) > kDecidingNats; }
+
+bool IsSlipTold(std::span<const ScanPoint> points,
+                const UncertainPose2& expected,
+                const MatchResult& match,
+                const MatchResult& by_odometry) {
+  const double told = PlaceEvidence::ToldBySurfaces(points);
+  const double explained = HasMatched(by_odometry) ? by_odometry.overlap : 0.0;
+  return LeadInNats(told, match.overlap, explained) >= NatsAgainst(expected, match.pose());
+}
 
 void PathsApart::Move(const Pose2& T_new_old) {
   const UncertainPose2 new_old{.T_a_b = T_new_old};

@@ -217,8 +217,8 @@ MatchResult RobotTracker::LocateNear(const ScanMap& map,
   return alone.overlap > match.overlap + locator_.options().widen_gain ? alone : match;
 }
 
-// The last matches may have been wrong, each a little, beside an odometry that has proved to be
-// better than that.
+// The last matches may have been wrong, each a little, or this one by far, beside an odometry that
+// has proved to be better than that.
 // @param match is that where odometry has the robot, if that is believed.
 // @return both paths, if either may be right.
 std::optional<PathsApart> RobotTracker::ComparePaths(const ScanMap& map,
@@ -236,13 +236,11 @@ std::optional<PathsApart> RobotTracker::ComparePaths(const ScanMap& map,
   const auto end_at = [&](const MatchResult& pose) -> PathEnd {
     return {pose, PlaceEvidence::ExplainedBefore(map, points, pose.T_ref_cur, before)};
   };
-  auto apart = PathsApart::Weigh(points,
-                                 apart_,
-                                 PathOfMatches() * last_robot,
-                                 end_at(match),
-                                 end_at(there),
-                                 options_.free_space.max_moving_share);
-  if (apart && apart->is_by_odometry()) match = there;
+  const UncertainPose2 expected = PathOfMatches() * last_robot;
+  auto apart = PathsApart::Weigh(
+      points, apart_, expected, end_at(match), end_at(there), options_.free_space.max_moving_share);
+  const bool has_slipped = apart_ || IsSlipTold(points, expected, match, there);
+  if (apart ? apart->is_by_odometry() : !has_slipped) match = there;
   return apart;
 }
 
@@ -261,8 +259,7 @@ void RobotTracker::JudgePaths(Sighting& sighting) const {
 // The verdicts of Visser et al. (2009, section 4): a good correspondence is the pose, a bad one
 // leaves dead reckoning. Departing from them, a correspondence below a threshold does not extend
 // the map by itself; the thresholds of their section 3 on how far the robot moved do, see
-// HasMovedOn(). To let it changed no figure of the five recorded logs, and five of eight simulated
-// parks; two of them became better and one worse (scripts/evaluate, qwsm map --sim park).
+// HasMovedOn(). To let it changed no figure of the five recorded logs (scripts/evaluate).
 void RobotTracker::Judge(const ScanMap& map,
                          std::span<const ScanPoint> points,
                          const Eigen::Matrix3d& motion_covariance,
@@ -321,12 +318,11 @@ void RobotTracker::CloseLoop(const ScanMap& map,
   const auto closed = loop_detector_.Detect(
       map, points, submap_.PointsAround(step.map_robot.T_a_b), step.map_robot);
   if (!closed) return;
-  step.match = *closed;
-  step.status = StatusOf(*closed);
+  step.match = closed->match;
+  step.status = StatusOf(closed->match);
   step.reason = "loop closed";
-  step.map_robot.T_a_b = closed->T_ref_cur;
-  step.map_robot.covariance = closed->covariance;
-  step.local_covariance = closed->covariance;
+  step.map_robot = closed->map_robot;
+  step.local_covariance = closed->match.covariance;
   step.closed_loop = true;
   LeavePath();
 }

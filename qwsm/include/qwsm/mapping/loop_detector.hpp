@@ -11,6 +11,12 @@
 
 namespace qwsm {
 
+/// A robot is back among surfaces that were mapped long before.
+struct ClosedLoop {
+  MatchResult match;         ///< With these surfaces.
+  UncertainPose2 map_robot;  ///< The pose found, as uncertain as they are, too.
+};
+
 /// Detects that a robot closes a loop: that it is back among surfaces which were mapped with much
 /// less drift than its pose has now, and finds its pose among them.
 class LoopDetector {
@@ -24,12 +30,10 @@ class LoopDetector {
   ///
   /// @param submap points of the last scans, thinned, as the robot sees them now.
   /// @param estimated pose of the robot in the map; covariance of all drift since the start.
-  /// @return the match that closes the loop; its covariance is that of the pose in the map, the
-  /// drift of the surfaces it was matched to included.
-  std::optional<MatchResult> Detect(const ScanMap& map,
-                                    std::span<const ScanPoint> points,
-                                    std::span<const ScanPoint> submap,
-                                    const UncertainPose2& estimated) const;
+  std::optional<ClosedLoop> Detect(const ScanMap& map,
+                                   std::span<const ScanPoint> points,
+                                   std::span<const ScanPoint> submap,
+                                   const UncertainPose2& estimated) const;
 
  private:
   ScanLocatorOptions options_;

@@ -56,4 +56,13 @@ class PathsApart {
   double nats_for_match_ = 0.0;
 };
 
+/// Whether a scan alone tells that the wheels have slipped to where it was matched. A few points of
+/// a wall that is new fit some other one near by.
+/// @param expected as the matches have it.
+/// @param by_odometry a match where odometry has the robot.
+bool IsSlipTold(std::span<const ScanPoint> points,
+                const UncertainPose2& expected,
+                const MatchResult& match,
+                const MatchResult& by_odometry);
+
 }  // namespace qwsm
