@@ -31,4 +31,11 @@ Vector6d SolvePositive(const Matrix6d& A, const Vector6d& b) { return A.ldlt().s
 
 Matrix6d InverseOf(const Matrix6d& A) { return A.inverse(); }
 
+Matrix6d CongruenceOf(const Matrix6d& A, const Matrix6d& B) {
+  const Eigen::SelfAdjointEigenSolver<Small> eigen(B);
+  const Vector6d roots = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  const Matrix6d root_of_A = A.llt().matrixL();
+  return eigen.eigenvectors() * roots.asDiagonal() * root_of_A.inverse();
+}
+
 }  // namespace slam6d

@@ -30,4 +30,7 @@ Vector6d SolvePositive(const Matrix6d& A, const Vector6d& b);
 
 Matrix6d InverseOf(const Matrix6d& A);
 
+/// A matrix G with G A G^T = B, for positive definite A and a B that is not negative.
+Matrix6d CongruenceOf(const Matrix6d& A, const Matrix6d& B);
+
 }  // namespace slam6d

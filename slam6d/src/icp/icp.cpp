@@ -35,7 +35,9 @@ IcpResult Stop(IcpResult result, IcpStatus status, const IcpMinimizer& minimizer
   result.status = status;
   result.search = minimizer.statistics();
   if (status == IcpStatus::kConverged || status == IcpStatus::kIterationLimit) {
-    result.covariance = minimizer.Covariance();
+    IcpKnowledge knowledge = minimizer.Knowledge();
+    result.covariance = knowledge.covariance;
+    result.told_by_references = std::move(knowledge.told_by_references);
   }
   return result;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "slam6d/icp/icp.hpp"
+#include "slam6d/src/algebra/decompositions.hpp"
 
 namespace slam6d {
 
@@ -25,6 +26,12 @@ struct IcpStep {
   double motion_chi2 = std::numeric_limits<double>::infinity();
 };
 
+/// What is known of the pose when ICP ends.
+struct IcpKnowledge {
+  Matrix6d covariance;
+  std::vector<Matrix6d> told_by_references;  ///< As in IcpResult.
+};
+
 /// Pairs, and the step they ask for, under one metric. Each object serves one registration.
 class IcpMinimizer {
  public:
@@ -34,8 +41,8 @@ class IcpMinimizer {
   virtual ~IcpMinimizer() = default;
 
   virtual IcpStep Iterate(const Pose3& T_map_cur, int iteration) = 0;
-  /// Covariance of the pose, from the pairs of the last iteration.
-  virtual Matrix6d Covariance() const = 0;
+  /// What the pairs of the last iteration and the guess tell of the pose.
+  virtual IcpKnowledge Knowledge() const = 0;
   virtual SearchStatistics statistics() const = 0;
 };
 
@@ -43,8 +50,9 @@ class IcpMinimizer {
 ///
 /// `Pairs` knows one reference: `Collect(T_ref_cur, iteration)` returns sums over its pairs in the
 /// frame ref; `sums.In(T_map_ref)` carries them over, `+=` adds them, and `Step(sums, ...)` is the
-/// motion they ask for, `Covariance(sums, information, ...)` what is left open after it. With one
-/// reference at the origin of map this is plain ICP.
+/// motion they ask for, `Told(sums, curvature, ...)` the information that all pairs are, of which
+/// each reference has a share by their `Weight()`, and `ToldByGuess(...)` what the guess adds. With
+/// one reference at the origin of map this is plain ICP.
 template <class Pairs>
 class JointMinimizer final : public IcpMinimizer {
  public:
@@ -68,13 +76,14 @@ class JointMinimizer final : public IcpMinimizer {
     return Pairs::Step(sums_, {.now = T_map_cur, .guess = T_map_guess_}, options_);
   }
 
-  Matrix6d Covariance() const override {
-    Matrix6d information = Matrix6d::Zero();
+  IcpKnowledge Knowledge() const override {
+    Matrix6d curvature = Matrix6d::Zero();
     for (const Member& member : pairs_) {
-      const Matrix6d R_map_ref = BlockRotation(member.T_map_ref.rotation);
-      information += R_map_ref * member.with_ref->Information() * R_map_ref.transpose();
+      curvature += InMap(member, member.with_ref->Curvature());
     }
-    return Pairs::Covariance(sums_, information, options_);
+    const Matrix6d told = Pairs::Told(sums_, curvature, options_);
+    return {.covariance = InverseOf(told + Pairs::ToldByGuess(options_)),
+            .told_by_references = Shares(told)};
   }
 
   SearchStatistics statistics() const override {
@@ -88,6 +97,25 @@ class JointMinimizer final : public IcpMinimizer {
     Pose3 T_map_ref;
     std::unique_ptr<Pairs> with_ref;
   };
+
+  static Matrix6d InMap(const Member& member, const Matrix6d& information_ref) {
+    const Matrix6d R_map_ref = BlockRotation(member.T_map_ref.rotation);
+    return R_map_ref * information_ref * R_map_ref.transpose();
+  }
+
+  /// What all pairs tell, by references.
+  std::vector<Matrix6d> Shares(const Matrix6d& told) const {
+    if (pairs_.size() == 1) return {told};
+    std::vector<Matrix6d> shares;
+    Matrix6d sum = Matrix6d::Zero();
+    for (const Member& member : pairs_) {
+      shares.push_back(InMap(member, member.with_ref->Weight()));
+      sum += shares.back();
+    }
+    const Matrix6d G = CongruenceOf(sum, told);
+    for (Matrix6d& share : shares) share = G * share * G.transpose();
+    return shares;
+  }
 
   const IcpOptions options_;
   const Pose3 T_map_guess_;

@@ -19,6 +19,9 @@ constexpr std::size_t kPointsPerChunk = 2048;
 /// a robot tilted on a step, points found the place to 19 cm, and all pairs promised 0.1 mm.
 constexpr double kIndependentPairs = 30.0;
 
+/// Scans that are the same to the last bit are known to a micrometre.
+constexpr double kLeastVariance_m2 = 1e-12;
+
 /// The middle of the reference: sums are taken about it, against cancellation far from the origin.
 Eigen::Vector3d MiddleOf(const KdTree& tree) {
   if (tree.empty()) return Eigen::Vector3d::Zero();
@@ -125,25 +128,25 @@ IcpStep PointPairs::Step(const Sums& sums, const PoseAndGuess&, const IcpOptions
   };
 }
 
-Matrix6d PointPairs::Information() const {
+Matrix6d PointPairs::Curvature() const {
   // Residual m - (R d + t), small rotations about the origin of cur: J = [I | -[R d]x].
-  Matrix6d information = Matrix6d::Zero();
+  Matrix6d curvature = Matrix6d::Zero();
   for (std::size_t i = 0; i < cur_.size(); ++i) {
     if (!(search_.distance2_m2(i) < counted_distance2_m2_)) continue;
     Eigen::Matrix<double, 3, 6> J;
     J << Eigen::Matrix3d::Identity(), -Skew(search_.query_m(i) - T_ref_cur_.translation_m);
-    information.noalias() += J.transpose() * J;
+    curvature.noalias() += J.transpose() * J;
   }
-  return information;
+  return curvature;
 }
 
-Matrix6d PointPairs::Covariance(const Sums& sums, const Matrix6d& information, const IcpOptions&) {
+Matrix6d PointPairs::Told(const Sums& sums, const Matrix6d& curvature, const IcpOptions&) {
   const double count = std::max(sums.moments.count, 1.0);
-  const double variance_m2 = sums.distance2_m2 / count / 3.0;
+  const double variance_m2 = std::max(sums.distance2_m2 / count / 3.0, kLeastVariance_m2);
   // Nearest points are other samples of the surface: their distances are no independent errors,
   // but lead astray together.
   const double independent = std::min(count, kIndependentPairs);
-  return count / independent * variance_m2 * InverseOf(information);
+  return independent / (count * variance_m2) * curvature;
 }
 
 }  // namespace slam6d

@@ -26,13 +26,13 @@ class PointPairs {
   Sums Collect(const Pose3& T_ref_cur, int iteration);
   /// Information on the pose, in the frame ref, for residuals of one metre; from the pairs
   /// collected last.
-  Matrix6d Information() const;
+  Matrix6d Curvature() const;
+  Matrix6d Weight() const { return Curvature(); }
   const SearchStatistics& statistics() const { return statistics_; }
 
   static IcpStep Step(const Sums& sums, const PoseAndGuess& T_map, const IcpOptions& options);
-  static Matrix6d Covariance(const Sums& sums,
-                             const Matrix6d& information,
-                             const IcpOptions& options);
+  static Matrix6d Told(const Sums& sums, const Matrix6d& curvature, const IcpOptions& options);
+  static Matrix6d ToldByGuess(const IcpOptions&) { return Matrix6d::Zero(); }
 
  private:
   const PointCloud& cur_;

@@ -49,14 +49,6 @@ constexpr double kLeastNormalVariance = 1e-8;
 
 constexpr double kUnpaired = std::numeric_limits<double>::quiet_NaN();
 
-/// Of the guess, for what the pairs leave open.
-Matrix6d GuessInformation(const IcpOptions& options) {
-  Vector6d sigmas;
-  sigmas << Eigen::Vector3d::Constant(options.guess_sigma_m),
-      Eigen::Vector3d::Constant(options.guess_sigma_rad);
-  return sigmas.cwiseAbs2().cwiseInverse().asDiagonal();
-}
-
 /// The covariance of the gradient b, from how far the clusters scatter about the common pose: each
 /// is held against the pose that all others find (the jackknife), so that a motion that hangs on
 /// one cluster alone counts as not known.
@@ -273,7 +265,8 @@ NormalEquations SurfelPairs::Collect(const Pose3& T_ref_cur, int iteration) {
   }
   total.clusters = std::move(clusters);
   total.settled = settled;
-  information_ = total.hessian;
+  curvature_ = total.hessian;
+  weight_ = total.A;
   return total;
 }
 
@@ -286,7 +279,7 @@ IcpStep SurfelPairs::Step(const Sums& sums, const PoseAndGuess& T_map, const Icp
   Vector6d to_guess;
   to_guess << T_map.guess.translation_m - T_map.now.translation_m,
       RotationVector(T_map.guess.rotation * T_map.now.rotation.transpose());
-  const Matrix6d prior = GuessInformation(options);
+  const Matrix6d prior = ToldByGuess(options);
   const ObservableMotions observable(sums.A, sums.A_noise, ScatterOf(sums, prior));
   const Matrix6d information = observable.Information() + prior;
   const Vector6d x =
@@ -300,14 +293,17 @@ IcpStep SurfelPairs::Step(const Sums& sums, const PoseAndGuess& T_map, const Icp
   return step;
 }
 
-Matrix6d SurfelPairs::Covariance(const Sums& sums,
-                                 const Matrix6d& information,
-                                 const IcpOptions& options) {
-  const Matrix6d prior = GuessInformation(options);
+Matrix6d SurfelPairs::Told(const Sums& sums, const Matrix6d& curvature, const IcpOptions& options) {
   // The pose may hang on few things and be right; that it is cannot be known.
-  const ObservableMotions observable(
-      information, sums.A_noise, ScatterOf(sums, prior), sums.clusters);
-  return InverseOf(observable.Information() + prior);
+  const Matrix6d scatter = ScatterOf(sums, ToldByGuess(options));
+  return ObservableMotions(curvature, sums.A_noise, scatter, sums.clusters).Information();
+}
+
+Matrix6d SurfelPairs::ToldByGuess(const IcpOptions& options) {
+  Vector6d sigmas;
+  sigmas << Eigen::Vector3d::Constant(options.guess_sigma_m),
+      Eigen::Vector3d::Constant(options.guess_sigma_rad);
+  return sigmas.cwiseAbs2().cwiseInverse().asDiagonal();
 }
 
 }  // namespace slam6d

@@ -37,14 +37,16 @@ class SurfelPairs {
   SurfelPairs(const ScanModel& ref, const ScanModel& cur, const IcpOptions& options);
 
   Sums Collect(const Pose3& T_ref_cur, int iteration);
-  /// Information on the pose, in the frame ref, from the pairs collected last.
-  const Matrix6d& Information() const { return information_; }
+  /// How fast the gradient changes with the pose, in the frame ref, from the pairs collected last.
+  const Matrix6d& Curvature() const { return curvature_; }
+  /// The same, but for the weights that give way as residuals grow: never negative.
+  const Matrix6d& Weight() const { return weight_; }
   const SearchStatistics& statistics() const { return statistics_; }
 
   static IcpStep Step(const Sums& sums, const PoseAndGuess& T_map, const IcpOptions& options);
-  static Matrix6d Covariance(const Sums& sums,
-                             const Matrix6d& information,
-                             const IcpOptions& options);
+  static Matrix6d Told(const Sums& sums, const Matrix6d& curvature, const IcpOptions& options);
+  /// For what the pairs leave open.
+  static Matrix6d ToldByGuess(const IcpOptions& options);
 
  private:
   /// Weights and normals of an iteration.
@@ -66,7 +68,8 @@ class SurfelPairs {
   /// Residuals of the current points in the last iteration, or NaN.
   std::vector<double> residuals_m_;
   double scale_m_;  ///< Residuals well above this lose their weight.
-  Matrix6d information_ = Matrix6d::Zero();
+  Matrix6d curvature_ = Matrix6d::Zero();
+  Matrix6d weight_ = Matrix6d::Zero();
   SearchStatistics statistics_;
 };
 

@@ -3,10 +3,11 @@
 #include "slam6d/mapping/slam.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "slam6d/src/algebra/decompositions.hpp"
 
 namespace slam6d {
 namespace {
@@ -98,6 +99,34 @@ Matrix6d Turned(const Eigen::Matrix3d& R_a_b, const Matrix6d& covariance_b) {
   return R * covariance_b * R.transpose();
 }
 
+/// Where the error of a scan comes from that was matched: from its references, and from the scan
+/// before it by odometry, in proportion to what each of these tells.
+ErrorOrigin OriginOf(const IcpResult& match,
+                     std::span<const std::size_t> references,
+                     std::size_t scan,
+                     const IcpOptions& options) {
+  ErrorOrigin origin{.scan = scan, .shares = {}, .covariance = CovarianceOf(match)};
+  const Matrix6d odometry = InverseOf(CovarianceOfGuess(options));
+  Matrix6d sum = odometry;
+  for (const Matrix6d& told : match.told_by_references) sum += told;
+  const Matrix6d mean = InverseOf(sum);
+  origin.shares.push_back({.of = scan - 1, .weight = mean * odometry});
+  for (std::size_t i = 0; i < references.size(); ++i) {
+    origin.shares.push_back({.of = references[i], .weight = mean * match.told_by_references[i]});
+  }
+  return origin;
+}
+
+/// The same along the scan's own axes.
+ErrorOrigin AlongOwnAxes(ErrorOrigin origin_map, const Eigen::Matrix3d& R_map_scan) {
+  const Eigen::Matrix3d R_scan_map = R_map_scan.transpose();
+  origin_map.covariance = Turned(R_scan_map, origin_map.covariance);
+  for (ErrorOrigin::Share& share : origin_map.shares) {
+    share.weight = Turned(R_scan_map, share.weight);
+  }
+  return origin_map;
+}
+
 }  // namespace
 
 Pose3 ExtrapolateOdometry(const Pose3& T_map_last,
@@ -124,18 +153,17 @@ SlamStep Slam::Add(const PointCloud& scan, const Pose3& T_odom_scan) {
               .model = ScanModel(points, options_.tree),
               .image = std::move(image)};
   const bool usable = entry.model.tree.size() >= kLeastPoints;
-  if (!graph_.T_map_scan.empty()) {
-    step.covariance = covariances_.back() + CovarianceOfGuess(options_.icp);
-  }
-  if (usable) Match(entry, step);
+  const PlacedScan cur{.model = &entry.model, .image = &entry.image, .T_map_scan = step.T_map_scan};
+  if (usable) step.status = Match(cur, step);
   graph_.T_map_scan.push_back(step.T_map_scan);
-  covariances_.push_back(step.covariance);
+  ConstrainLast(step);
   entries_.emplace_back();
-  if (!usable) return step;
-  entries_.back() = std::move(entry);
-  CloseLoops(step);
+  if (usable) {
+    entries_.back() = std::move(entry);
+    CloseLoops(step);
+  }
   step.T_map_scan = graph_.T_map_scan.back();
-  step.covariance = covariances_.back();
+  step.covariance = recent_.Of(entries_.size() - 1);
   return step;
 }
 
@@ -160,43 +188,50 @@ std::vector<std::size_t> Slam::LastUsable(int count) const {
   return scans;
 }
 
-void Slam::Match(const Entry& entry, SlamStep& step) {
+SlamStatus Slam::Match(const PlacedScan& cur, SlamStep& step) const {
   const std::vector<std::size_t> references = LastUsable(options_.references);
-  if (references.empty()) {
-    step.status = SlamStatus::kFirst;
-    return;
-  }
-  const PlacedScan cur{.model = &entry.model, .image = &entry.image, .T_map_scan = step.T_map_scan};
+  if (references.empty()) return SlamStatus::kFirst;
   const Registration match = Register(references, cur, HowToRegister(options_));
   step.match = match.icp;
   step.overlap = match.agreement.Overlap();
   step.contradiction = match.agreement.Contradiction();
-  step.status = match.convinces ? SlamStatus::kMatched : SlamStatus::kDeadReckoned;
-  if (match.convinces) step.T_map_scan = match.icp.T_ref_cur;
-  const Matrix6d covariance =
-      match.convinces ? CovarianceOf(match.icp) : CovarianceOfGuess(options_.icp);
-  Constrain(references.front(), entries_.size(), {step.T_map_scan, covariance});
-  step.covariance = ByLastConstraint().covariance;
+  if (!match.convinces) return SlamStatus::kDeadReckoned;
+  step.T_map_scan = match.icp.T_ref_cur;
+  return SlamStatus::kMatched;
 }
 
-UncertainPose3 Slam::Uncertain(std::size_t scan) const {
-  return {.T_a_b = graph_.T_map_scan[scan], .covariance = covariances_[scan]};
-}
-
-/// What the constraint found last says of the later of its scans.
-UncertainPose3 Slam::ByLastConstraint() const {
-  const PoseConstraint& last = graph_.constraints.back();
-  return Uncertain(last.from) * UncertainPose3{last.T_from_to, last.covariance};
-}
-
-/// Keeps what was found out about the pose of scan `to` relative to that of `from`.
-void Slam::Constrain(std::size_t from, std::size_t to, const UncertainPose3& T_map_to) {
+/// Keeps what was found out about the pose of the last scan relative to that of `from`.
+void Slam::Constrain(std::size_t from, const UncertainPose3& T_map_last) {
   const Pose3& T_map_from = graph_.T_map_scan[from];
   graph_.constraints.push_back(
       {.from = from,
-       .to = to,
-       .T_from_to = T_map_from.Inverse() * T_map_to.T_a_b,
-       .covariance = Turned(T_map_from.rotation.transpose(), T_map_to.covariance)});
+       .to = graph_.T_map_scan.size() - 1,
+       .T_from_to = T_map_from.Inverse() * T_map_last.T_a_b,
+       .covariance = Turned(T_map_from.rotation.transpose(), T_map_last.covariance)});
+}
+
+/// Ties the last scan to those before it, and finds out how uncertain it is.
+void Slam::ConstrainLast(const SlamStep& step) {
+  const std::size_t scan = graph_.T_map_scan.size() - 1;
+  if (scan == 0) return;
+  ErrorOrigin origin{
+      .scan = scan, .shares = {{.of = scan - 1}}, .covariance = CovarianceOfGuess(options_.icp)};
+  std::size_t from = scan - 1;
+  if (step.status == SlamStatus::kMatched) {
+    const std::vector<std::size_t> references = LastUsable(options_.references);
+    origin = OriginOf(step.match, references, scan, options_.icp);
+    from = references.front();
+  }
+  Constrain(from, {step.T_map_scan, origin.covariance});
+  origins_.push_back(AlongOwnAxes(origin, step.T_map_scan.rotation));
+  recent_ = Kept(WithNext(recent_, origins_.back(), graph_.T_map_scan), LastScans());
+}
+
+/// The scans on which the next one will hang, if the last one is usable; and the last one.
+std::vector<std::size_t> Slam::LastScans() const {
+  std::vector<std::size_t> scans = LastUsable(options_.references);
+  scans.push_back(graph_.T_map_scan.size() - 1);
+  return scans;
 }
 
 /// Nüchter et al. (2007), section 3.4: hypotheses from range and pose, registered; the error of
@@ -209,12 +244,15 @@ void Slam::CloseLoops(SlamStep& step) {
     if (!entries_[earlier]) continue;
     const Registration match = Register(std::span(&earlier, 1), Placed(scan), how);
     if (!match.convinces) continue;
-    Constrain(earlier, scan, {match.icp.T_ref_cur, CovarianceOf(match.icp)});
-    const Matrix6d covariance = ByLastConstraint().covariance;
-    if (covariance.trace() < covariances_[scan].trace()) covariances_[scan] = covariance;
+    const ErrorOrigin origin{
+        .scan = scan, .shares = {{.of = earlier}}, .covariance = CovarianceOf(match.icp)};
+    Constrain(earlier, {match.icp.T_ref_cur, origin.covariance});
+    origins_.push_back(AlongOwnAxes(origin, match.icp.T_ref_cur.rotation));
     graph_.T_map_scan = closer_.Close(graph_);
     step.loops_to.push_back(earlier);
   }
+  if (step.loops_to.empty()) return;
+  recent_ = CovarianceBy(origins_, graph_.T_map_scan, LastScans());
 }
 
 RefinementResult Slam::Refine(const RefinementObserver& observer) {

@@ -127,6 +127,9 @@ struct [[nodiscard]] IcpResult {
   /// the size of the residuals: a lower bound. Zero unless converged or stopped by the iteration
   /// limit.
   Matrix6d covariance = Matrix6d::Zero();
+  /// The information on the pose from the pairs with each reference; empty without a covariance.
+  /// With that of the guess they add up to the inverse of the covariance that ICP ended with.
+  std::vector<Matrix6d> told_by_references{};
   int iterations = 0;
   std::size_t pairs = 0;
   double rms_residual_m = 0.0;

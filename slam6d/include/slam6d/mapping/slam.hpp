@@ -12,6 +12,7 @@
 #include "slam6d/cloud/reduction.hpp"
 #include "slam6d/cloud/scan_model.hpp"
 #include "slam6d/icp/icp.hpp"
+#include "slam6d/mapping/graph_covariance.hpp"
 #include "slam6d/mapping/loop_hypotheses.hpp"
 #include "slam6d/mapping/model_refinement.hpp"
 #include "slam6d/mapping/pose_graph.hpp"
@@ -142,18 +143,19 @@ class Slam {
                         const PlacedScan& cur,
                         const RegistrationOptions& options) const;
   std::vector<std::size_t> LastUsable(int count) const;
-  void Constrain(std::size_t from, std::size_t to, const UncertainPose3& T_map_to);
-  void Match(const Entry& entry, SlamStep& step);
+  SlamStatus Match(const PlacedScan& cur, SlamStep& step) const;
+  void Constrain(std::size_t from, const UncertainPose3& T_map_last);
+  void ConstrainLast(const SlamStep& step);
+  std::vector<std::size_t> LastScans() const;
   void CloseLoops(SlamStep& step);
-  UncertainPose3 Uncertain(std::size_t scan) const;
-  UncertainPose3 ByLastConstraint() const;
 
   SlamOptions options_;
   const LoopCloser& closer_;
   std::deque<std::optional<Entry>> entries_;  ///< Nothing for unusable scans.
   Pose3 T_odom_last_;
   PoseGraph graph_;
-  std::vector<Matrix6d> covariances_;  ///< Covariances of the poses in the graph.
+  std::vector<ErrorOrigin> origins_;  ///< Of the poses in the graph.
+  JointCovariance recent_;            ///< Of the scans on which the next one will hang.
 };
 
 }  // namespace slam6d
