@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "slam6d/mapping/graph_covariance.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "slam6d/mapping/graph_covariance.hpp"
 #include "tests/support/room3.hpp"
 
 namespace slam6d {
@@ -28,9 +27,8 @@ Arc MakeArc() {
         {.rotation = RotationFromRollPitchYaw({0.05, 0.1, angle_rad}),
          .translation_m = {5.0 * std::cos(angle_rad), 5.0 * std::sin(angle_rad), 0.3 * angle_rad}});
     if (scan == 0) continue;
-    ErrorOrigin origin{.scan = scan,
-                       .shares = {},
-                       .covariance = kOwnSigma * kOwnSigma * Matrix6d::Identity()};
+    ErrorOrigin origin{
+        .scan = scan, .shares = {}, .covariance = kOwnSigma * kOwnSigma * Matrix6d::Identity()};
     const std::size_t references = std::min<std::size_t>(scan, 3);
     for (std::size_t back = 1; back <= references; ++back) {
       const double share = 1.0 / static_cast<double>(references);

@@ -106,7 +106,7 @@ TEST(Slam3, SeeksWhatFitsNowhereWithFewPoints) {
   const RangeImage images[]{RangeImage(room), RangeImage(nothing)};
   const PlacedScan ref{.model = &models[0], .image = &images[0], .T_map_scan = {}};
   const PlacedScan cur{.model = &models[1], .image = &images[1], .T_map_scan = {}};
-  const Registration registration = RegisterScan(std::span(&ref, 1), cur, {});
+  const Registration registration = RegisterScan(std::span(&ref, 1), cur, GuessCovariance({}), {});
   EXPECT_FALSE(registration.convinces);
   EXPECT_LT(registration.icp.search.queries, 10 * kPoints);
 }

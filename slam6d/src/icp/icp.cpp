@@ -13,7 +13,7 @@ namespace {
 
 std::unique_ptr<IcpMinimizer> MakeMinimizer(std::span<const IcpReference> references,
                                             const ScanModel& cur,
-                                            const Pose3& T_map_guess,
+                                            const UncertainPose3& T_map_guess,
                                             const IcpOptions& options) {
   if (options.metric == IcpMetric::kPointToPoint) {
     return std::make_unique<JointMinimizer<PointPairs>>(references, cur, T_map_guess, options);
@@ -44,6 +44,13 @@ IcpResult Stop(IcpResult result, IcpStatus status, const IcpMinimizer& minimizer
 
 }  // namespace
 
+Matrix6d GuessCovariance(const IcpOptions& options) {
+  Vector6d sigmas;
+  sigmas << Eigen::Vector3d::Constant(options.guess_sigma_m),
+      Eigen::Vector3d::Constant(options.guess_sigma_rad);
+  return sigmas.cwiseAbs2().asDiagonal();
+}
+
 IcpResult Align(const ScanModel& ref,
                 const ScanModel& cur,
                 const Pose3& T_ref_cur_guess,
@@ -58,7 +65,8 @@ IcpResult Align(std::span<const IcpReference> references,
                 const Pose3& T_map_cur_guess,
                 const IcpOptions& options,
                 IcpTrace* trace) {
-  return Align(references, cur, {.now = T_map_cur_guess, .guess = T_map_cur_guess}, options, trace);
+  const UncertainPose3 guess{.T_a_b = T_map_cur_guess, .covariance = GuessCovariance(options)};
+  return Align(references, cur, {.now = T_map_cur_guess, .guess = guess}, options, trace);
 }
 
 IcpResult Align(std::span<const IcpReference> references,
@@ -66,7 +74,7 @@ IcpResult Align(std::span<const IcpReference> references,
                 const PoseAndGuess& T_map_cur,
                 const IcpOptions& options,
                 IcpTrace* trace) {
-  assert(IsFinite(T_map_cur.now) && IsFinite(T_map_cur.guess) && "the guess is a pose");
+  assert(IsFinite(T_map_cur.now) && IsFinite(T_map_cur.guess.T_a_b) && "the guess is a pose");
   const std::unique_ptr<IcpMinimizer> minimizer =
       MakeMinimizer(references, cur, T_map_cur.guess, options);
   IcpResult result{.T_ref_cur = T_map_cur.now};

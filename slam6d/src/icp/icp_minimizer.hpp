@@ -58,7 +58,7 @@ class JointMinimizer final : public IcpMinimizer {
  public:
   JointMinimizer(std::span<const IcpReference> references,
                  const ScanModel& cur,
-                 const Pose3& T_map_guess,
+                 const UncertainPose3& T_map_guess,
                  const IcpOptions& options)
       : options_(options), T_map_guess_(T_map_guess) {
     for (const IcpReference& reference : references) {
@@ -81,8 +81,8 @@ class JointMinimizer final : public IcpMinimizer {
     for (const Member& member : pairs_) {
       curvature += InMap(member, member.with_ref->Curvature());
     }
-    const Matrix6d told = Pairs::Told(sums_, curvature, options_);
-    return {.covariance = InverseOf(told + Pairs::ToldByGuess(options_)),
+    const Matrix6d told = Pairs::Told(sums_, curvature, T_map_guess_);
+    return {.covariance = InverseOf(told + Pairs::ToldByGuess(T_map_guess_)),
             .told_by_references = Shares(told)};
   }
 
@@ -118,7 +118,7 @@ class JointMinimizer final : public IcpMinimizer {
   }
 
   const IcpOptions options_;
-  const Pose3 T_map_guess_;
+  const UncertainPose3 T_map_guess_;
   std::vector<Member> pairs_;
   typename Pairs::Sums sums_;
 };

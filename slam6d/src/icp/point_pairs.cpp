@@ -140,7 +140,7 @@ Matrix6d PointPairs::Curvature() const {
   return curvature;
 }
 
-Matrix6d PointPairs::Told(const Sums& sums, const Matrix6d& curvature, const IcpOptions&) {
+Matrix6d PointPairs::Told(const Sums& sums, const Matrix6d& curvature, const UncertainPose3&) {
   const double count = std::max(sums.moments.count, 1.0);
   const double variance_m2 = std::max(sums.distance2_m2 / count / 3.0, kLeastVariance_m2);
   // Nearest points are other samples of the surface: their distances are no independent errors,

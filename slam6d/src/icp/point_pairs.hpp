@@ -31,8 +31,8 @@ class PointPairs {
   const SearchStatistics& statistics() const { return statistics_; }
 
   static IcpStep Step(const Sums& sums, const PoseAndGuess& T_map, const IcpOptions& options);
-  static Matrix6d Told(const Sums& sums, const Matrix6d& curvature, const IcpOptions& options);
-  static Matrix6d ToldByGuess(const IcpOptions&) { return Matrix6d::Zero(); }
+  static Matrix6d Told(const Sums& sums, const Matrix6d& curvature, const UncertainPose3& guess);
+  static Matrix6d ToldByGuess(const UncertainPose3&) { return Matrix6d::Zero(); }
 
  private:
   const PointCloud& cur_;

@@ -270,16 +270,16 @@ NormalEquations SurfelPairs::Collect(const Pose3& T_ref_cur, int iteration) {
   return total;
 }
 
-IcpStep SurfelPairs::Step(const Sums& sums, const PoseAndGuess& T_map, const IcpOptions& options) {
+IcpStep SurfelPairs::Step(const Sums& sums, const PoseAndGuess& T_map, const IcpOptions&) {
   const double count = static_cast<double>(std::max<std::size_t>(sums.pairs, 1));
   IcpStep step{.pairs = sums.pairs,
                .rms_residual_m = std::sqrt(sums.residual2_m2 / count),
                .settled = sums.settled};
   if (sums.pairs < 6 || LeavesMotionOpen(sums.A)) return step;
   Vector6d to_guess;
-  to_guess << T_map.guess.translation_m - T_map.now.translation_m,
-      RotationVector(T_map.guess.rotation * T_map.now.rotation.transpose());
-  const Matrix6d prior = ToldByGuess(options);
+  to_guess << T_map.guess.T_a_b.translation_m - T_map.now.translation_m,
+      RotationVector(T_map.guess.T_a_b.rotation * T_map.now.rotation.transpose());
+  const Matrix6d prior = ToldByGuess(T_map.guess);
   const ObservableMotions observable(sums.A, sums.A_noise, ScatterOf(sums, prior));
   const Matrix6d information = observable.Information() + prior;
   const Vector6d x =
@@ -293,17 +293,16 @@ IcpStep SurfelPairs::Step(const Sums& sums, const PoseAndGuess& T_map, const Icp
   return step;
 }
 
-Matrix6d SurfelPairs::Told(const Sums& sums, const Matrix6d& curvature, const IcpOptions& options) {
+Matrix6d SurfelPairs::Told(const Sums& sums,
+                           const Matrix6d& curvature,
+                           const UncertainPose3& guess) {
   // The pose may hang on few things and be right; that it is cannot be known.
-  const Matrix6d scatter = ScatterOf(sums, ToldByGuess(options));
+  const Matrix6d scatter = ScatterOf(sums, ToldByGuess(guess));
   return ObservableMotions(curvature, sums.A_noise, scatter, sums.clusters).Information();
 }
 
-Matrix6d SurfelPairs::ToldByGuess(const IcpOptions& options) {
-  Vector6d sigmas;
-  sigmas << Eigen::Vector3d::Constant(options.guess_sigma_m),
-      Eigen::Vector3d::Constant(options.guess_sigma_rad);
-  return sigmas.cwiseAbs2().cwiseInverse().asDiagonal();
+Matrix6d SurfelPairs::ToldByGuess(const UncertainPose3& guess) {
+  return InverseOf(guess.covariance);
 }
 
 }  // namespace slam6d

@@ -44,9 +44,9 @@ class SurfelPairs {
   const SearchStatistics& statistics() const { return statistics_; }
 
   static IcpStep Step(const Sums& sums, const PoseAndGuess& T_map, const IcpOptions& options);
-  static Matrix6d Told(const Sums& sums, const Matrix6d& curvature, const IcpOptions& options);
+  static Matrix6d Told(const Sums& sums, const Matrix6d& curvature, const UncertainPose3& guess);
   /// For what the pairs leave open.
-  static Matrix6d ToldByGuess(const IcpOptions& options);
+  static Matrix6d ToldByGuess(const UncertainPose3& guess);
 
  private:
   /// Weights and normals of an iteration.

@@ -17,13 +17,6 @@ constexpr double kLeastHeldShare = 0.5;
 constexpr double kDeviations = 1.7320508075688772;
 constexpr double kWeight = 1.0 / 6.0;
 
-Matrix6d CovarianceBefore(const IcpOptions& options) {
-  Vector6d sigmas;
-  sigmas << Eigen::Vector3d::Constant(options.guess_sigma_m),
-      Eigen::Vector3d::Constant(options.guess_sigma_rad);
-  return sigmas.cwiseAbs2().asDiagonal();
-}
-
 /// The pose moved along the axes of its parent frame, and turned about its own origin.
 Pose3 Displaced(const Pose3& pose, const Vector6d& motion) {
   return {.rotation = RotationFromVector(motion.tail<3>()) * pose.rotation,
@@ -39,9 +32,11 @@ Vector6d MotionBetween(const Pose3& before, const Pose3& after) {
 
 }  // namespace
 
-OpenMotions::OpenMotions(const IcpResult& result, const IcpOptions& options)
-    : result_(result), options_(options) {
-  const Matrix6d before = CovarianceBefore(options);
+OpenMotions::OpenMotions(const IcpResult& result,
+                         const UncertainPose3& T_map_guess,
+                         const IcpOptions& options)
+    : result_(result), T_map_guess_(T_map_guess), options_(options) {
+  const Matrix6d& before = T_map_guess.covariance;
   const GeneralizedEigen6 eigen = GeneralizedEigenOf(result.covariance, before);
   shares_ = eigen.values;
   motions_ = before * eigen.vectors;
@@ -50,15 +45,16 @@ OpenMotions::OpenMotions(const IcpResult& result, const IcpOptions& options)
 }
 
 Matrix6d OpenMotions::Covariance(std::span<const IcpReference> references,
-                                 const ScanModel& cur,
-                                 const Pose3& T_map_cur_guess) const {
+                                 const ScanModel& cur) const {
   Matrix6d covariance = result_.covariance;
   for (int k = first_; k < kMotions; ++k) {
     const Vector6d along = shares_(k) * motions_.col(k);  // Where all is linear.
     Matrix6d spread = Matrix6d::Zero();
     for (const double deviations : {kDeviations, -kDeviations}) {
+      UncertainPose3 guess = T_map_guess_;
+      guess.T_a_b = Displaced(guess.T_a_b, deviations * motions_.col(k));
       const PoseAndGuess start{.now = Displaced(result_.T_ref_cur, deviations * along),
-                               .guess = Displaced(T_map_cur_guess, deviations * motions_.col(k))};
+                               .guess = guess};
       const IcpResult end = Align(references, cur, start, options_);
       Vector6d moved = deviations * along;
       if (end.covariance.trace() > 0.0) {

@@ -12,8 +12,10 @@ namespace slam6d {
 /// along these does to all the others.
 class OpenMotions {
  public:
-  /// @param result with a covariance, which must outlive this, as the options must.
-  OpenMotions(const IcpResult& result, const IcpOptions& options);
+  /// @param result with a covariance, which must outlive this, as guess and options must.
+  OpenMotions(const IcpResult& result,
+              const UncertainPose3& T_map_guess,
+              const IcpOptions& options);
 
   /// Whether the pairs tell of every motion at least as much as the guess does.
   bool empty() const { return first_ == kMotions; }
@@ -24,14 +26,13 @@ class OpenMotions {
   /// sides along each open motion, and where it ends beside that motion counts, as in an
   /// unscented transform. Along the motion itself nothing is gained: pairs that hold a
   /// scan wherever it is put do not hold it. Costs two registrations per open motion.
-  Matrix6d Covariance(std::span<const IcpReference> references,
-                      const ScanModel& cur,
-                      const Pose3& T_map_cur_guess) const;
+  Matrix6d Covariance(std::span<const IcpReference> references, const ScanModel& cur) const;
 
  private:
   static constexpr int kMotions = 6;
 
   const IcpResult& result_;
+  const UncertainPose3& T_map_guess_;
   const IcpOptions& options_;
   Vector6d shares_;       ///< Of the guess's variance that is left along each motion, rising.
   Matrix6d motions_;      ///< One standard deviation of the guess each, as columns.

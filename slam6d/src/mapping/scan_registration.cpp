@@ -3,10 +3,10 @@
 #include "slam6d/mapping/scan_registration.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <deque>
 #include <vector>
 
+#include "slam6d/src/algebra/decompositions.hpp"
 #include "slam6d/src/mapping/open_motions.hpp"
 #include "slam6d/src/mapping/sample.hpp"
 
@@ -32,8 +32,12 @@ class Attempts {
  public:
   Attempts(std::span<const PlacedScan> references,
            const PlacedScan& cur,
+           const Matrix6d& guess_covariance,
            const RegistrationOptions& options)
-      : references_(references), cur_(cur), options_(options) {
+      : references_(references),
+        cur_(cur),
+        guess_{.T_a_b = cur.T_map_scan, .covariance = guess_covariance},
+        options_(options) {
     for (const PlacedScan& scan : references) {
       models_.push_back({.model = scan.model, .T_map_ref = scan.T_map_scan});
       images_.push_back({.image = scan.image, .T_map_ref = scan.T_map_scan});
@@ -41,7 +45,7 @@ class Attempts {
   }
 
   Registration From(const Pose3& T_map_cur) const {
-    const PoseAndGuess start{.now = T_map_cur, .guess = cur_.T_map_scan};
+    const PoseAndGuess start{.now = T_map_cur, .guess = guess_};
     Registration result{.icp = Align(models_, *cur_.model, start, options_.icp)};
     result.agreement = Compare(images_, *cur_.image, result.icp.T_ref_cur);
     result.convinces = HasPose(result.icp) && IsWithinReach(result.icp.T_ref_cur) &&
@@ -51,11 +55,18 @@ class Attempts {
 
   /// The same, with what the error of the guess does where it has to tell.
   Registration WithErrorOfGuess(Registration registration) const {
-    const OpenMotions open(registration.icp, options_.icp);
+    const OpenMotions open(registration.icp, guess_, options_.icp);
     if (registration.convinces && !open.empty()) {
-      registration.icp.covariance = open.Covariance(models_, *cur_.model, cur_.T_map_scan);
+      registration.icp.covariance = open.Covariance(models_, *cur_.model);
     }
     return registration;
+  }
+
+  /// Whether nothing speaks for trying elsewhere: pairs that change to and fro for ever may be
+  /// those of a wrong place, and what they leave open may be held elsewhere.
+  bool IsSettled(const Registration& registration) const {
+    return registration.convinces && registration.icp.status == IcpStatus::kConverged &&
+           OpenMotions(registration.icp, guess_, options_.icp).empty();
   }
 
   Pose3 GuessByOctrees() const {
@@ -90,27 +101,19 @@ class Attempts {
   }
 
   bool IsWithinReach(const Pose3& T_map_cur) const {
-    const Pose3& guess = cur_.T_map_scan;
-    const double moved =
-        (T_map_cur.translation_m - guess.translation_m).norm() / options_.icp.guess_sigma_m;
-    const double turned = RotationAngle(guess.rotation.transpose() * T_map_cur.rotation) /
-                          options_.icp.guess_sigma_rad;
-    return moved * moved + turned * turned <= kMostGuessChi2;
+    Vector6d error;
+    error << T_map_cur.translation_m - guess_.T_a_b.translation_m,
+        RotationVector(T_map_cur.rotation * guess_.T_a_b.rotation.transpose());
+    return error.dot(SolvePositive(guess_.covariance, error)) <= kMostGuessChi2;
   }
 
   std::span<const PlacedScan> references_;
   const PlacedScan& cur_;
+  const UncertainPose3 guess_;
   const RegistrationOptions& options_;
   std::vector<IcpReference> models_;
   std::vector<RangeImageReference> images_;
 };
-
-/// Whether nothing speaks for trying elsewhere: pairs that change to and fro for ever may be those
-/// of a wrong place, and what they leave open may be held elsewhere.
-bool IsSettled(const Registration& registration, const IcpOptions& icp) {
-  return registration.convinces && registration.icp.status == IcpStatus::kConverged &&
-         OpenMotions(registration.icp, icp).empty();
-}
 
 /// Of two, the one that convinces; if both do, the one that sees more of what the references saw.
 Registration BetterOf(const Registration& a, const Registration& b) {
@@ -125,13 +128,14 @@ Registration BetterOf(const Registration& a, const Registration& b) {
 
 Registration RegisterScan(std::span<const PlacedScan> references,
                           const PlacedScan& cur,
+                          const Matrix6d& guess_covariance,
                           const RegistrationOptions& options) {
-  const Attempts attempts(references, cur, options);
+  const Attempts attempts(references, cur, guess_covariance, options);
   const Registration first = attempts.From(cur.T_map_scan);
-  if (IsSettled(first, options.icp)) return first;
+  if (attempts.IsSettled(first)) return first;
   const Registration second = attempts.From(attempts.GuessByOctrees());
   if (options.icp.metric == IcpMetric::kPointToPoint) return BetterOf(first, second);
-  if (IsSettled(second, options.icp)) {
+  if (attempts.IsSettled(second)) {
     return attempts.WithErrorOfGuess(BetterOf(first, second));
   }
   const Registration third = attempts.ByPoints();

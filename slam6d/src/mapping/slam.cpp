@@ -80,9 +80,17 @@ RegistrationOptions Widened(RegistrationOptions options, double factor) {
   return options;
 }
 
-/// What dead reckoning may be off by from one scan to the next.
-Matrix6d CovarianceOfGuess(const IcpOptions& options) {
-  return CovarianceOf(options.guess_sigma_m, options.guess_sigma_rad);
+/// What odometry may be off by at the end of a way, along the axes of the map. It goes astray in
+/// its direction all along the way, a little at a time (a random walk), so the end is off by that
+/// and to the side: the slope that odometry in the plane knows nothing of lifts a robot by a metre.
+Matrix6d CovarianceOfOdometry(const Eigen::Vector3d& way_m, const IcpOptions& options) {
+  const double variance_rad2 = options.guess_sigma_rad * options.guess_sigma_rad;
+  const Eigen::Matrix3d lever = -Skew(way_m);
+  Matrix6d covariance = GuessCovariance(options);
+  covariance.topLeftCorner<3, 3>() += variance_rad2 / 3.0 * lever * lever.transpose();
+  covariance.topRightCorner<3, 3>() = variance_rad2 / 2.0 * lever;
+  covariance.bottomLeftCorner<3, 3>() = variance_rad2 / 2.0 * lever.transpose();
+  return covariance;
 }
 
 Matrix6d CovarianceOf(const IcpResult& result) {
@@ -104,9 +112,9 @@ Matrix6d Turned(const Eigen::Matrix3d& R_a_b, const Matrix6d& covariance_b) {
 ErrorOrigin OriginOf(const IcpResult& match,
                      std::span<const std::size_t> references,
                      std::size_t scan,
-                     const IcpOptions& options) {
+                     const Matrix6d& guess_covariance) {
   ErrorOrigin origin{.scan = scan, .shares = {}, .covariance = CovarianceOf(match)};
-  const Matrix6d odometry = InverseOf(CovarianceOfGuess(options));
+  const Matrix6d odometry = InverseOf(guess_covariance);
   Matrix6d sum = odometry;
   for (const Matrix6d& told : match.told_by_references) sum += told;
   const Matrix6d mean = InverseOf(sum);
@@ -145,8 +153,11 @@ SlamStep Slam::Add(const PointCloud& scan, const Pose3& T_odom_scan) {
   reduction.voxel_m = VoxelFor(all, image, options_);
   const PointCloud points = Reduce(all, reduction);
   SlamStep step{.T_map_scan = T_odom_scan, .voxel_m = reduction.voxel_m, .points = points.size()};
+  Eigen::Vector3d way_m = Eigen::Vector3d::Zero();
   if (!graph_.T_map_scan.empty()) {
-    step.T_map_scan = ExtrapolateOdometry(graph_.T_map_scan.back(), T_odom_last_, T_odom_scan);
+    const Pose3& T_map_last = graph_.T_map_scan.back();
+    step.T_map_scan = ExtrapolateOdometry(T_map_last, T_odom_last_, T_odom_scan);
+    way_m = step.T_map_scan.translation_m - T_map_last.translation_m;
   }
   T_odom_last_ = T_odom_scan;
   Entry entry{.range_m = RangeOf(points, kRangeShare),
@@ -154,9 +165,10 @@ SlamStep Slam::Add(const PointCloud& scan, const Pose3& T_odom_scan) {
               .image = std::move(image)};
   const bool usable = entry.model.tree.size() >= kLeastPoints;
   const PlacedScan cur{.model = &entry.model, .image = &entry.image, .T_map_scan = step.T_map_scan};
-  if (usable) step.status = Match(cur, step);
+  const Matrix6d guess_covariance = CovarianceOfOdometry(way_m, options_.icp);
+  if (usable) step.status = Match(cur, guess_covariance, step);
   graph_.T_map_scan.push_back(step.T_map_scan);
-  ConstrainLast(step);
+  ConstrainLast(step, guess_covariance);
   entries_.emplace_back();
   if (usable) {
     entries_.back() = std::move(entry);
@@ -174,10 +186,11 @@ PlacedScan Slam::Placed(std::size_t scan) const {
 
 Registration Slam::Register(std::span<const std::size_t> references,
                             const PlacedScan& cur,
+                            const Matrix6d& guess_covariance,
                             const RegistrationOptions& options) const {
   std::vector<PlacedScan> placed;
   for (const std::size_t scan : references) placed.push_back(Placed(scan));
-  return RegisterScan(placed, cur, options);
+  return RegisterScan(placed, cur, guess_covariance, options);
 }
 
 std::vector<std::size_t> Slam::LastUsable(int count) const {
@@ -188,10 +201,12 @@ std::vector<std::size_t> Slam::LastUsable(int count) const {
   return scans;
 }
 
-SlamStatus Slam::Match(const PlacedScan& cur, SlamStep& step) const {
+SlamStatus Slam::Match(const PlacedScan& cur,
+                       const Matrix6d& guess_covariance,
+                       SlamStep& step) const {
   const std::vector<std::size_t> references = LastUsable(options_.references);
   if (references.empty()) return SlamStatus::kFirst;
-  const Registration match = Register(references, cur, HowToRegister(options_));
+  const Registration match = Register(references, cur, guess_covariance, HowToRegister(options_));
   step.match = match.icp;
   step.overlap = match.agreement.Overlap();
   step.contradiction = match.agreement.Contradiction();
@@ -211,15 +226,14 @@ void Slam::Constrain(std::size_t from, const UncertainPose3& T_map_last) {
 }
 
 /// Ties the last scan to those before it, and finds out how uncertain it is.
-void Slam::ConstrainLast(const SlamStep& step) {
+void Slam::ConstrainLast(const SlamStep& step, const Matrix6d& guess_covariance) {
   const std::size_t scan = graph_.T_map_scan.size() - 1;
   if (scan == 0) return;
-  ErrorOrigin origin{
-      .scan = scan, .shares = {{.of = scan - 1}}, .covariance = CovarianceOfGuess(options_.icp)};
+  ErrorOrigin origin{.scan = scan, .shares = {{.of = scan - 1}}, .covariance = guess_covariance};
   std::size_t from = scan - 1;
   if (step.status == SlamStatus::kMatched) {
     const std::vector<std::size_t> references = LastUsable(options_.references);
-    origin = OriginOf(step.match, references, scan, options_.icp);
+    origin = OriginOf(step.match, references, scan, guess_covariance);
     from = references.front();
   }
   Constrain(from, {step.T_map_scan, origin.covariance});
@@ -242,7 +256,8 @@ void Slam::CloseLoops(SlamStep& step) {
   const RegistrationOptions how = Widened(HowToRegister(options_), kLoopSearchFactor);
   for (const std::size_t earlier : LoopHypotheses(graph_.T_map_scan, cur.range_m, options_.loop)) {
     if (!entries_[earlier]) continue;
-    const Registration match = Register(std::span(&earlier, 1), Placed(scan), how);
+    const Registration match =
+        Register(std::span(&earlier, 1), Placed(scan), GuessCovariance(how.icp), how);
     if (!match.convinces) continue;
     const ErrorOrigin origin{
         .scan = scan, .shares = {{.of = earlier}}, .covariance = CovarianceOf(match.icp)};

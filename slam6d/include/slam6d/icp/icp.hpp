@@ -51,8 +51,8 @@ struct IcpOptions {
   double residual_scale_m = 0.02;
   /// With surfels, what these are off by beside their scatter.
   double surface_noise_m = 0.001;
-  /// With surfels, what the guess may be off by along each axis. It tells what the pairs leave
-  /// open, as along a corridor.
+  /// With surfels, what the guess may be off by along each axis, or more to the side of a long way.
+  /// It tells what the pairs leave open, as along a corridor.
   double guess_sigma_m = 0.3;
   double guess_sigma_rad = 0.1;
   int threads = 1;  ///< Working threads; they change no bit of the result.
@@ -161,11 +161,14 @@ IcpResult Align(std::span<const IcpReference> references,
                 const IcpOptions& options,
                 IcpTrace* trace = nullptr);
 
-/// Where the current scan is thought to be by now, and where it was thought to be before anything
-/// was known of its points: what these leave open is left to the guess.
+/// What a guess may be off by where nothing more is known of it than the options say.
+Matrix6d GuessCovariance(const IcpOptions& options);
+
+/// Where the current scan is thought to be by now, and where it was thought to be, and how surely,
+/// before anything was known of its points: what these leave open is left to the guess.
 struct PoseAndGuess {
   Pose3 now;
-  Pose3 guess;
+  UncertainPose3 guess;
 };
 
 /// The same, beginning somewhere else than at the guess.

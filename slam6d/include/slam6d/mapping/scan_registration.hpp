@@ -50,15 +50,16 @@ struct Registration {
   bool convinces = false;
 };
 
-/// Registers a scan, which is guessed to be at its pose, with all references at once (Nüchter et
-/// al. 2007, sections 3.2 and 3.3): from the guess; where that does not convince, from where
-/// overlapping octrees put it; then from where points, which find together from farther off, put
-/// it. Where pairs of a pose that convinces never settle, or leave a motion to the guess, the
-/// others are tried as well, and the one that sees most of what the references saw counts.
+/// Registers a scan, which is guessed to be at its pose within a covariance, with all references at
+/// once (Nüchter et al. 2007, sections 3.2 and 3.3): from the guess; where that does not convince,
+/// from where overlapping octrees put it; then from where points, which find together from farther
+/// off, put it. Where pairs of a pose that convinces never settle, or leave a motion to the guess,
+/// the others are tried as well, and the one that sees most of what the references saw counts.
 ///
 /// Departing from Nüchter et al., ICP comes before the octrees: these cost many times as much.
 Registration RegisterScan(std::span<const PlacedScan> references,
                           const PlacedScan& cur,
+                          const Matrix6d& guess_covariance,
                           const RegistrationOptions& options);
 
 }  // namespace slam6d

@@ -141,11 +141,12 @@ class Slam {
   PlacedScan Placed(std::size_t scan) const;
   Registration Register(std::span<const std::size_t> references,
                         const PlacedScan& cur,
+                        const Matrix6d& guess_covariance,
                         const RegistrationOptions& options) const;
   std::vector<std::size_t> LastUsable(int count) const;
-  SlamStatus Match(const PlacedScan& cur, SlamStep& step) const;
+  SlamStatus Match(const PlacedScan& cur, const Matrix6d& guess_covariance, SlamStep& step) const;
   void Constrain(std::size_t from, const UncertainPose3& T_map_last);
-  void ConstrainLast(const SlamStep& step);
+  void ConstrainLast(const SlamStep& step, const Matrix6d& guess_covariance);
   std::vector<std::size_t> LastScans() const;
   void CloseLoops(SlamStep& step);
 
