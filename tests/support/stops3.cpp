@@ -197,6 +197,22 @@ Stops3 LoopInYard(std::uint64_t seed) {
   return stops;
 }
 
+Stops3 DriveAlong(PlaceKind kind, std::uint64_t seed, int stops, double step_m) {
+  constexpr double kLookAside_rad = 0.15;
+  sim::RandomEngine random(sim::SeedFor("drive", seed));
+  const Place3 place = MakePlace3(kind, seed);
+  const double length_m = LengthOf(place.route);
+  const double first_m = Uniform(random, 0.0, std::max(0.0, length_m - stops * step_m));
+  const sim::PitchingLaserOptions laser{.beams = 181, .sweeps = 128};
+  Stops3 drive;
+  for (int stop = 0; stop < stops; ++stop) {
+    Pose2 pose = Along(place.route, std::min(first_m + stop * step_m, length_m));
+    pose.theta_rad += Normal(random, kLookAside_rad);
+    Stop(place, pose, laser, random, drive);
+  }
+  return drive;
+}
+
 std::optional<ScanPair3> DrawPair(PlaceKind kind,
                                   std::uint64_t seed,
                                   double least_overlap,

@@ -34,6 +34,10 @@ double NeesOf(const Pose3& pose, const Matrix6d& covariance, const Pose3& truth)
 /// two were. 181 x 256 beams of a scanner like Kurt3D's, 1 cm of noise, 0.2 % of stray points.
 Stops3 LoopInYard(std::uint64_t seed);
 
+/// Stops every so many metres on the way through a place of this kind, from anywhere on it, looking
+/// along it but for 0.15 rad (1 sigma). 181 x 128 beams.
+Stops3 DriveAlong(PlaceKind kind, std::uint64_t seed, int stops, double step_m);
+
 /// Two scans of one place, of which the second shows a part of what the first shows.
 struct ScanPair3 {
   Stops3 stops;

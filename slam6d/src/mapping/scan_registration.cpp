@@ -115,12 +115,24 @@ class Attempts {
   std::vector<RangeImageReference> images_;
 };
 
+/// As if either pose could be the true one.
+Matrix6d SpreadOf(const Pose3& a, const Pose3& b) {
+  Vector6d apart;
+  apart << b.translation_m - a.translation_m, RotationVector(b.rotation * a.rotation.transpose());
+  return apart * apart.transpose();
+}
+
 /// Of two, the one that convinces; if both do, the one that sees more of what the references saw.
+/// Where the pairs of that one never settled it may be the other all the same.
 Registration BetterOf(const Registration& a, const Registration& b) {
   const bool sees_more = a.convinces && b.agreement.Overlap() > a.agreement.Overlap();
   const bool is_second = a.convinces == b.convinces ? sees_more : b.convinces;
   Registration better = is_second ? b : a;
-  better.icp.search += (is_second ? a : b).icp.search;
+  const Registration& other = is_second ? a : b;
+  better.icp.search += other.icp.search;
+  if (other.convinces && better.icp.status == IcpStatus::kIterationLimit) {
+    better.icp.covariance += SpreadOf(better.icp.T_ref_cur, other.icp.T_ref_cur);
+  }
   return better;
 }
 

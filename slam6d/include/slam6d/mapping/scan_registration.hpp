@@ -55,6 +55,7 @@ struct Registration {
 /// from where overlapping octrees put it; then from where points, which find together from farther
 /// off, put it. Where pairs of a pose that convinces never settle, or leave a motion to the guess,
 /// the others are tried as well, and the one that sees most of what the references saw counts.
+/// Where the pairs of that one never settle, its covariance covers where the other is, too.
 ///
 /// Departing from Nüchter et al., ICP comes before the octrees: these cost many times as much.
 Registration RegisterScan(std::span<const PlacedScan> references,
