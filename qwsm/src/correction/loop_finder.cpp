@@ -17,6 +17,7 @@ namespace {
 // Scans so near to a submap see the same surfaces.
 constexpr double kReach_m = 4.0;
 constexpr double kWindowSigmas = 3.0;
+// What fits so near proves nothing of a scan that is as likely to be farther off.
 constexpr double kMaxWindow_m = 15.0;
 constexpr double kMinOverlap = 0.65;
 // Fewer turns of its lasers after a submap the robot is still on the same pass.
@@ -158,7 +159,8 @@ std::vector<LoopFinder::Candidate> LoopFinder::NearPasses(NodeId first,
     references.Keep(i, {seen.begin(), seen.begin() + later_submaps});
     for (auto k = static_cast<std::size_t>(later_submaps); k < seen.size(); ++k) {
       const double distance_m = seen[k].T_a_b.translation_m().norm();
-      if (distance_m > ReachOf(seen[k].SigmaXY_m())) continue;
+      const double sigma_m = seen[k].SigmaXY_m();
+      if (sigma_m > kMaxWindow_m || distance_m > ReachOf(sigma_m)) continue;
       nearest.Add({nodes[k], i, seen[k], distance_m}, submaps[i]);
     }
   }
