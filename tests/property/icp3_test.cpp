@@ -219,9 +219,7 @@ TEST(Icp3, CovarianceOfPlanesPredictsTheErrors) {
     const RoomPair room = MakePair(6000, seed);
     const IcpResult result = Align(room.ref, room.cur, Pose3{}, {});
     ASSERT_EQ(result.status, IcpStatus::kConverged);
-    Vector6d error;
-    error << result.T_ref_cur.translation_m - room.T_ref_cur.translation_m,
-        RotationVector(result.T_ref_cur.rotation * room.T_ref_cur.rotation.transpose());
+    const Vector6d error = Difference(result.T_ref_cur, room.T_ref_cur);
     nees += error.dot(result.covariance.inverse() * error) / kRooms;
   }
   EXPECT_GT(nees, 1.0);

@@ -178,9 +178,7 @@ double TrueOverlap(const Stops3& stops) {
 }  // namespace
 
 double NeesOf(const Pose3& pose, const Matrix6d& covariance, const Pose3& truth) {
-  Vector6d error;
-  error << pose.translation_m - truth.translation_m,
-      RotationVector(pose.rotation * truth.rotation.transpose());
+  const Vector6d error = Difference(pose, truth);
   return error.dot(covariance.inverse() * error) / 6.0;
 }
 

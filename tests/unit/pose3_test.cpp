@@ -24,7 +24,7 @@ Pose3 DrawPose(std::mt19937& random) {
   return {.rotation = RotationFromVector(Draw(random, 1.7)), .translation_m = Draw(random, 100.0)};
 }
 
-double Difference(const Pose3& a, const Pose3& b) {
+double NormOfDifference(const Pose3& a, const Pose3& b) {
   return (a.rotation - b.rotation).norm() + (a.translation_m - b.translation_m).norm();
 }
 
@@ -42,9 +42,9 @@ TEST(Pose3, ObeysTheGroupLaws) {
     const Pose3 a = DrawPose(random);
     const Pose3 b = DrawPose(random);
     const Pose3 c = DrawPose(random);
-    EXPECT_NEAR(Difference(a * a.Inverse(), Pose3{}), 0.0, 1e-12);
-    EXPECT_NEAR(Difference((a * b) * c, a * (b * c)), 0.0, 1e-11);
-    EXPECT_NEAR(Difference((a * b).Inverse(), b.Inverse() * a.Inverse()), 0.0, 1e-11);
+    EXPECT_NEAR(NormOfDifference(a * a.Inverse(), Pose3{}), 0.0, 1e-12);
+    EXPECT_NEAR(NormOfDifference((a * b) * c, a * (b * c)), 0.0, 1e-11);
+    EXPECT_NEAR(NormOfDifference((a * b).Inverse(), b.Inverse() * a.Inverse()), 0.0, 1e-11);
   }
 }
 
@@ -141,9 +141,7 @@ TEST(Pose3, ComposedCovariancePredictsTheSpread) {
   constexpr int kDraws = 20'000;
   for (int i = 0; i < kDraws; ++i) {
     const Pose3 drawn = disturb(a_b) * disturb(b_c);
-    Vector6d e;
-    e << drawn.translation_m - a_c.T_a_b.translation_m,
-        RotationVector(drawn.rotation * a_c.T_a_b.rotation.transpose());
+    const Vector6d e = Difference(drawn, a_c.T_a_b);
     spread += e * e.transpose() / kDraws;
   }
   EXPECT_LT((spread - a_c.covariance).norm(), 0.05 * a_c.covariance.norm());

@@ -239,8 +239,9 @@ std::optional<PathsApart> RobotTracker::ComparePaths(const ScanMap& map,
   const UncertainPose2 expected = PathOfMatches() * last_robot;
   auto apart = PathsApart::Weigh(
       points, apart_, expected, end_at(match), end_at(there), options_.free_space.max_moving_share);
-  const bool has_slipped = apart_ || IsSlipTold(points, expected, match, there);
-  if (apart ? apart->is_by_odometry() : !has_slipped) match = there;
+  const bool stays =
+      apart ? apart->is_by_odometry() : !apart_ && !IsSlipTold(points, expected, match, there);
+  if (stays) match = there;
   return apart;
 }
 

@@ -100,6 +100,13 @@ Pose3 ScaledMotion(const Pose3& motion, double share) {
           .translation_m = share * motion.translation_m};
 }
 
+Vector6d Difference(const Pose3& a, const Pose3& b) {
+  Vector6d difference;
+  difference << a.translation_m - b.translation_m,
+      RotationVector(a.rotation * b.rotation.transpose());
+  return difference;
+}
+
 bool IsFinite(const Pose3& pose) {
   return pose.rotation.allFinite() && pose.translation_m.allFinite();
 }

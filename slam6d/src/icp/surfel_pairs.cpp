@@ -276,9 +276,7 @@ IcpStep SurfelPairs::Step(const Sums& sums, const PoseAndGuess& T_map, const Icp
                .rms_residual_m = std::sqrt(sums.residual2_m2 / count),
                .settled = sums.settled};
   if (sums.pairs < 6 || LeavesMotionOpen(sums.A)) return step;
-  Vector6d to_guess;
-  to_guess << T_map.guess.T_a_b.translation_m - T_map.now.translation_m,
-      RotationVector(T_map.guess.T_a_b.rotation * T_map.now.rotation.transpose());
+  const Vector6d to_guess = Difference(T_map.guess.T_a_b, T_map.now);
   const Matrix6d prior = ToldByGuess(T_map.guess);
   const ObservableMotions observable(sums.A, sums.A_noise, ScatterOf(sums, prior));
   const Matrix6d information = observable.Information() + prior;

@@ -23,13 +23,6 @@ Pose3 Displaced(const Pose3& pose, const Vector6d& motion) {
           .translation_m = pose.translation_m + motion.head<3>()};
 }
 
-Vector6d MotionBetween(const Pose3& before, const Pose3& after) {
-  Vector6d motion;
-  motion << after.translation_m - before.translation_m,
-      RotationVector(after.rotation * before.rotation.transpose());
-  return motion;
-}
-
 }  // namespace
 
 OpenMotions::OpenMotions(const IcpResult& result,
@@ -58,7 +51,7 @@ Matrix6d OpenMotions::Covariance(std::span<const IcpReference> references,
       const IcpResult end = Align(references, cur, start, options_);
       Vector6d moved = deviations * along;
       if (end.covariance.trace() > 0.0) {
-        const Vector6d all = MotionBetween(result_.T_ref_cur, end.T_ref_cur);
+        const Vector6d all = Difference(end.T_ref_cur, result_.T_ref_cur);
         moved += all - coordinates_.col(k).dot(all) * motions_.col(k);
       }
       spread += kWeight * moved * moved.transpose();

@@ -101,9 +101,7 @@ class Attempts {
   }
 
   bool IsWithinReach(const Pose3& T_map_cur) const {
-    Vector6d error;
-    error << T_map_cur.translation_m - guess_.T_a_b.translation_m,
-        RotationVector(T_map_cur.rotation * guess_.T_a_b.rotation.transpose());
+    const Vector6d error = Difference(T_map_cur, guess_.T_a_b);
     return error.dot(SolvePositive(guess_.covariance, error)) <= kMostGuessChi2;
   }
 
@@ -117,8 +115,7 @@ class Attempts {
 
 /// As if either pose could be the true one.
 Matrix6d SpreadOf(const Pose3& a, const Pose3& b) {
-  Vector6d apart;
-  apart << b.translation_m - a.translation_m, RotationVector(b.rotation * a.rotation.transpose());
+  const Vector6d apart = Difference(b, a);
   return apart * apart.transpose();
 }
 

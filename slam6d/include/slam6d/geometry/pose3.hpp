@@ -33,6 +33,10 @@ struct UncertainPose3 {
   Matrix6d covariance = Matrix6d::Zero();
 };
 
+/// The translation, and the rotation vector, from the second pose to the first along the axes of
+/// their parent frame, as covariances are of.
+Vector6d Difference(const Pose3& a, const Pose3& b);
+
 /// The matrix with `Skew(a) * b == a.cross(b)`.
 Eigen::Matrix3d Skew(const Eigen::Vector3d& a);
 
