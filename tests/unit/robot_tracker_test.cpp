@@ -102,4 +102,23 @@ TEST(RobotTracker, ExtendsByThePointsThatDoNotMove) {
 }
 
 }  // namespace
+// A scan comes with the odometry of the one before it, and the next one with all of the motion.
+TEST(RobotTracker, FollowsTheMapWhereOdometryIsLate) {
+  const ScanMap map = MapFrom(kStart);
+  RobotTracker tracker;
+  tracker.PlaceAt(UncertainPose2::WithSigmas(kStart, 0.01, 0.001), Pose2{});
+  for (int i = 0; i < 20; ++i) {
+    SCOPED_TRACE(i);
+    const auto T_start_robot = [](int scan) { return Pose2{0.25 * scan, 0.0, 0.0}; };
+    const Pose2 T_map_robot = kStart * T_start_robot(i);
+    const bool is_late = i == 15;
+    LaserScan scan = ScanFrom(T_map_robot, Room(), static_cast<unsigned>(i));
+    scan.stamp = std::chrono::milliseconds(200 * i);
+    const Observation observation{.scan = scan, .T_odom_robot = T_start_robot(is_late ? i - 1 : i)};
+    const MappingStep step = tracker.Track(map, observation).step;
+    EXPECT_EQ(step.status, StepStatus::kMatched);
+    EXPECT_LT((step.map_robot.T_a_b.translation_m() - T_map_robot.translation_m()).norm(), 0.03);
+  }
+}
+
 }  // namespace qwsm::test

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "odometry_failure.hpp"
 #include "pose_in_map.hpp"
 #include "qwsm/geometry/position.hpp"
 #include "qwsm/mapping/place_evidence.hpp"
@@ -187,17 +188,14 @@ bool RobotTracker::DropFailedOdometry(const ScanMap& map,
                                       MappingStep& step) const {
   if (!observation.T_odom_robot) return true;
   const double share = lasers_.ShareOfPeriod(observation.scan);
-  // Where nearly all of the scan is explained, no pose is convincingly better, nor need be sought.
-  const bool is_surprising = motion_.IsSurprising(observation.T_odom_robot, share) &&
-                             IsConvincinglyBetter(points, 1.0, step.match.overlap);
-  if (!is_odometry_suspect_ && !is_surprising) return false;
+  const bool is_surprising = motion_.IsSurprising(observation.T_odom_robot, share);
+  const OdometryFailure failure(map, points, step.match);
+  if (!is_odometry_suspect_ && !failure.IsPossible(is_surprising)) return false;
   const PosePrediction without_odometry = motion_.Predict(std::nullopt, share);
   const MatchResult other =
       locator_.Locate(map, points, local_last_ * without_odometry.conservative, seen_free_);
-  if (is_odometry_suspect_ ? other.overlap < step.match.overlap
-                           : !IsConvincinglyBetter(points, other.overlap, step.match.overlap)) {
-    return false;
-  }
+  const bool is_better = other.overlap >= step.match.overlap;
+  if (!(is_odometry_suspect_ ? is_better : failure.IsShownBy(other))) return false;
   last_robot = without_odometry;
   step.match = other;
   return true;

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+
+#include "qwsm/mapping/scan_map.hpp"
+#include "qwsm/matching/match_result.hpp"
+#include "qwsm/sensor/scan_points.hpp"
+
+namespace qwsm {
+
+/// Weighs whether odometry has failed since the last scan, by what the map tells of this one.
+class OdometryFailure {
+ public:
+  /// @param map, points, by_odometry: outlive this. The last is where the scan was found near
+  ///   where odometry has the robot.
+  OdometryFailure(const ScanMap& map,
+                  std::span<const ScanPoint> points,
+                  const MatchResult& by_odometry)
+      : map_(map), points_(points), by_odometry_(by_odometry) {}
+
+  /// Whether it is worth while to look elsewhere.
+  /// @param is_surprising whether odometry tells of a motion that nobody expects.
+  bool IsPossible(bool is_surprising) const;
+  /// Whether odometry has failed. @param other where the scan was found without it.
+  bool IsShownBy(const MatchResult& other) const;
+
+ private:
+  const ScanMap& map_;
+  std::span<const ScanPoint> points_;
+  const MatchResult& by_odometry_;
+};
+
+}  // namespace qwsm
