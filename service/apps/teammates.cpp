@@ -4,17 +4,17 @@
 
 #include <utility>
 
-#include "service/team/map/moving_bodies.hpp"
+#include "service/team/map/moving_robots.hpp"
 #include "service/team/service/team_options.hpp"
 
 namespace qwsm::apps {
 
 pipeline::Answer WithoutTeammates(pipeline::Answer answer) {
   return [answer = std::move(answer),
-          bodies = team::MovingBodies(),
+          bodies = MovingBodies(),
           radius_m = team::TeamOptions().teammate_radius_m](Observation observation) mutable {
     if (observation.T_odom_robot) {
-      bodies.Hide(radius_m, *observation.T_odom_robot, observation.scan);
+      team::HideMovingRobots(radius_m, *observation.T_odom_robot, bodies, observation.scan);
     } else {
       bodies.Forget();
     }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -87,7 +88,8 @@ TEST(RobotTracker, ExtendsByThePointsThatDoNotMove) {
     SCOPED_TRACE(i);
     const bool somebody_came = i == 2;
     const Pose2 T_start_robot{0.6 * i, 0.0, 0.0};
-    const LaserScan scan = ScanFrom(kStart * T_start_robot, somebody_came ? somebody : Room());
+    LaserScan scan = ScanFrom(kStart * T_start_robot, somebody_came ? somebody : Room());
+    scan.stamp = std::chrono::seconds(i);
     const TrackedScan tracked = tracker.Track(map, {.scan = scan, .T_odom_robot = T_start_robot});
     ASSERT_TRUE(tracked.step.relevant);
     const std::vector<ScanPoint> relevant = tracked.RelevantPoints();
@@ -101,7 +103,6 @@ TEST(RobotTracker, ExtendsByThePointsThatDoNotMove) {
   }
 }
 
-}  // namespace
 // A scan comes with the odometry of the one before it, and the next one with all of the motion.
 TEST(RobotTracker, FollowsTheMapWhereOdometryIsLate) {
   const ScanMap map = MapFrom(kStart);
@@ -121,4 +122,5 @@ TEST(RobotTracker, FollowsTheMapWhereOdometryIsLate) {
   }
 }
 
+}  // namespace
 }  // namespace qwsm::test

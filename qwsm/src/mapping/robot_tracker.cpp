@@ -60,12 +60,14 @@ void RobotTracker::FollowCorrection(const UncertainPose2& map_robot) {
   if (held_) held_->local = new_old * held_->local;
   submap_.Move(T_new_old);
   seen_free_.Move(T_new_old);
+  bodies_.Move(T_new_old);
   dead_reckoning_.Move(T_new_old);
   if (apart_) apart_->Move(T_new_old);
   slip_.Interrupt();
 }
 
-TrackedScan RobotTracker::Track(const ScanMap& map, const Observation& observation) {
+TrackedScan RobotTracker::Track(const ScanMap& map, const Observation& told) {
+  const Observation observation = bodies_.HiddenIn(told);
   const std::optional<Pose2> T_by_gyro = gyro_.Follow(observation);
   const std::optional<Pose2> T_odom_robot = calibration_.Follow(T_by_gyro, gyro_.leads());
   motion_.SetHeadingByGyro(gyro_.leads());
@@ -73,6 +75,7 @@ TrackedScan RobotTracker::Track(const ScanMap& map, const Observation& observati
   MappingStep& step = sighting.step;
   const Observation& still = sighting.observation;
   LearnMotion(sighting, map.scans().size());
+  bodies_.Place(step.map_robot.T_a_b);
   // A scan whose pose is dead-reckoned extends the map like any other once the robot has moved on:
   // beyond the surfaces mapped so far no scan can be matched, and the map would end there for good.
   // The covariance of the pose goes with its points.
@@ -344,8 +347,9 @@ void RobotTracker::Extend(bool extends,
   if (step.closed_loop) held.reset();  // It was seen from a pose that has just been corrected.
   if (held) held->map_robot.T_a_b = lasers_.WithHindsight(held->local, held->observation).T_a_b;
   if (extends) {
-    const auto moving = seen_free_.MovingAmong(points, step.map_robot.T_a_b);
-    held_ = {.observation = {.scan = WithoutMarked(observation.scan, points, moving),
+    auto passing = seen_free_.MovingAmong(points, step.map_robot.T_a_b);
+    bodies_.MarkPassing(points, passing);
+    held_ = {.observation = {.scan = WithoutMarked(observation.scan, points, passing),
                              .T_odom_robot = observation.T_odom_robot},
              .map_robot = step.map_robot,
              .local = {.T_a_b = step.map_robot.T_a_b, .covariance = step.local_covariance},

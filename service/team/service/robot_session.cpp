@@ -8,6 +8,7 @@
 
 #include "qwsm/geometry/frame_covariance.hpp"
 #include "qwsm/geometry/position.hpp"
+#include "service/team/map/moving_robots.hpp"
 #include "service/team/scans/component.hpp"
 
 namespace qwsm::team {
@@ -324,7 +325,7 @@ void RobotSession::HideUnplacedRobots(Work& work) {
   if (are_all_placed || !work.T_odom_robot || !work.odometry_goes_on || work.odometry_jumped) {
     return bodies_.Forget();
   }
-  bodies_.Hide(context_.teammate_radius_m, *work.T_odom_robot, work.scan);
+  HideMovingRobots(context_.teammate_radius_m, *work.T_odom_robot, bodies_, work.scan);
 }
 
 SessionCounts RobotSession::Note(const Work& work,

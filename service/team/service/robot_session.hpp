@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "qwsm/correction/node_maker.hpp"
+#include "qwsm/mapping/moving_bodies.hpp"
 #include "qwsm/mapping/place_watch.hpp"
 #include "service/team/atlas/map_merger.hpp"
 #include "service/team/atlas/team_atlas.hpp"
-#include "service/team/map/moving_bodies.hpp"
 #include "service/team/service/contested_tracker.hpp"
 #include "service/team/session/correction_easing.hpp"
 #include "service/team/session/session_intake.hpp"

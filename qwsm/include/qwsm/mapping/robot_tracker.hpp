@@ -15,6 +15,7 @@
 #include "qwsm/mapping/mapper_options.hpp"
 #include "qwsm/mapping/mapping_step.hpp"
 #include "qwsm/mapping/motion_model.hpp"
+#include "qwsm/mapping/moving_bodies.hpp"
 #include "qwsm/mapping/observation.hpp"
 #include "qwsm/mapping/odometry_calibration.hpp"
 #include "qwsm/mapping/paths_apart.hpp"
@@ -52,7 +53,7 @@ class RobotTracker {
   void FollowCorrection(const UncertainPose2& map_robot);
 
   /// Finds where the robot is. If the step is relevant, the map ought to be extended with its scan.
-  TrackedScan Track(const ScanMap& map, const Observation& observation);
+  TrackedScan Track(const ScanMap& map, const Observation& told);
 
   /// The pose at the last scan, or the one given since.
   const UncertainPose2& map_robot() const { return map_last_; }
@@ -135,6 +136,7 @@ class RobotTracker {
   LoopDetector loop_detector_;
   LocalSubmap submap_;
   FreeSpace seen_free_;
+  MovingBodies bodies_;
   UncertainPose2 map_last_;    // Pose at the last scan, or as given since.
   UncertainPose2 local_last_;  // The same, as uncertain as relative to the map around.
   std::optional<HeldScan> held_;
