@@ -110,29 +110,31 @@ void MovingBodies::Follow(const LaserScan& scan, const Pose2& T_odom_robot) {
   });
   const bool is_followed = last_ && std::chrono::abs(scan.stamp - *last_) <= kOutOfSight;
   last_ = scan.stamp;
+  robot_odom_m_ = T_odom_robot.translation_m();
   if (!is_followed) return;
   for (const Row& row : RowsOf(scan)) {
     if (!IsFreeStanding(scan, row)) continue;
-    const Sighting sighting{.stamp = scan.stamp,
-                            .T_odom_robot = T_odom_robot,
-                            .T_map_robot = {},
-                            .p_robot_m = scan.geometry.T_robot_laser * MiddleOf(scan, row)};
-    in_scan_.push_back({.first_beam = row.first,
-                        .last_beam = row.last,
-                        .p_robot_m = sighting.p_robot_m,
-                        .has_background = HasBackground(scan, row),
-                        .body = BodyAt(sighting)});
+    const Eigen::Vector2d p_robot_m = scan.geometry.T_robot_laser * MiddleOf(scan, row);
+    in_scan_.push_back(
+        {.seen = {.first_beam = row.first,
+                  .last_beam = row.last,
+                  .p_robot_m = p_robot_m,
+                  .has_background = HasBackground(scan, row)},
+         .body = BodyAt(
+             {.stamp = scan.stamp, .p_robot_m = p_robot_m, .p_odom_m = T_odom_robot * p_robot_m})});
   }
 }
 
 void MovingBodies::Place(const Pose2& T_map_robot) {
-  for (const InScan& seen : in_scan_) {
-    Body& body = bodies_[seen.body];
+  for (const InScan& one : in_scan_) {
+    Body& body = bodies_[one.body];
     for (auto now = body.sightings.rbegin(); now != body.sightings.rend() && now->stamp == *last_;
          ++now) {
-      now->T_map_robot = T_map_robot;
+      now->p_map_m = T_map_robot * now->p_robot_m;
     }
-    body.has_moved = body.has_moved || Moves(body);
+    body.has_moved =
+        body.has_moved || (Moves(body, &Sighting::p_odom_m, robot_odom_m_) &&
+                           Moves(body, &Sighting::p_map_m, T_map_robot.translation_m()));
   }
 }
 
@@ -141,12 +143,9 @@ std::vector<MovingBodies::Seen> MovingBodies::seen() const {
   seen.reserve(in_scan_.size());
   for (const InScan& one : in_scan_) {
     const Body& body = bodies_[one.body];
-    seen.push_back({.first_beam = one.first_beam,
-                    .last_beam = one.last_beam,
-                    .p_robot_m = one.p_robot_m,
-                    .has_background = one.has_background,
-                    .moves = body.has_moved,
-                    .followed = std::chrono::abs(*last_ - body.first_seen)});
+    seen.push_back(one.seen);
+    seen.back().moves = body.has_moved;
+    seen.back().followed = std::chrono::abs(*last_ - body.first_seen);
   }
   return seen;
 }
@@ -159,10 +158,10 @@ Observation MovingBodies::HiddenIn(Observation observation) {
   }
   Follow(observation.scan, *observation.T_odom_robot);
   std::vector<float>& ranges_m = observation.scan.ranges_m;
-  for (const InScan& seen : in_scan_) {
-    if (!bodies_[seen.body].has_moved) continue;
-    const auto first = ranges_m.begin() + static_cast<std::ptrdiff_t>(seen.first_beam);
-    const auto last = ranges_m.begin() + static_cast<std::ptrdiff_t>(seen.last_beam);
+  for (const Seen& body : seen()) {
+    if (!body.moves) continue;
+    const auto first = ranges_m.begin() + static_cast<std::ptrdiff_t>(body.first_beam);
+    const auto last = ranges_m.begin() + static_cast<std::ptrdiff_t>(body.last_beam);
     std::fill(first, last + 1, std::numeric_limits<float>::quiet_NaN());
   }
   return observation;
@@ -186,7 +185,7 @@ void MovingBodies::MarkPassing(std::span<const ScanPoint> points,
 
 void MovingBodies::Move(const Pose2& T_new_old) {
   for (Body& body : bodies_) {
-    for (Sighting& seen : body.sightings) seen.T_map_robot = T_new_old * seen.T_map_robot;
+    for (Sighting& seen : body.sightings) seen.p_map_m = T_new_old * seen.p_map_m;
   }
 }
 
@@ -198,7 +197,7 @@ void MovingBodies::Forget() {
 
 std::size_t MovingBodies::BodyAt(const Sighting& seen) {
   const auto off_m = [&](const Body& body) {
-    return (body.sightings.back().p_odom_m() - seen.p_odom_m()).norm();
+    return (body.sightings.back().p_odom_m - seen.p_odom_m).norm();
   };
   auto body = std::ranges::min_element(bodies_, {}, off_m);
   if (body == bodies_.end() || off_m(*body) > kSameBody_m) {
@@ -211,19 +210,13 @@ std::size_t MovingBodies::BodyAt(const Sighting& seen) {
   return static_cast<std::size_t>(body - bodies_.begin());
 }
 
-bool MovingBodies::Moves(const Body& body) {
-  return MovesIn(&Sighting::T_odom_robot, body) && MovesIn(&Sighting::T_map_robot, body);
-}
-
-bool MovingBodies::MovesIn(Pose2 Sighting::*frame, const Body& body) {
-  const auto position_m = [&](const Sighting& seen) -> Eigen::Vector2d {
-    return seen.*frame * seen.p_robot_m;
-  };
-  const Sighting& last = body.sightings.back();
-  const Eigen::Vector2d robot_m = (last.*frame).translation_m();
-  const Eigen::Vector2d first_m = position_m(body.sightings.front());
-  const Eigen::Vector2d middle_m = position_m(body.sightings[body.sightings.size() / 2]);
-  const Eigen::Vector2d last_m = position_m(last);
+// In the frame of the positions. @param robot_m where the robot is there now.
+bool MovingBodies::Moves(const Body& body,
+                         Eigen::Vector2d Sighting::*position,
+                         const Eigen::Vector2d& robot_m) {
+  const Eigen::Vector2d& first_m = body.sightings.front().*position;
+  const Eigen::Vector2d& middle_m = body.sightings[body.sightings.size() / 2].*position;
+  const Eigen::Vector2d& last_m = body.sightings.back().*position;
   const double beside_m = (middle_m - 0.5 * (first_m + last_m)).norm();
   return Way_m(first_m - robot_m, last_m - robot_m) > kMoved_m &&
          beside_m < kBesideHalfWay * (last_m - first_m).norm();

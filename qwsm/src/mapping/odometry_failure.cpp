@@ -10,7 +10,7 @@ namespace qwsm {
 namespace {
 
 // A chance of 1 in 100 that a scan fits so by chance, and the odds against a slip.
-constexpr double kNatsAgainstOdometry = 4.6 + kSlipNats;
+constexpr double kNatsAgainstOdometry = kConvincingNats + kSlipNats;
 
 }  // namespace
 

@@ -12,8 +12,7 @@
 namespace qwsm {
 namespace {
 
-constexpr double kDecidingNats = 4.6;  // A chance of 1 in 100 of the wrong path.
-// And of 1 in 10 that what is seen of the map fits there by chance.
+// A chance of 1 in 10 that what is seen of the map fits there by chance.
 constexpr double kLeastOfTheRest = 2.3;
 
 // By how much a scan speaks for the pose of the match rather than for the other one. What was put
@@ -57,7 +56,7 @@ std::optional<PathsApart> PathsApart::Weigh(std::span<const ScanPoint> points,
   return apart;
 }
 
-bool PathsApart::is_decided() const { return std::abs(nats_for_match_) > kDecidingNats; }
+bool PathsApart::is_decided() const { return std::abs(nats_for_match_) > kConvincingNats; }
 
 bool IsSlipTold(std::span<const ScanPoint> points,
                 const UncertainPose2& expected,

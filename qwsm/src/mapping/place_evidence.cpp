@@ -15,8 +15,6 @@ constexpr double kSeenFrom_m = 10.0;        // Scans farther off see little of w
 constexpr double kForgotten_m = 20.0;       // Of a robot that goes on, scans farther off.
 constexpr double kPointsThatTellOne = 3.0;  // As in matching.
 
-constexpr double kConvincingNats = 4.6;  // A chance of 1 in 100.
-
 constexpr double kOnSurface_m = 0.05;
 constexpr double kOneSurface_m = 0.15;  // Points so near to each other are of one surface.
 

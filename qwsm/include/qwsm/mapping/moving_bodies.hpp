@@ -58,11 +58,9 @@ class MovingBodies {
  private:
   struct Sighting {
     Timestamp stamp{};
-    Pose2 T_odom_robot;
-    Pose2 T_map_robot;
     Eigen::Vector2d p_robot_m = Eigen::Vector2d::Zero();
-
-    Eigen::Vector2d p_odom_m() const { return T_odom_robot * p_robot_m; }
+    Eigen::Vector2d p_odom_m = Eigen::Vector2d::Zero();
+    Eigen::Vector2d p_map_m = Eigen::Vector2d::Zero();  // Once the scan is placed.
   };
   struct Body {
     std::deque<Sighting> sightings;  // Of the last second; the newest last.
@@ -70,20 +68,19 @@ class MovingBodies {
     bool has_moved = false;
   };
   struct InScan {
-    std::size_t first_beam = 0;
-    std::size_t last_beam = 0;
-    Eigen::Vector2d p_robot_m = Eigen::Vector2d::Zero();
-    bool has_background = false;
+    Seen seen;  // But for what is known of the body.
     std::size_t body = 0;
   };
 
   std::size_t BodyAt(const Sighting& seen);
-  static bool Moves(const Body& body);
-  static bool MovesIn(Pose2 Sighting::*frame, const Body& body);
+  static bool Moves(const Body& body,
+                    Eigen::Vector2d Sighting::*position,
+                    const Eigen::Vector2d& robot_m);
 
   std::vector<Body> bodies_;
   std::vector<InScan> in_scan_;    // Those in the last scan.
-  std::optional<Timestamp> last_;  // When it was taken.
+  std::optional<Timestamp> last_;  // When it was taken,
+  Eigen::Vector2d robot_odom_m_ = Eigen::Vector2d::Zero();  // and where.
 };
 
 }  // namespace qwsm

@@ -116,6 +116,9 @@ class PlaceEvidence {
 /// explained, rather than for another one.
 double LeadInNats(double told, double explained, double other);
 
+/// Evidence that leaves a chance of 1 in 100.
+inline constexpr double kConvincingNats = 4.6;
+
 /// Whether a scan was taken at the pose where so much of it is explained, neither at another one nor
 /// at a place that is like it, but for a chance of 1 in 100.
 /// @param other share that is explained at the other pose.
