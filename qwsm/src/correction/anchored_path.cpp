@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "anchored_path.hpp"
 
-#include <chrono>
+#include <Eigen/LU>
 
 #include "qwsm/geometry/frame_covariance.hpp"
 
@@ -20,18 +20,37 @@ Pose2 Between(const Pose2& a, const Pose2& b, double share) {
 }  // namespace
 
 void AnchoredPath::Take(const MappingStep& step, const UncertainPose2& map_last) {
+  const double strain = StrainOf(step, map_last);
+  const double since_last = answers_.empty() ? 0.0 : answers_.back().strain;
+  const bool is_node = step.relevant && step.map_relevant.T_a_b == step.map_robot.T_a_b;
   if (step.relevant) {
-    anchors_.push_back({.stamp = step.relevant_scan.stamp, .T_last_this = {}});
+    anchors_.push_back({.T_last_this = {}, .strain = since_last + (is_node ? strain : 0.0)});
     if (anchors_.size() > 1 && !step.closed_loop) {
       anchors_.back().T_last_this = map_last.T_a_b.Inverse() * step.map_relevant.T_a_b;
     }
   }
-  answers_.push_back({.stamp = step.stamp, .node_robot = step.map_robot, .node = {}});
+  answers_.push_back({.node_robot = step.map_robot, .node = {}});
   if (anchors_.empty()) return;
-  answers_.back().node = static_cast<NodeId>(anchors_.size() - 1);
-  const UncertainPose2& map_node = step.relevant ? step.map_relevant : map_last;
-  const bool is_node = step.relevant && step.map_relevant.T_a_b == step.map_robot.T_a_b;
-  answers_.back().node_robot = is_node ? UncertainPose2{} : Since(map_node, step.map_robot);
+  Answer& answer = answers_.back();
+  answer.node = static_cast<NodeId>(anchors_.size() - 1);
+  if (!step.relevant) answer.strain = since_last;
+  if (is_node) {
+    answer.node_robot = {};
+  } else {
+    answer.node_robot = Since(step.relevant ? step.map_relevant : map_last, step.map_robot);
+    answer.strain += strain;
+  }
+}
+
+// How much an answer is expected to have been off beside the one before: each as much as any other,
+// and as many times more as it went elsewhere than odometry, in variances.
+double AnchoredPath::StrainOf(const MappingStep& step, const UncertainPose2& map_last) const {
+  const Eigen::Matrix3d& of_odometry = step.odometry_motion.covariance;
+  if (answers_.empty() || of_odometry.isZero()) return 1.0;
+  const Pose2 T_map_before = map_last.T_a_b * answers_.back().node_robot.T_a_b;
+  const Eigen::Vector3d off =
+      Difference(T_map_before.Inverse() * step.map_robot.T_a_b, step.odometry_motion.T_a_b);
+  return 1.0 + off.dot(of_odometry.inverse() * off);
 }
 
 void AnchoredPath::ForgetSince(std::size_t first_answer, NodeId first_node) {
@@ -56,13 +75,11 @@ Pose2 AnchoredPath::Interpolated(const Answer& answer,
   const NodeId before = *answer.node;
   const NodeId after = before + 1;
   const Pose2 by_before = map_node[before].T_a_b * answer.node_robot.T_a_b;
-  if (after == anchors_.size() || !anchors_[after].T_last_this) return by_before;
+  const bool goes_on = after < anchors_.size() && anchors_[after].T_last_this;
+  if (answer.strain == 0.0 || !goes_on) return by_before;
   const Pose2 T_before_map = *anchors_[after].T_last_this * map_node[after].T_a_b.Inverse();
   const Pose2 by_after = T_before_map.Inverse() * answer.node_robot.T_a_b;
-  using Seconds = std::chrono::duration<double>;
-  const Seconds since = answer.stamp - anchors_[before].stamp;
-  const Seconds whole = anchors_[after].stamp - anchors_[before].stamp;
-  return Between(by_before, by_after, whole.count() > 0.0 ? since / whole : 0.0);
+  return Between(by_before, by_after, answer.strain / anchors_[after].strain);
 }
 
 }  // namespace qwsm

@@ -25,20 +25,22 @@ class AnchoredPath {
   void ForgetSince(std::size_t first_answer, NodeId first_node);
 
   /// The path when the nodes are there. Between two nodes it goes from the correction of the one
-  /// to that of the other as time goes; where the answers did not continue, it keeps the first.
+  /// to that of the other, scan by scan, and most of the way where an answer went elsewhere than
+  /// odometry; where the answers did not continue, it keeps the first.
   std::vector<UncertainPose2> At(std::span<const UncertainPose2> map_node) const;
 
  private:
   struct Answer {
-    Timestamp stamp{};
     UncertainPose2 node_robot;   // As seen from that node; else in the map.
     std::optional<NodeId> node;  // The last one before it, or itself.
+    double strain = 0.0;         // Of the answers since that node.
   };
   struct Anchor {
-    Timestamp stamp{};
     std::optional<Pose2> T_last_this;  // As seen from the node before, if the answers continued.
+    double strain = 0.0;               // Of the answers since the node before.
   };
 
+  double StrainOf(const MappingStep& step, const UncertainPose2& map_last) const;
   Pose2 Interpolated(const Answer& answer, std::span<const UncertainPose2> map_node) const;
 
   std::vector<Answer> answers_;
