@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "anchored_path.hpp"
 
-#include <Eigen/LU>
-
 #include "qwsm/geometry/frame_covariance.hpp"
 
 namespace qwsm {
@@ -33,24 +31,21 @@ void AnchoredPath::Take(const MappingStep& step, const UncertainPose2& map_last)
   if (anchors_.empty()) return;
   Answer& answer = answers_.back();
   answer.node = static_cast<NodeId>(anchors_.size() - 1);
-  if (!step.relevant) answer.strain = since_last;
   if (is_node) {
     answer.node_robot = {};
-  } else {
-    answer.node_robot = Since(step.relevant ? step.map_relevant : map_last, step.map_robot);
-    answer.strain += strain;
+    return;
   }
+  answer.node_robot = Since(step.relevant ? step.map_relevant : map_last, step.map_robot);
+  answer.strain = strain + (step.relevant ? 0.0 : since_last);
 }
 
 // How much an answer is expected to have been off beside the one before: each as much as any other,
 // and as many times more as it went elsewhere than odometry, in variances.
 double AnchoredPath::StrainOf(const MappingStep& step, const UncertainPose2& map_last) const {
-  const Eigen::Matrix3d& of_odometry = step.odometry_motion.covariance;
-  if (answers_.empty() || of_odometry.isZero()) return 1.0;
+  if (answers_.empty() || step.odometry_motion.covariance.isZero()) return 1.0;
   const Pose2 T_map_before = map_last.T_a_b * answers_.back().node_robot.T_a_b;
-  const Eigen::Vector3d off =
-      Difference(T_map_before.Inverse() * step.map_robot.T_a_b, step.odometry_motion.T_a_b);
-  return 1.0 + off.dot(of_odometry.inverse() * off);
+  const UncertainPose2 answered{.T_a_b = T_map_before.Inverse() * step.map_robot.T_a_b};
+  return 1.0 + SquaredMahalanobisDistance(step.odometry_motion, answered);
 }
 
 void AnchoredPath::ForgetSince(std::size_t first_answer, NodeId first_node) {

@@ -33,11 +33,11 @@ class AnchoredPath {
   struct Answer {
     UncertainPose2 node_robot;   // As seen from that node; else in the map.
     std::optional<NodeId> node;  // The last one before it, or itself.
-    double strain = 0.0;         // Of the answers since that node.
+    double strain = 0.0;         // Sum of StrainOf() of the answers since that node.
   };
   struct Anchor {
     std::optional<Pose2> T_last_this;  // As seen from the node before, if the answers continued.
-    double strain = 0.0;               // Of the answers since the node before.
+    double strain = 0.0;               // Likewise since the node before.
   };
 
   double StrainOf(const MappingStep& step, const UncertainPose2& map_last) const;

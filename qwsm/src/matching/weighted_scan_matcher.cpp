@@ -9,6 +9,7 @@
 
 #include "pairing.hpp"
 #include "pseudo_inverse.hpp"
+#include "qwsm/geometry/frame_covariance.hpp"
 
 namespace qwsm {
 namespace {
@@ -98,8 +99,8 @@ bool IsSmall(const Eigen::Vector3d& step, const WeightedScanMatcherOptions& opti
 bool IsConsistent(const MatchResult& result,
                   const MatchPrior& prior,
                   const WeightedScanMatcherOptions& options) {
-  const Eigen::Vector3d way = Difference(result.T_ref_cur, prior.predicted.T_a_b);
-  const double sigmas2 = way.dot(prior.predicted.covariance.inverse() * way);
+  const UncertainPose2 answer{.T_a_b = result.T_ref_cur};
+  const double sigmas2 = SquaredMahalanobisDistance(prior.predicted, answer);
   return result.overlap >= options.min_overlap &&
          sigmas2 <= options.max_prior_sigmas * options.max_prior_sigmas;
 }
