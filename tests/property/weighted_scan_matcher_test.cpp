@@ -224,6 +224,47 @@ TEST(WeightedScanMatcher, RoundTrunksDoNotPullAhead) {
   EXPECT_NEAR(ahead_m, 0.0, 0.002);
 }
 
+// Points along a wall, as a laser at the origin sees them.
+std::vector<ScanPoint> WallPoints(const Wall& wall, const Eigen::Vector2d& normal) {
+  constexpr double kSpacing_m = 0.01;
+  const Eigen::Vector2d way_m = wall.to_m - wall.from_m;
+  std::vector<ScanPoint> points;
+  for (double along_m = 0.0; along_m <= way_m.norm(); along_m += kSpacing_m) {
+    const Eigen::Vector2d p_m = wall.from_m + along_m * way_m.normalized();
+    points.push_back({.p_robot_m = p_m,
+                      .beam_robot = p_m.normalized(),
+                      .normal_robot = normal,
+                      .range_m = p_m.norm(),
+                      .arc_m = kSpacing_m,
+                      .spacing_m = kSpacing_m});
+  }
+  return points;
+}
+
+// Of a wall that is seen for the first time, the end face of another one beside it is the nearest
+// that is known: the wall would creep up to it.
+TEST(WeightedScanMatcher, PairsNoWallWithAFaceAtRightAnglesToIt) {
+  const Eigen::Vector2d ahead = Eigen::Vector2d::UnitX();
+  const Eigen::Vector2d left = Eigen::Vector2d::UnitY();
+  const std::vector<ScanPoint> opposite = WallPoints({{0.0, -1.0}, {0.5, -1.0}}, left);
+  const std::vector<ScanPoint> face = WallPoints({{1.0, 0.5}, {1.0, 1.0}}, -ahead);
+  SurfaceMap map;
+  for (const auto& wall : {opposite, face}) {
+    for (const ScanPoint& p : wall) {
+      map.Insert({.p_map_m = p.p_robot_m, .normal_map = p.normal_robot, .spacing_m = p.spacing_m},
+                 0);
+    }
+  }
+  std::vector<ScanPoint> scan = opposite;
+  for (const ScanPoint& p : WallPoints({{1.03, 0.46}, {1.1, 0.46}}, -left)) scan.push_back(p);
+  const MatchPrior odometry{.predicted = {{}, Eigen::Vector3d(1e-2, 1e-2, 1e-4).asDiagonal()},
+                            .start = {},
+                            .start_error = {.translation_m = 0.03}};
+  const MatchResult result = WeightedScanMatcher().Match(map, scan, odometry);
+  EXPECT_EQ(result.status, MatchStatus::kConverged);
+  EXPECT_NEAR(result.T_ref_cur.x_m, 0.0, 1e-3);
+}
+
 TEST(WeightedScanMatcher, SaysThatThereIsNothingToMatch) {
   const TwoScans scans(1);
   const ScanMap far = MapOf(scans.ref, {100.0, 100.0, 0.0});

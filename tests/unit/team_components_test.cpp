@@ -185,7 +185,7 @@ TEST(TeamComponents, AreBegunByARobotThatIsLost) {
   const auto carried = steps.begin() + 10;
   const auto lost =
       std::ranges::find(carried, steps.end(), StepStatus::kLost, &MappingStep::status);
-  EXPECT_LT(lost - carried, 15);                         // A metre of way.
+  EXPECT_LT(lost - carried, 25);                         // Of twenty ways to carry it, at most 22.
   EXPECT_TRUE(std::none_of(carried, lost, is_matched));  // It is no guess.
   EXPECT_EQ(steps.back().status, StepStatus::kMatched);
   EXPECT_LT(ErrorAfter_m(StatusOf(service, "robot2"), 189), 0.05);

@@ -17,12 +17,20 @@ constexpr double kAnnealed_m = 0.002;
 constexpr double kAnnealed_rad = 0.0002;
 constexpr double kInlierSigmas = 3.0;
 constexpr double kFirstCircle_m = 0.1;  // Beyond a point that cannot be paired: the next surface.
+constexpr double kCosOfCrossing = 0.5;  // Lines at more than 60 degrees are not one surface.
 
 // Weight of Geman & McClure (1987): falls from 1 to a quarter at the outlier limit, and on towards
 // 0.
 double RobustWeight(double mahalanobis2, double outlier_sigmas) {
   const double w = 1.0 / (1.0 + mahalanobis2 / (outlier_sigmas * outlier_sigmas));
   return w * w;
+}
+
+// Whether both show a line, by several points within one reach, and these cross: the end face of a
+// wall beside one that is seen for the first time.
+bool LinesCross(const Surface& surface, const ScanPoint& point, const Eigen::Vector2d& normal_map) {
+  return surface.is_line && !surface.is_sample && point.spacing_m < kSurfaceReach_m &&
+         !normal_map.isZero() && std::abs(surface.normal.dot(normal_map)) < kCosOfCrossing;
 }
 
 }  // namespace
@@ -135,7 +143,11 @@ bool Pairing::IsPaired(const Eigen::Matrix2d& R_map_cur, const ScanPoint& point,
     pair.id.reset();
     return false;
   }
-  if (pair.id != pair.nearest->id) pair.surface = map_.SurfaceAt(*pair.nearest);
+  pair.surface = map_.SurfaceAt(*pair.nearest);
+  if (LinesCross(pair.surface, point, normal_map)) {
+    pair.id.reset();
+    return false;
+  }
   pair.id = pair.nearest->id;
   return true;
 }
