@@ -23,10 +23,15 @@ class BruteForce {
     tree.ForEach([this](PointId id, const Eigen::Vector2d& p_m) { points_.emplace(id, p_m); });
   }
 
-  /// Distances not above the bound, in ascending order.
-  std::vector<double> Distances(const Eigen::Vector2d& query_m, double max_distance_m) const {
+  /// Distances not above the bound, of the points that are accepted, in ascending order.
+  template <class Accept>
+  std::vector<double> Distances(const Eigen::Vector2d& query_m,
+                                double max_distance_m,
+                                Accept accept) const {
     std::vector<double> distances_m;
-    for (const auto& [id, p_m] : points_) distances_m.push_back((p_m - query_m).norm());
+    for (const auto& [id, p_m] : points_) {
+      if (accept(id)) distances_m.push_back((p_m - query_m).norm());
+    }
     std::ranges::sort(distances_m);
     const auto beyond = std::ranges::upper_bound(distances_m, max_distance_m);
     distances_m.erase(beyond, distances_m.end());
@@ -73,8 +78,13 @@ inline void ExpectAllSearchesExact(const PointQuadtree& tree,
                                    const Eigen::Vector2d& query_m,
                                    double max_distance_m) {
   const BruteForce truth(tree);
-  const std::vector<double> distances_m = truth.Distances(query_m, max_distance_m);
+  const auto any = [](PointId) { return true; };
+  const std::vector<double> distances_m = truth.Distances(query_m, max_distance_m, any);
   ExpectNeighbor(tree, truth, query_m, distances_m, tree.Nearest(query_m, max_distance_m));
+
+  const auto some = [](PointId id) { return id % 7 == 3; };
+  const std::vector<double> some_m = truth.Distances(query_m, max_distance_m, some);
+  ExpectNeighbor(tree, truth, query_m, some_m, tree.NearestIf(query_m, max_distance_m, some));
 
   for (const std::size_t k : {1, 3, 30}) {
     std::vector<Neighbor> nearest = {Neighbor{}, Neighbor{}};

@@ -16,7 +16,6 @@ constexpr double kPairDistancePerError = 5.0;  // Pairs are sought as far as the
 constexpr double kAnnealed_m = 0.002;
 constexpr double kAnnealed_rad = 0.0002;
 constexpr double kInlierSigmas = 3.0;
-constexpr double kFirstCircle_m = 0.1;  // Beyond a point that cannot be paired: the next surface.
 constexpr double kCosOfCrossing = 0.5;  // Lines at more than 60 degrees are not one surface.
 
 // Weight of Geman & McClure (1987): falls from 1 to a quarter at the outlier limit, and on towards
@@ -137,7 +136,8 @@ bool Pairing::IsPaired(const Eigen::Matrix2d& R_map_cur, const ScanPoint& point,
   if (pair.nearest && pair.nearest->id == pair.id) return true;
   const Eigen::Vector2d normal_map = R_map_cur * point.normal_robot;
   if (pair.nearest && !MayPair(pair.nearest->id, normal_map)) {
-    pair.nearest = NearestThatMayPair(normal_map, pair);
+    pair.nearest = map_.quadtree().NearestIf(
+        pair.p_map, Reach(pair.inflation_m2), [&](PointId id) { return MayPair(id, normal_map); });
   }
   if (!pair.nearest) {
     pair.id.reset();
@@ -217,33 +217,6 @@ double Pairing::Extent_m2(const ScanPoint& point) const {
 
 bool Pairing::MayPair(PointId id, const Eigen::Vector2d& normal_map) const {
   return map_.DriftCode(id) <= max_drift_code_ && !map_.IsOnOtherSide(id, normal_map);
-}
-
-// Seldom: looks around in widening circles. @pre the nearest one of all may not pair
-std::optional<Neighbor> Pairing::NearestThatMayPair(const Eigen::Vector2d& normal_map,
-                                                    const Pair& pair) const {
-  const double reach_m = Reach(pair.inflation_m2);
-  double radius_m = std::min(reach_m, std::sqrt(pair.nearest->distance_m2) + kFirstCircle_m);
-  while (true) {
-    const auto found = NearestThatMayPairWithin(radius_m, normal_map, pair.p_map);
-    if (found || radius_m >= reach_m) return found;
-    radius_m = std::min(2.0 * radius_m, reach_m);
-  }
-}
-
-std::optional<Neighbor> Pairing::NearestThatMayPairWithin(double radius_m,
-                                                          const Eigen::Vector2d& normal_map,
-                                                          const Eigen::Vector2d& p_map) const {
-  std::optional<Neighbor> nearest;
-  map_.quadtree().ForEachInRadius(
-      p_map, radius_m, [&](PointId id, const Eigen::Vector2d& position_m) {
-        const double distance_m2 = (position_m - p_map).squaredNorm();
-        if (nearest && nearest->distance_m2 <= distance_m2) return;
-        if (MayPair(id, normal_map)) {
-          nearest = {.id = id, .distance_m2 = distance_m2, .position_m = position_m};
-        }
-      });
-  return nearest;
 }
 
 }  // namespace qwsm

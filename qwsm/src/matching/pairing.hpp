@@ -116,11 +116,6 @@ class Pairing {
   Eigen::Matrix2d NoiseInMap(const Eigen::Matrix2d& R_map_cur, const ScanPoint& point) const;
   double Extent_m2(const ScanPoint& point) const;
   bool MayPair(PointId id, const Eigen::Vector2d& normal_map) const;
-  std::optional<Neighbor> NearestThatMayPair(const Eigen::Vector2d& normal_map,
-                                             const Pair& pair) const;
-  std::optional<Neighbor> NearestThatMayPairWithin(double radius_m,
-                                                   const Eigen::Vector2d& normal_map,
-                                                   const Eigen::Vector2d& p_map) const;
 
   const SurfaceMap& map_;
   std::span<const ScanPoint> points_;

@@ -98,6 +98,12 @@ class PointQuadtree {
                                   double max_distance_m,
                                   SearchCursor& cursor) const;
 
+  /// The nearest point of which accept(PointId) is true, not farther than `max_distance_m`; exact.
+  template <class Accept>
+  std::optional<Neighbor> NearestIf(const Eigen::Vector2d& query_m,
+                                    double max_distance_m,
+                                    Accept accept) const;
+
   /// A cursor for a first search at a place. Making those of many places before the searches is
   /// quicker, for meanwhile the memory they need is fetched.
   /// @param near that of a place nearby makes it quicker, too.
@@ -182,6 +188,19 @@ void PointQuadtree::ForEach(Visit visit) const {
     visit(id, ToMetres(p));
   };
   quadtree::VisitAll(tree_, visit_point);
+}
+
+template <class Accept>
+std::optional<Neighbor> PointQuadtree::NearestIf(const Eigen::Vector2d& query_m,
+                                                 double max_distance_m,
+                                                 Accept accept) const {
+  const quadtree::UnitPoint query = ToUnits(query_m);
+  const double radius = ToUnits(max_distance_m);
+  if (!(radius >= 0.0) || !quadtree::IsFinite(query)) return std::nullopt;
+  quadtree::NearestAccepted nearest(tree_, query, radius, accept);
+  quadtree::Traversal(tree_, query, nearest).Run(quadtree::SmallestAround(tree_, query, radius));
+  if (!nearest.found()) return std::nullopt;
+  return ToNeighbor(nearest.id(), nearest.distance2(), nearest.position());
 }
 
 template <class Visit>

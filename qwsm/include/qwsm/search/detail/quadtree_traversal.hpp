@@ -147,6 +147,43 @@ class Disk {
   const Visitor& visit_;
 };
 
+/// The nearest point that is accepted, not farther than a radius, for Traversal.
+template <class Accept>
+class NearestAccepted {
+ public:
+  NearestAccepted(const CellQuadtree& tree,
+                  const UnitPoint& center,
+                  double radius,
+                  const Accept& accept)
+      : tree_(tree), center_(center), distance2_(radius * radius), accept_(accept) {}
+
+  bool Reaches(double distance2) const { return distance2 <= distance2_; }
+
+  void Visit(std::uint32_t leaf_index) {
+    const Leaf& leaf = tree_.leaf(leaf_index);
+    const DistancesInLeaf distances2(leaf, center_);
+    for (int i = 0; i < leaf.count; ++i) {
+      if (!Reaches(distances2[i]) || !accept_(leaf.id(i))) continue;
+      distance2_ = distances2[i];
+      leaf_ = leaf_index;
+      slot_ = i;
+    }
+  }
+
+  bool found() const { return leaf_ != kNoIndex; }
+  double distance2() const { return distance2_; }
+  std::uint32_t id() const { return tree_.leaf(leaf_).id(slot_); }
+  UnitPoint position() const { return PositionAt(tree_.leaf(leaf_), slot_); }
+
+ private:
+  const CellQuadtree& tree_;
+  const UnitPoint center_;
+  double distance2_;  // To what was found, or as far as is looked.
+  const Accept& accept_;
+  std::uint32_t leaf_ = kNoIndex;
+  int slot_ = 0;
+};
+
 /// How many points are not farther than a radius, for Traversal. Counts no further than wanted.
 class CountingDisk {
  public:
