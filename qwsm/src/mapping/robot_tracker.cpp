@@ -229,7 +229,7 @@ std::optional<PathsApart> RobotTracker::ComparePaths(const ScanMap& map,
   const std::optional<UncertainPose2> reckoned =
       apart_ ? apart_->by_odometry() * last_robot : dead_reckoning_.Predict(last_robot);
   if (!reckoned || !IsFarFrom(*reckoned, match.pose())) return std::nullopt;
-  const MatchResult there = locator_.Locate(map, points, *reckoned, seen_free_);
+  const MatchResult there = locator_.LocateWithin(map, points, *reckoned, seen_free_);
   if (IsFarFrom(*reckoned, there.pose()) || !IsFarFrom(there.pose(), match.pose())) {
     return std::nullopt;
   }

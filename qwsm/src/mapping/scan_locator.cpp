@@ -58,7 +58,46 @@ struct Task {
     }
     return matcher.Match(map, seen_free.WithoutMoving(points, prior.start), prior);
   }
+
+  bool Fits(const MatchResult& match, double min_overlap) const {
+    return match.overlap >= min_overlap && match.reduced_chi2 <= options.max_reduced_chi2;
+  }
 };
+
+Task TaskOf(const ScanLocatorOptions& options,
+            const WeightedScanMatcher& matcher,
+            const ScanMap& map,
+            std::span<const ScanPoint> points,
+            const UncertainPose2& predicted,
+            const FreeSpace& seen_free) {
+  return {.options = options,
+          .matcher = matcher,
+          .map = map.surfaces(),
+          .points = points,
+          .thinned = PositionsOf(
+              seen_free.WithoutMoving(ThinOut(points, options.search_spacing_m), predicted.T_a_b)),
+          .seen_free = seen_free};
+}
+
+// The best match found, and how the pose that it began from scored.
+struct ScoredMatch {
+  MatchResult match;
+  double score = 0.0;
+};
+
+// Within the window of the prediction: in the middle first, where it mostly is.
+ScoredMatch LocateIn(const Task& task, const UncertainPose2& predicted) {
+  const double sigmas = task.options.window_sigmas;
+  const double narrow_sigmas = task.options.narrow_share * sigmas;
+  const auto near = task.Search(predicted, narrow_sigmas);
+  const ScoredMatch narrow{.match = task.Match(near, predicted), .score = near ? near->score : 0.0};
+  const bool is_likely = near && near->score >= task.options.confident_score;
+  if (is_likely && task.Fits(narrow.match, task.options.confident_overlap)) return narrow;
+
+  const auto better = task.Search(predicted, sigmas, narrow.score, narrow_sigmas);
+  if (!better) return narrow;
+  return {.match = task.Match(better, predicted), .score = better->score};
+}
 
 bool IsAsExpected(const MatchResult& match, const UncertainPose2& expected) {
   return SquaredMahalanobisDistance(expected, match.pose()) < kSlippedChi2;
@@ -70,35 +109,24 @@ MatchResult ScanLocator::Locate(const ScanMap& map,
                                 std::span<const ScanPoint> points,
                                 const UncertainPose2& predicted,
                                 const FreeSpace& seen_free) const {
-  const Task task{.options = options_,
-                  .matcher = matcher_,
-                  .map = map.surfaces(),
-                  .points = points,
-                  .thinned = PositionsOf(seen_free.WithoutMoving(
-                      ThinOut(points, options_.search_spacing_m), predicted.T_a_b)),
-                  .seen_free = seen_free};
-  const double sigmas = options_.window_sigmas;
-  const auto fits = [this](const MatchResult& match, double min_overlap) {
-    return match.overlap >= min_overlap && match.reduced_chi2 <= options_.max_reduced_chi2;
-  };
-
-  const double narrow_sigmas = options_.narrow_share * sigmas;
-  const auto near = task.Search(predicted, narrow_sigmas);
-  const MatchResult narrow = task.Match(near, predicted);
-  const bool is_likely = near && near->score >= options_.confident_score;
-  if (is_likely && fits(narrow, options_.confident_overlap)) return narrow;
-
-  const auto better = task.Search(predicted, sigmas, near ? near->score : 0.0, narrow_sigmas);
-  const MatchResult full = better ? task.Match(better, predicted) : narrow;
-  if (fits(full, options_.widen_below_overlap)) return full;
+  const Task task = TaskOf(options_, matcher_, map, points, predicted, seen_free);
+  const ScoredMatch near = LocateIn(task, predicted);
+  if (task.Fits(near.match, options_.widen_below_overlap)) return near.match;
 
   const UncertainPose2 inflated = predicted.Inflated(options_.widen_factor);
   // No pose scores less when the prediction counts less: the best one scores as much, or more.
   constexpr double kRounding = 1e-9;
-  const auto& best = better ? better : near;
-  const double known_score = best ? std::max(0.0, best->score - kRounding) : 0.0;
-  const MatchResult wide = task.Match(task.Search(inflated, sigmas, known_score), inflated);
-  return wide.overlap > full.overlap + options_.widen_gain ? wide : full;
+  const double known_score = std::max(0.0, near.score - kRounding);
+  const auto wider = task.Search(inflated, options_.window_sigmas, known_score);
+  const MatchResult wide = task.Match(wider, inflated);
+  return wide.overlap > near.match.overlap + options_.widen_gain ? wide : near.match;
+}
+
+MatchResult ScanLocator::LocateWithin(const ScanMap& map,
+                                      std::span<const ScanPoint> points,
+                                      const UncertainPose2& predicted,
+                                      const FreeSpace& seen_free) const {
+  return LocateIn(TaskOf(options_, matcher_, map, points, predicted, seen_free), predicted).match;
 }
 
 MatchResult ScanLocator::Locate(const ScanMap& map,

@@ -116,7 +116,13 @@ class ScanLocator {
                      const UncertainPose2& predicted,
                      const FreeSpace& seen_free = FreeSpace{}) const;
 
-  /// The same where odometry tells the prediction: it is as good as it has proved, or the wheels
+  /// The same, but never farther off than the prediction is uncertain.
+  MatchResult LocateWithin(const ScanMap& map,
+                           std::span<const ScanPoint> points,
+                           const UncertainPose2& predicted,
+                           const FreeSpace& seen_free) const;
+
+  /// Locates where odometry tells the prediction: it is as good as it has proved, or the wheels
   /// have slipped. That they have, once in a hundred scans, the scan has to tell: by where it is
   /// found, or by what more of it agrees with the map elsewhere.
   MatchResult Locate(const ScanMap& map,
