@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::size_t kSubmapTurns = 16;
 constexpr std::size_t kSubmapStep = kSubmapTurns / 2;
+// Submaps serve scans that are like those in them: few points tell as much as many.
+constexpr int kSubmapDensityPoints = 2;
 // Odometry between two relevant scans is never better than this.
 constexpr double kLeastSigma_m = 0.01;
 constexpr double kLeastSigma_rad = 0.003;
@@ -68,10 +70,16 @@ Eigen::Matrix3d Growth(const ScanNode& node,
   return (chain_last * Since(last.map_robot, node.map_robot)).covariance;
 }
 
+ScanMapOptions SubmapOptions(ScanMapOptions options) {
+  options.insertion = InsertionRule::kNewSurface;
+  options.max_density_points = std::min(options.max_density_points, kSubmapDensityPoints);
+  return options;
+}
+
 }  // namespace
 
 ScanChains::ScanChains(const MapperOptions& options)
-    : map_options_(options.map),
+    : map_options_(SubmapOptions(options.map)),
       locator_(options.locator),
       matcher_(options.locator.matcher) {}
 
