@@ -143,7 +143,7 @@ bool Pairing::IsPaired(const Eigen::Matrix2d& R_map_cur, const ScanPoint& point,
     pair.id.reset();
     return false;
   }
-  pair.surface = map_.SurfaceAt(*pair.nearest);
+  if (pair.id != pair.nearest->id) pair.surface = map_.SurfaceAt(*pair.nearest);
   if (LinesCross(pair.surface, point, normal_map)) {
     pair.id.reset();
     return false;
