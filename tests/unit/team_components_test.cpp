@@ -5,7 +5,9 @@
 // own until they are found in the one that the team shares.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -162,13 +164,39 @@ void DriveCarried(TeamService& service, const std::string& robot, int from, int 
   }
 }
 
-TEST(TeamComponents, AreBegunByARobotThatIsLost) {
-  test::RecordingSink sink;
+/// The second robot is placed where it takes scan 30.
+TeamServiceOptions OptionsWithRobotPlaced() {
   TeamServiceOptions options = LosslessOptions();
   const Pose2 start = test::PoseInRoom(30);
   options.team.robots.push_back(
       {.name = "robot2", .x_m = start.x_m, .y_m = start.y_m, .heading_rad = start.theta_rad});
-  TeamService service(options, sink);
+  return options;
+}
+
+/// How many scans a robot takes that was carried to where scan `to` is taken, until it is lost.
+std::ptrdiff_t ScansUntilLost(int to) {
+  test::RecordingSink sink;
+  TeamService service(OptionsWithRobotPlaced(), sink);
+  service.Start();
+  Drive(service, "robot1", 0, 126);
+  Drive(service, "robot2", 30, 10);
+  DriveCarried(service, "robot2", 40, to, 30);
+  const std::vector<MappingStep> steps = sink.steps("robot2");
+  const auto carried = steps.begin() + 10;
+  return std::ranges::find(carried, steps.end(), StepStatus::kLost, &MappingStep::status) - carried;
+}
+
+TEST(TeamComponents, AreMostlyBegunWithinAMetreByARobotThatIsLost) {
+  std::vector<std::ptrdiff_t> scans;
+  for (int to = 75; to <= 105; to += 5) scans.push_back(ScansUntilLost(to));
+  const auto median = scans.begin() + 3;
+  std::ranges::nth_element(scans, median);
+  EXPECT_LT(*median, 15);  // A metre of way.
+}
+
+TEST(TeamComponents, AreBegunByARobotThatIsLost) {
+  test::RecordingSink sink;
+  TeamService service(OptionsWithRobotPlaced(), sink);
   service.Start();
   Drive(service, "robot1", 0, 126);
   Drive(service, "robot2", 30, 10);
@@ -185,7 +213,7 @@ TEST(TeamComponents, AreBegunByARobotThatIsLost) {
   const auto carried = steps.begin() + 10;
   const auto lost =
       std::ranges::find(carried, steps.end(), StepStatus::kLost, &MappingStep::status);
-  EXPECT_LT(lost - carried, 25);                         // Of twenty ways to carry it, at most 22.
+  EXPECT_LT(lost - carried, 20);                         // A metre and a third of way.
   EXPECT_TRUE(std::none_of(carried, lost, is_matched));  // It is no guess.
   EXPECT_EQ(steps.back().status, StepStatus::kMatched);
   EXPECT_LT(ErrorAfter_m(StatusOf(service, "robot2"), 189), 0.05);
