@@ -59,5 +59,12 @@ TEST(PlaceEvidence, OfADenseScanIsThatOfWhatLiesApart) {
   EXPECT_LT(told(3601), 1.1 * told(721));
 }
 
+TEST(PlaceEvidence, OfAPlaceIsAskedForTheMoreTheFartherOffTheRobotMayBe) {
+  EXPECT_LT(NatsAskedOfPlace(0.1), 0.0);
+  EXPECT_LT(NatsAskedOfPlace(1.0), NatsAskedOfPlace(5.0));
+  EXPECT_EQ(NatsAskedOfPlace(kLookalike_m), kConvincingNats);
+  EXPECT_EQ(NatsAskedOfPlace(1000.0), kConvincingNats);
+}
+
 }  // namespace
 }  // namespace qwsm::test

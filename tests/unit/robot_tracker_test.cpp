@@ -103,6 +103,28 @@ TEST(RobotTracker, ExtendsByThePointsThatDoNotMove) {
   }
 }
 
+// Where the map has less drift than the robot may have gathered, one wall is like another.
+TEST(RobotTracker, IsBroughtBackByTheRoomAndNotByAWallOfIt) {
+  const ScanMap map = MapFrom(kStart);
+  const auto look = [&](double drift_m, float range_max_m) {
+    RobotTracker tracker;
+    tracker.PlaceAt(UncertainPose2::WithSigmas(kStart, 0.02, 0.002), Pose2{});
+    tracker.FollowCorrection(UncertainPose2::WithSigmas(kStart, drift_m, 0.02));
+    LaserScan scan = ScanFrom(kStart, Room(), 4);
+    scan.geometry.range_max_m = range_max_m;
+    return tracker.Track(map, {.scan = scan, .T_odom_robot = Pose2{}}).step;
+  };
+  constexpr float kSeesAWallAndAColumn_m = 4.6F;
+  EXPECT_EQ(look(0.3, kSeesAWallAndAColumn_m).status, StepStatus::kMatched);
+  const MappingStep lost = look(6.0, kSeesAWallAndAColumn_m);
+  EXPECT_EQ(lost.status, StepStatus::kDeadReckoned);
+  EXPECT_EQ(lost.reason, "may as well be elsewhere");
+  EXPECT_GT(lost.map_robot.SigmaXY_m(), 5.0);
+  const MappingStep by_room = look(6.0, 20.0F);
+  EXPECT_EQ(by_room.status, StepStatus::kMatched);
+  EXPECT_LT(by_room.map_robot.SigmaXY_m(), 0.1);
+}
+
 // A scan comes with the odometry of the one before it, and the next one with all of the motion.
 TEST(RobotTracker, FollowsTheMapWhereOdometryIsLate) {
   const ScanMap map = MapFrom(kStart);

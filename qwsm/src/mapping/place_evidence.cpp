@@ -230,6 +230,10 @@ double LeadInNats(double told, double explained, double other) {
          PlaceFit{.told = told, .explained = other}.Nats();
 }
 
+double NatsAskedOfPlace(double sigma_m) {
+  return kConvincingNats + 2.0 * std::log(std::min(1.0, sigma_m / kLookalike_m));
+}
+
 bool IsConvincinglyBetter(std::span<const ScanPoint> points, double explained, double other) {
   const double told = PlaceEvidence::Told(points);
   const double nats = PlaceFit{.told = told, .explained = explained}.Nats();

@@ -11,7 +11,6 @@
 #include "pose_in_map.hpp"
 #include "qwsm/geometry/position.hpp"
 #include "qwsm/mapping/place_evidence.hpp"
-#include "qwsm/matching/mode_probability.hpp"
 
 namespace qwsm {
 namespace {
@@ -272,9 +271,11 @@ void RobotTracker::Judge(const ScanMap& map,
     step.reason = Name(match.status);
     return;
   }
+  const UncertainPose2 predicted = step.map_robot;
+  PoseInMap found = InMap(map, points, predicted.covariance, motion_covariance, match);
   // What the baselines find they believe.
   const double probability = options_.matcher == MatcherKind::kQWsm
-                                 ? ProbabilityOfMode(map.surfaces().likelihood(), points, match)
+                                 ? ProbabilityOfPose(map, points, match, found.sigma_m)
                                  : 1.0;
   if (probability < 0.5) {
     step.reason = "may as well be elsewhere";
@@ -283,14 +284,12 @@ void RobotTracker::Judge(const ScanMap& map,
   step.status = StatusOf(match);
   step.reason =
       step.status == StepStatus::kExtended ? "much of the scan is new" : "agrees with the map";
-  const UncertainPose2 predicted = step.map_robot;
   const UncertainPose2 locally_predicted{.T_a_b = predicted.T_a_b,
                                          .covariance = step.local_covariance};
-  UncertainPose2 found = InMap(map, points, predicted.covariance, motion_covariance, match);
-  found.covariance +=
+  found.map_robot.covariance +=
       UncertainPose2::WithSigmas({}, options_.match_floor_m, options_.match_floor_rad).covariance;
-  step.map_robot = {.T_a_b = found.T_a_b,
-                    .covariance = CovarianceOfEither(found, probability, predicted)};
+  step.map_robot = {.T_a_b = match.T_ref_cur,
+                    .covariance = CovarianceOfEither(found.map_robot, probability, predicted)};
   step.local_covariance = CovarianceOfEither(match.pose(), probability, locally_predicted);
 }
 

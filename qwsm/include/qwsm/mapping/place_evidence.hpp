@@ -119,6 +119,13 @@ double LeadInNats(double told, double explained, double other);
 /// Evidence that leaves a chance of 1 in 100.
 inline constexpr double kConvincingNats = 4.6;
 
+/// Evidence, in nats, that a place has to have where a robot may be so far off: the farther, the
+/// more other places there are that it may be mistaken for. The best of these, beside which evidence
+/// is weighed, is as near as kLookalike_m. Where less than none is asked, any place has it.
+/// @param sigma_m of the robot's position relative to the surfaces of the place.
+double NatsAskedOfPlace(double sigma_m);
+inline constexpr double kLookalike_m = 15.0;
+
 /// Whether a scan was taken at the pose where so much of it is explained, neither at another one nor
 /// at a place that is like it, but for a chance of 1 in 100.
 /// @param other share that is explained at the other pose.
