@@ -17,8 +17,9 @@ struct Answers {
   std::vector<Pose2> T_map_true;
 };
 
-inline Answers Drive(const Scene& scene) {
-  const SimulatedDrive drive = DriveThrough(scene, {.laser = {.beams = 181, .range_max_m = 15.0}});
+inline Answers Drive(const Scene& scene, double range_max_m = 15.0) {
+  const SimulatedDrive drive =
+      DriveThrough(scene, {.laser = {.beams = 181, .range_max_m = range_max_m}});
   Answers answers;
   Mapper mapper;
   for (std::size_t i = 0; i < drive.observations.size(); ++i) {

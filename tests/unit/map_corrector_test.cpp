@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <utility>
+#include <vector>
 
 #include "qwsm/correction/node_maker.hpp"
 #include "tests/support/bent_drive.hpp"
@@ -134,6 +135,25 @@ TEST(MapCorrector, MendsAStepThatWasAnsweredWrongly) {
   }
   const Correction correction = Corrected(answers.steps);
   EXPECT_LT(WorstError_m({correction.map_node.back()}, {Relevant(answers).T_map_true.back()}), 0.1);
+}
+
+// Seen from all sides it looks the same: it tells where it stands, and not how the robot is turned.
+TEST(MapCorrector, ClosesNoLoopAtASingleTree) {
+  const auto loops_at = [](const std::vector<Column>& trees) {
+    Answers answers = Drive({.world = {.walls = {}, .columns = trees},
+                             .route_m = {{0.0, 0.0}, {20.0, 0.0}, {0.0, 0.3}, {20.0, 0.0}}},
+                            5.0);
+    for (std::size_t i = 0; i < answers.steps.size(); ++i) {
+      MappingStep& step = answers.steps[i];
+      step.map_robot = UncertainPose2::WithSigmas(answers.T_map_true[i], 0.5, 0.1);
+      step.map_relevant = step.map_robot;
+    }
+    return Corrected(answers.steps).loops.size();
+  };
+  const Column tree{.center_m = {7.0, 2.0}, .radius_m = 0.25};
+  const Column other{.center_m = {8.0, -1.8}, .radius_m = 0.5};
+  EXPECT_EQ(loops_at({tree}), 0U);
+  EXPECT_GT(loops_at({tree, other}), 0U);
 }
 
 TEST(MapCorrector, HasNothingToCorrectWithoutScans) {

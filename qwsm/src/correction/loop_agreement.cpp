@@ -3,6 +3,7 @@
 #include "loop_agreement.hpp"
 
 #include "qwsm/geometry/frame_covariance.hpp"
+#include "qwsm/mapping/place_evidence.hpp"
 
 namespace qwsm {
 namespace {
@@ -31,6 +32,23 @@ bool IsOfOneRobot(const FoundLoop& a, const FoundLoop& b, const ScanChains& chai
   return chains.submaps()[a.submap].robot == chains.submaps()[b.submap].robot;
 }
 
+// What speaks for a loop: the others of scans near by, and what it tells with those that agree.
+struct Support {
+  int agreeing = 0;
+  int disagreeing = 0;
+  double nats = 0.0;
+
+  void Add(const FoundLoop& other, bool agrees) {
+    ++(agrees ? agreeing : disagreeing);
+    if (agrees) nats += other.nats;
+  }
+};
+
+bool IsConfirmedBy(const Support& support, const FoundLoop& found) {
+  return support.agreeing >= kMinAgreeing && support.agreeing > support.disagreeing &&
+         found.nats + support.nats >= NatsAskedOfPlace(found.sigma_m);
+}
+
 }  // namespace
 
 std::vector<NodeId> ReferencePoses::From(std::size_t submap) const {
@@ -53,23 +71,20 @@ const UncertainPose2& ReferencePoses::Between(std::size_t submap, std::size_t ot
 void ConfirmByOthers(std::span<FoundLoop> loops,
                      ReferencePoses& references,
                      const ScanChains& chains) {
-  std::vector<int> agreeing(loops.size());
-  std::vector<int> disagreeing(loops.size());
+  std::vector<Support> support(loops.size());
   for (std::size_t i = 0; i < loops.size(); ++i) {
     for (std::size_t j = i + 1; j < loops.size(); ++j) {
       const std::optional<std::size_t> apart =
           chains.TurnsBetween(loops[i].loop.edge.to, loops[j].loop.edge.to);
       if (!apart || *apart > kSamePass) break;
       if (*apart == 0 || !IsOfOneRobot(loops[i], loops[j], chains)) continue;
-      std::vector<int>& count =
-          Agree(loops[i], loops[j], references, chains) ? agreeing : disagreeing;
-      ++count[i];
-      ++count[j];
+      const bool agree = Agree(loops[i], loops[j], references, chains);
+      support[i].Add(loops[j], agree);
+      support[j].Add(loops[i], agree);
     }
   }
   for (std::size_t i = 0; i < loops.size(); ++i) {
-    const bool is_confirmed = agreeing[i] >= kMinAgreeing && agreeing[i] > disagreeing[i];
-    if (is_confirmed) loops[i].loop.verdict = LoopVerdict::kAccepted;
+    if (IsConfirmedBy(support[i], loops[i])) loops[i].loop.verdict = LoopVerdict::kAccepted;
   }
 }
 

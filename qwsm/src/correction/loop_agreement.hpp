@@ -39,6 +39,8 @@ class ReferencePoses {
 struct FoundLoop {
   Loop loop;
   std::size_t submap = 0;
+  double sigma_m = 0.0;  ///< How far off the scan was expected.
+  double nats = 0.0;  ///< What the scan tells for the place, and the submap's free space against.
 };
 
 /// Says of each loop whether others of scans near by agree with it: pairwise consistent

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "qwsm/mapping/place_evidence.hpp"
 #include "submap_match.hpp"
 
 namespace qwsm {
@@ -22,6 +23,10 @@ constexpr double kMaxWindow_m = 15.0;
 constexpr double kMinOverlap = 0.65;
 // Fewer turns of its lasers after a submap the robot is still on the same pass.
 constexpr std::size_t kTurnsBetweenPasses = 8;
+// Points so near to each other tell the same of a place.
+constexpr double kTellApart_m = 0.15;
+// A single trunk tells where it stands, and not how the robot is turned.
+constexpr double kMinTold = 1.5;
 // What the error model does not know of: poses are never taken to be more certain.
 constexpr double kModelSigma_m = 0.1;
 constexpr double kModelSigma_rad = 0.02;
@@ -35,6 +40,16 @@ double ReachOf(double sigma_m) {
 Eigen::Matrix3d InformationWith(const Eigen::Matrix3d& of_match, const Eigen::Matrix3d& frame) {
   const Eigen::Matrix3d of_frame = frame.inverse();
   return of_frame - of_frame * (of_match + of_frame).inverse() * of_frame;
+}
+
+// How the points of a scan fare where they were matched with a submap.
+PlaceFit FitOf(const MatchResult& match,
+               std::span<const ScanPoint> points,
+               const SubmapSurfaces& submap) {
+  const std::vector<ScanPoint> apart = ThinOut(points, kTellApart_m);
+  return {.told = PlaceEvidence::Told(apart),
+          .explained = match.overlap,
+          .seen_through = submap.ShareSeenThrough(apart, match.T_ref_cur)};
 }
 
 }  // namespace
@@ -87,6 +102,7 @@ std::vector<FoundLoop> LoopFinder::RecogniseAll(std::span<Candidate> candidates,
     if (known != nullptr && (is_settled || known->loop.verdict == LoopVerdict::kAccepted)) {
       found.push_back(*known);
       found.back().loop.verdict = LoopVerdict::kUnconfirmed;
+      found.back().sigma_m = candidate.reference_node.SigmaXY_m();
       continue;
     }
     if (is_settled) continue;
@@ -94,9 +110,7 @@ std::vector<FoundLoop> LoopFinder::RecogniseAll(std::span<Candidate> candidates,
     SubmapSurfaces& surfaces =
         recent_.Of({.submap = candidate.submap, .scans = submap.nodes.size()},
                    [&] { return chains_.SurfacesOf(submap, nodes_); });
-    if (const auto loop = Recognise(candidate, surfaces)) {
-      found.push_back({*loop, candidate.submap});
-    }
+    if (const auto loop = Recognise(candidate, surfaces)) found.push_back(*loop);
   }
   return found;
 }
@@ -183,8 +197,8 @@ std::vector<NodeId> LoopFinder::NodesInReach(NodeId first,
   return nodes;
 }
 
-std::optional<Loop> LoopFinder::Recognise(const Candidate& candidate,
-                                          SubmapSurfaces& surfaces) const {
+std::optional<FoundLoop> LoopFinder::Recognise(const Candidate& candidate,
+                                               SubmapSurfaces& surfaces) const {
   const RigidSubmap& submap = chains_.submaps()[candidate.submap];
   const Pose2& T_chain_reference = chains_.T_chain_node()[submap.reference()];
   UncertainPose2 expected = UncertainPose2{.T_a_b = T_chain_reference} * candidate.reference_node;
@@ -192,18 +206,23 @@ std::optional<Loop> LoopFinder::Recognise(const Candidate& candidate,
   const std::vector<ScanPoint> points = chains_.PointsAround(candidate.node, nodes_);
   const MatchResult match = LocateAmong(surfaces, points, expected, locator_, matcher_);
   if (!IsRecognised(match, kMinOverlap)) return std::nullopt;
+  const PlaceFit fit = FitOf(match, points, surfaces);
+  if (fit.told < kMinTold) return std::nullopt;
   Eigen::Matrix3d R_chain_reference = Eigen::Matrix3d::Identity();
   R_chain_reference.topLeftCorner<2, 2>() = T_chain_reference.Rotation();
   const Eigen::Matrix3d of_match = R_chain_reference.transpose() *
                                    InformationOfPairs(match, matcher_.options()) *
                                    R_chain_reference;
-  return Loop{.edge = {.from = submap.reference(),
-                       .to = candidate.node,
-                       .T_from_to = T_chain_reference.Inverse() * match.T_ref_cur,
-                       .information = InformationWith(of_match, ErrorWithin(submap)),
-                       .trust = EdgeTrust::kLoop},
-              .overlap = match.overlap,
-              .reduced_chi2 = match.reduced_chi2};
+  return FoundLoop{.loop = {.edge = {.from = submap.reference(),
+                                     .to = candidate.node,
+                                     .T_from_to = T_chain_reference.Inverse() * match.T_ref_cur,
+                                     .information = InformationWith(of_match, ErrorWithin(submap)),
+                                     .trust = EdgeTrust::kLoop},
+                            .overlap = match.overlap,
+                            .reduced_chi2 = match.reduced_chi2},
+                   .submap = candidate.submap,
+                   .sigma_m = candidate.reference_node.SigmaXY_m(),
+                   .nats = fit.NatsInOwnMap()};
 }
 
 // How wrong the scans of a submap lie to its reference: that of one half way to its end.

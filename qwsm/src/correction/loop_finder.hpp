@@ -65,7 +65,7 @@ class LoopFinder {
                        std::vector<FoundLoop>& found) const;
   std::vector<FoundLoop> RecogniseAll(std::span<Candidate> candidates,
                                       const LastSearch& last) const;
-  std::optional<Loop> Recognise(const Candidate& candidate, SubmapSurfaces& surfaces) const;
+  std::optional<FoundLoop> Recognise(const Candidate& candidate, SubmapSurfaces& surfaces) const;
   Eigen::Matrix3d ErrorWithin(const RigidSubmap& submap) const;
 
   ScanLocatorOptions locator_;

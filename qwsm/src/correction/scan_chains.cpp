@@ -242,7 +242,10 @@ void ScanChains::Insert(NodeId id,
 SubmapSurfaces ScanChains::SurfacesOf(const RigidSubmap& submap,
                                       std::span<const ScanNode> nodes) const {
   SubmapSurfaces surfaces(map_options_.surfaces);
-  for (const NodeId id : submap.nodes) Insert(id, ToPoints(nodes[id].scan), surfaces);
+  for (const NodeId id : submap.nodes) {
+    Insert(id, ToPoints(nodes[id].scan), surfaces);
+    surfaces.SeeFree(nodes[id].scan, T_chain_node_[id]);
+  }
   return surfaces;
 }
 

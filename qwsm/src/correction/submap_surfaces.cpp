@@ -16,6 +16,13 @@ const LikelihoodPyramid& SubmapSurfaces::likelihood() {
   return *likelihood_;
 }
 
+double SubmapSurfaces::ShareSeenThrough(std::span<const ScanPoint> points,
+                                        const Pose2& T_chain_robot) const {
+  const std::vector<std::uint8_t> marks = seen_free_.MovingAmong(points, T_chain_robot);
+  if (marks.empty()) return 0.0;
+  return static_cast<double>(std::ranges::count(marks, 1)) / static_cast<double>(marks.size());
+}
+
 SubmapSurfaces& RecentSurfaces::Of(const Key& submap, const std::function<SubmapSurfaces()>& make) {
   const auto known = std::ranges::find(kept_, submap, &std::pair<Key, SubmapSurfaces>::first);
   if (known != kept_.end()) {

@@ -6,8 +6,10 @@
 #include <functional>
 #include <list>
 #include <optional>
+#include <span>
 #include <utility>
 
+#include "qwsm/mapping/free_space.hpp"
 #include "qwsm/matching/surface_map.hpp"
 
 namespace qwsm {
@@ -24,11 +26,19 @@ class SubmapSurfaces {
     likelihood_.reset();
   }
 
+  /// Adds the free space that a scan of the submap saw.
+  void SeeFree(const LaserScan& scan, const Pose2& T_chain_robot) {
+    seen_free_.Add(scan, T_chain_robot);
+  }
+  /// Share of the points that end in free space. @param T_chain_robot pose they were seen from.
+  double ShareSeenThrough(std::span<const ScanPoint> points, const Pose2& T_chain_robot) const;
+
   const SurfaceMap& surfaces() const { return surfaces_; }
   const LikelihoodPyramid& likelihood();
 
  private:
   SurfaceMap surfaces_;
+  FreeSpace seen_free_{{.scans = 1000, .max_moving_share = 1.0}};  // Of all scans.
   std::optional<LikelihoodPyramid> likelihood_;
 };
 
