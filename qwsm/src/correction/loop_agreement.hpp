@@ -45,7 +45,8 @@ struct FoundLoop {
 
 /// Says of each loop whether others of scans near by agree with it: pairwise consistent
 /// measurements (Mangelson et al. 2018). A place that looks like another one does so for a scan or
-/// two, or in another place each time.
+/// two, or in another place each time. With those that agree it has to tell as much as the scan may
+/// be off (NatsAskedOfPlace): scans that see the same wall and tree agree at another wall and tree.
 /// @param loops sorted by the scan's robot, then the scan; their verdicts are set.
 void ConfirmByOthers(std::span<FoundLoop> loops,
                      ReferencePoses& references,

@@ -11,7 +11,7 @@
 namespace qwsm {
 namespace {
 
-constexpr std::size_t kSubmapTurns = 16;
+constexpr int kSubmapTurns = 16;
 constexpr std::size_t kSubmapStep = kSubmapTurns / 2;
 // Submaps serve scans that are like those in them: few points tell as much as many.
 constexpr int kSubmapDensityPoints = 2;
@@ -76,10 +76,18 @@ ScanMapOptions SubmapOptions(ScanMapOptions options) {
   return options;
 }
 
+// All scans of a submap count, and however many points end in what they saw free.
+FreeSpaceOptions OfAllScans(FreeSpaceOptions options) {
+  options.scans = kSubmapTurns;
+  options.max_moving_share = 1.0;
+  return options;
+}
+
 }  // namespace
 
 ScanChains::ScanChains(const MapperOptions& options)
     : map_options_(SubmapOptions(options.map)),
+      free_space_(OfAllScans(options.free_space)),
       locator_(options.locator),
       matcher_(options.locator.matcher) {}
 
@@ -217,7 +225,7 @@ void ScanChains::BeginSubmap(NodeId id, Chain& chain) {
   const std::size_t ordinal = chain.submaps.size();
   chain.submaps.push_back(submaps_.size());
   submaps_.push_back({.robot = robot_[id], .ordinal = ordinal, .nodes = {}});
-  chain.last_surfaces.emplace_back(map_options_.surfaces);
+  chain.last_surfaces.emplace_back(map_options_.surfaces, free_space_);
   if (chain.last_surfaces.size() > 2) chain.last_surfaces.pop_front();
 }
 
@@ -241,7 +249,7 @@ void ScanChains::Insert(NodeId id,
 
 SubmapSurfaces ScanChains::SurfacesOf(const RigidSubmap& submap,
                                       std::span<const ScanNode> nodes) const {
-  SubmapSurfaces surfaces(map_options_.surfaces);
+  SubmapSurfaces surfaces(map_options_.surfaces, free_space_);
   for (const NodeId id : submap.nodes) {
     Insert(id, ToPoints(nodes[id].scan), surfaces);
     surfaces.SeeFree(nodes[id].scan, T_chain_node_[id]);

@@ -110,6 +110,7 @@ class ScanChains {
   void Insert(NodeId id, std::span<const ScanPoint> points, SubmapSurfaces& submap) const;
 
   ScanMapOptions map_options_;
+  FreeSpaceOptions free_space_;
   ScanLocatorOptions locator_;
   WeightedScanMatcher matcher_;
   UncertainPose2 map_first_;            // Pose of the first node of all.

@@ -18,8 +18,9 @@ namespace qwsm {
 /// when the first search asks for it.
 class SubmapSurfaces {
  public:
-  explicit SubmapSurfaces(const SurfaceMapOptions& options)
-      : surfaces_(SurfaceMap::ForMatching(options)) {}
+  /// @param free_space how many scans it keeps the free space of, and with which margins.
+  SubmapSurfaces(const SurfaceMapOptions& options, const FreeSpaceOptions& free_space)
+      : surfaces_(SurfaceMap::ForMatching(options)), seen_free_(free_space) {}
 
   void Insert(const MapPoint& point, ScanId scan) {
     surfaces_.Insert(point, scan);
@@ -38,7 +39,7 @@ class SubmapSurfaces {
 
  private:
   SurfaceMap surfaces_;
-  FreeSpace seen_free_{{.scans = 1000, .max_moving_share = 1.0}};  // Of all scans.
+  FreeSpace seen_free_;
   std::optional<LikelihoodPyramid> likelihood_;
 };
 

@@ -12,7 +12,7 @@ namespace qwsm {
 /// What became of a place that was recognised.
 enum class LoopVerdict : std::uint8_t {
   kAccepted,      ///< The poses are corrected by it.
-  kUnconfirmed,   ///< Too few loops of scans near by agree with it.
+  kUnconfirmed,   ///< Too few loops of scans near by agree, or they tell too little.
   kContradicted,  ///< The rest of the graph disagrees.
   kRefused,       ///< With the loops the map would contradict the scans more than without.
 };
