@@ -105,6 +105,11 @@ TEST(CorrectedDrive, IsRecognisedAsFarOffAsItMayBe) {
   EXPECT_LT(LastError_m(Corrected(sim::testing::Park(95))), 0.2);
 }
 
+// Where these trees leave the view and others come into it, the wheels have not slipped.
+TEST(CorrectedDrive, TakesNoTreeForAnother) {
+  EXPECT_LT(AteRmse_m(Corrected(sim::testing::Park(43))), 0.2);
+}
+
 // Between blocks of houses that are alike the robot drifts by a metre or two before it comes back,
 // and what it sees there contradicts what it had mapped: it has drifted, and was not carried a
 // street farther on. Where it is lost nevertheless and found again, it is as uncertain as the part

@@ -4,8 +4,11 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 
 #include "qwsm/geometry/frame_covariance.hpp"
+#include "qwsm/mapping/paths_apart.hpp"
+#include "qwsm/mapping/pose_prediction.hpp"
 #include "submap_match.hpp"
 
 namespace qwsm {
@@ -21,7 +24,7 @@ constexpr double kLeastSigma_rad = 0.003;
 // Between two scans of one turn the answers are better: what all lasers told is in them.
 constexpr double kTurnSigma_m = 0.001;
 constexpr double kTurnSigma_rad = 0.001;
-// What a slip of the wheels, or a push, may have done where a scan does not fit.
+// What a slip of the wheels, or a push, does.
 constexpr double kSlipSigma_m = 0.4;
 constexpr double kSlipSigma_rad = 0.15;
 constexpr double kMinOverlapWithLast = 0.5;
@@ -42,6 +45,21 @@ UncertainPose2 AtLeast(const UncertainPose2& pose, double sigma_m, double sigma_
   UncertainPose2 wider = pose;
   wider.covariance += UncertainPose2::WithSigmas({}, sigma_m, sigma_rad).covariance;
   return wider;
+}
+
+// A motion is as uncertain as odometry is, and as what is believed of it is apart from that: where
+// the map has called a robot back, the answers have moved and the robot has not.
+UncertainPose2 PredictedAfter(const UncertainPose2& chain_last, const ScanNode& node) {
+  const UncertainPose2 by_odometry =
+      AtLeast(chain_last * node.odometry, kLeastSigma_m, kLeastSigma_rad);
+  if (!node.T_last_node) return by_odometry;
+  return About(chain_last.T_a_b * *node.T_last_node, by_odometry);
+}
+
+// The motion where no scan tells whether the wheels have slipped: as they do once in a hundred.
+UncertainPose2 PerhapsSlipped(const UncertainPose2& moved) {
+  const double share = std::exp(-0.5 * kSlipNats);
+  return AtLeast(moved, share * kSlipSigma_m, share * kSlipSigma_rad);
 }
 
 // The edge to a pose that was found in the frame of another: its covariance is along that frame's
@@ -192,10 +210,7 @@ ScanChains::Attachment ScanChains::Attach(NodeId id,
   const ScanNode& node = nodes[id];
   SubmapSurfaces& reference = chain.last_surfaces.front();
   const UncertainPose2 chain_last{.T_a_b = T_chain_node_[chain.nodes.back()]};
-  UncertainPose2 predicted = AtLeast(chain_last * node.odometry, kLeastSigma_m, kLeastSigma_rad);
-  // A motion is as uncertain as odometry is, and as what is believed of it is apart from that:
-  // where the map has called a robot back, the answers have moved and the robot has not.
-  if (node.T_last_node) predicted = About(chain_last.T_a_b * *node.T_last_node, predicted);
+  const UncertainPose2 predicted = PredictedAfter(chain_last, node);
   const std::vector<ScanPoint> points = PointsAround(id, predicted.T_a_b, nodes);
   MatchPrior prior{.predicted = predicted,
                    .start = predicted.T_a_b,
@@ -205,14 +220,16 @@ ScanChains::Attachment ScanChains::Attach(NodeId id,
     prior.start_error = kStartError;
     match = matcher_.Match(reference.surfaces(), points, prior);
   }
-  if (!HasMatched(match)) {
-    predicted = AtLeast(predicted, kSlipSigma_m, kSlipSigma_rad);
-    match = LocateAmong(reference, points, predicted, locator_, matcher_);
-    if (!IsRecognised(match, kMinOverlapWithLast)) {
-      return {.chain_node = predicted, .of_motion = predicted.covariance.inverse()};
-    }
+  const Eigen::Matrix3d growth = Growth(node, nodes[chain.nodes.back()], chain_last);
+  if (HasMatched(match)) return Matched(match, predicted, growth);
+  const UncertainPose2 slipped = AtLeast(predicted, kSlipSigma_m, kSlipSigma_rad);
+  const MatchResult elsewhere = LocateAmong(reference, points, slipped, locator_, matcher_);
+  if (IsRecognised(elsewhere, kMinOverlapWithLast) &&
+      IsSlipTold(points, predicted, elsewhere, match)) {
+    return Matched(elsewhere, slipped, growth);
   }
-  return Matched(match, predicted, Growth(node, nodes[chain.nodes.back()], chain_last));
+  const UncertainPose2 reckoned = PerhapsSlipped(predicted);
+  return {.chain_node = reckoned, .of_motion = reckoned.covariance.inverse()};
 }
 
 // Scans are not rigid with surfaces by which none was held for a while.
