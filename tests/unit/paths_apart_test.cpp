@@ -128,5 +128,25 @@ TEST(PathsApart, HaveNotSlippedWhereAFewPointsFitElsewhere) {
       << "that is where the matches go on";
 }
 
+// Where odometry has the robot is only sought for what explains so much.
+TEST(PathsApart, LeaveTheMatchInNoDoubtByWhatExplainsLessThanTheLeast) {
+  for (const int points : {6, 20, 60}) {
+    SCOPED_TRACE(points);
+    const std::vector<ScanPoint> wall = SparseWall(points);
+    const MatchResult match = MatchAt(0.3, 0.95);
+    const double least = LeastToDoubt(wall, match, kMovingShare);
+    const auto is_doubted = [&](double explained) {
+      const MatchResult there = MatchAt(0.0, explained);
+      return PathsApart::Weigh(wall, {}, kExpected, {match}, {there}, kMovingShare) ||
+             !IsSlipTold(wall, kExpected, match, there);
+    };
+    for (double explained = 0.0; explained < least; explained += 0.05) {
+      EXPECT_FALSE(is_doubted(explained)) << explained;
+    }
+    EXPECT_TRUE(is_doubted(0.95));
+  }
+  EXPECT_GT(LeastToDoubt(SparseWall(60), MatchAt(0.3, 0.95), kMovingShare), 0.6);
+}
+
 }  // namespace
 }  // namespace qwsm

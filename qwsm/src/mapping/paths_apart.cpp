@@ -32,6 +32,11 @@ double NatsAgainst(const UncertainPose2& expected, const UncertainPose2& slipped
   return std::min(kSlipNats, 0.5 * SquaredMahalanobisDistance(expected, slipped));
 }
 
+// Share of a scan that stands still where the match explains so much, if nobody hides more of it.
+double LeastStill(const MatchResult& match, double max_moving_share) {
+  return (1.0 - max_moving_share) * match.overlap;
+}
+
 }  // namespace
 
 std::optional<PathsApart> PathsApart::Weigh(std::span<const ScanPoint> points,
@@ -43,7 +48,7 @@ std::optional<PathsApart> PathsApart::Weigh(std::span<const ScanPoint> points,
   const double told = PlaceEvidence::ToldBySurfaces(points);
   const PlaceFit reckoned{.told = told, .explained = by_odometry.match.overlap};
   const bool shows_less = reckoned.explained <= by_match.match.overlap;
-  const double least_still = (1.0 - max_moving_share) * by_match.match.overlap;
+  const double least_still = LeastStill(by_match.match, max_moving_share);
   if (shows_less &&
       (reckoned.explained < least_still || reckoned.NatsWithinMap() < kLeastOfTheRest)) {
     return std::nullopt;
@@ -57,6 +62,14 @@ std::optional<PathsApart> PathsApart::Weigh(std::span<const ScanPoint> points,
 }
 
 bool PathsApart::is_decided() const { return std::abs(nats_for_match_) > kConvincingNats; }
+
+double LeastToDoubt(std::span<const ScanPoint> points,
+                    const MatchResult& match,
+                    double max_moving_share) {
+  const double nats_of_all = LeadInNats(PlaceEvidence::ToldBySurfaces(points), 1.0, 0.0);
+  const double slip_untold = match.overlap - kSlipNats / nats_of_all;
+  return std::max(0.0, std::min(LeastStill(match, max_moving_share), slip_untold));
+}
 
 bool IsSlipTold(std::span<const ScanPoint> points,
                 const UncertainPose2& expected,

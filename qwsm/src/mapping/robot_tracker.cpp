@@ -228,7 +228,9 @@ std::optional<PathsApart> RobotTracker::ComparePaths(const ScanMap& map,
   const std::optional<UncertainPose2> reckoned =
       apart_ ? apart_->by_odometry() * last_robot : dead_reckoning_.Predict(last_robot);
   if (!reckoned || !IsFarFrom(*reckoned, match.pose())) return std::nullopt;
-  const MatchResult there = locator_.LocateWithin(map, points, *reckoned, seen_free_);
+  const double max_moving_share = options_.free_space.max_moving_share;
+  const MatchResult there = locator_.LocateWithin(
+      map, points, *reckoned, LeastToDoubt(points, match, max_moving_share), seen_free_);
   if (IsFarFrom(*reckoned, there.pose()) || !IsFarFrom(there.pose(), match.pose())) {
     return std::nullopt;
   }
@@ -237,8 +239,8 @@ std::optional<PathsApart> RobotTracker::ComparePaths(const ScanMap& map,
     return {pose, PlaceEvidence::ExplainedBefore(map, points, pose.T_ref_cur, before)};
   };
   const UncertainPose2 expected = PathOfMatches() * last_robot;
-  auto apart = PathsApart::Weigh(
-      points, apart_, expected, end_at(match), end_at(there), options_.free_space.max_moving_share);
+  auto apart =
+      PathsApart::Weigh(points, apart_, expected, end_at(match), end_at(there), max_moving_share);
   const bool stays =
       apart ? apart->is_by_odometry() : !apart_ && !IsSlipTold(points, expected, match, there);
   if (stays) match = there;

@@ -15,6 +15,8 @@ constexpr std::size_t kMinSearchPoints = 2;  // One fits anywhere.
 // As seldom as wheels slip a pose is farther from where it is expected, of three degrees of
 // freedom.
 constexpr double kSlippedChi2 = 11.3;
+// A pose scores at least so much of the share of the scan that it explains: mostly nine tenths.
+constexpr double kLeastScore = 0.5;
 
 // One scan to be located.
 struct Task {
@@ -86,11 +88,13 @@ struct ScoredMatch {
 };
 
 // Within the window of the prediction: in the middle first, where it mostly is.
-ScoredMatch LocateIn(const Task& task, const UncertainPose2& predicted) {
+// @param min_score poses that score no better are not found.
+ScoredMatch LocateIn(const Task& task, const UncertainPose2& predicted, double min_score = 0.0) {
   const double sigmas = task.options.window_sigmas;
   const double narrow_sigmas = task.options.narrow_share * sigmas;
-  const auto near = task.Search(predicted, narrow_sigmas);
-  const ScoredMatch narrow{.match = task.Match(near, predicted), .score = near ? near->score : 0.0};
+  const auto near = task.Search(predicted, narrow_sigmas, min_score);
+  const ScoredMatch narrow{.match = task.Match(near, predicted),
+                           .score = near ? near->score : min_score};
   const bool is_likely = near && near->score >= task.options.confident_score;
   if (is_likely && task.Fits(narrow.match, task.options.confident_overlap)) return narrow;
 
@@ -125,8 +129,10 @@ MatchResult ScanLocator::Locate(const ScanMap& map,
 MatchResult ScanLocator::LocateWithin(const ScanMap& map,
                                       std::span<const ScanPoint> points,
                                       const UncertainPose2& predicted,
+                                      double least_explained,
                                       const FreeSpace& seen_free) const {
-  return LocateIn(TaskOf(options_, matcher_, map, points, predicted, seen_free), predicted).match;
+  const Task task = TaskOf(options_, matcher_, map, points, predicted, seen_free);
+  return LocateIn(task, predicted, kLeastScore * least_explained).match;
 }
 
 MatchResult ScanLocator::Locate(const ScanMap& map,

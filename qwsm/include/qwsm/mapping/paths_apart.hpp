@@ -56,6 +56,12 @@ class PathsApart {
   double nats_for_match_ = 0.0;
 };
 
+/// Share of a scan that has to be explained where odometry has the robot: less puts the match into
+/// no doubt, by PathsApart::Weigh() or IsSlipTold().
+double LeastToDoubt(std::span<const ScanPoint> points,
+                    const MatchResult& match,
+                    double max_moving_share);
+
 /// Whether a scan alone tells that the wheels have slipped to where it was matched. A few points of
 /// a wall that is new fit some other one near by.
 /// @param expected as the matches have it.

@@ -117,9 +117,12 @@ class ScanLocator {
                      const FreeSpace& seen_free = FreeSpace{}) const;
 
   /// The same, but never farther off than the prediction is uncertain.
+  /// @param least_explained share of the scan: poses that explain less may not be found. It spares
+  ///   most of the search of a wide window.
   MatchResult LocateWithin(const ScanMap& map,
                            std::span<const ScanPoint> points,
                            const UncertainPose2& predicted,
+                           double least_explained,
                            const FreeSpace& seen_free) const;
 
   /// Locates where odometry tells the prediction: it is as good as it has proved, or the wheels
