@@ -23,8 +23,6 @@ constexpr double kMaxWindow_m = 15.0;
 constexpr double kMinOverlap = 0.65;
 // Fewer turns of its lasers after a submap the robot is still on the same pass.
 constexpr std::size_t kTurnsBetweenPasses = 8;
-// Points so near to each other tell the same of a place.
-constexpr double kTellApart_m = 0.15;
 // A single trunk tells where it stands, and not how the robot is turned.
 constexpr double kMinTold = 1.5;
 // What the error model does not know of: poses are never taken to be more certain.
@@ -46,7 +44,7 @@ Eigen::Matrix3d InformationWith(const Eigen::Matrix3d& of_match, const Eigen::Ma
 PlaceFit FitOf(const MatchResult& match,
                std::span<const ScanPoint> points,
                const SubmapSurfaces& submap) {
-  const std::vector<ScanPoint> apart = ThinOut(points, kTellApart_m);
+  const std::vector<ScanPoint> apart = PlaceEvidence::OneOfEachSurface(points);
   return {.told = PlaceEvidence::Told(apart),
           .explained = match.overlap,
           .seen_through = submap.ShareSeenThrough(apart, match.T_ref_cur)};

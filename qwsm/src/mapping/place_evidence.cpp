@@ -105,7 +105,7 @@ std::vector<ScanPoint> StoredAround(const SurfaceMap& surfaces,
                         around.push_back({.p_robot_m = T_robot_map * p_map_m,
                                           .beam_robot = Eigen::Vector2d::Zero()});
                       });
-  std::vector<ScanPoint> thinned = ThinOut(around, kOneSurface_m);
+  std::vector<ScanPoint> thinned = PlaceEvidence::OneOfEachSurface(around);
   std::erase_if(thinned, [&](const ScanPoint& point) {
     return !IsConfirmed(surfaces, T_map_robot * point.p_robot_m, before);
   });
@@ -128,12 +128,16 @@ double PlaceFit::NatsInOwnMap() const {
   return told * (explained * kNotContradicted.Nats() + contradicted * kSeenThrough.Nats());
 }
 
+std::vector<ScanPoint> PlaceEvidence::OneOfEachSurface(std::span<const ScanPoint> points) {
+  return ThinOut(points, kOneSurface_m);
+}
+
 double PlaceEvidence::Told(std::span<const ScanPoint> points) {
   return CountNews(points) / kPointsThatTellOne;
 }
 
 double PlaceEvidence::ToldBySurfaces(std::span<const ScanPoint> points) {
-  return Told(ThinOut(points, kOneSurface_m));
+  return Told(OneOfEachSurface(points));
 }
 
 PlaceFit PlaceEvidence::Weigh(const ScanMap& map,
@@ -148,7 +152,7 @@ PlaceFit PlaceEvidence::Weigh(const ScanMap& map,
 double PlaceEvidence::ExplainedBefore(const ScanMap& map,
                                       const ScanAtPlace& placed,
                                       ScanId before) {
-  const std::vector<ScanPoint> thinned = ThinOut(ToPoints(placed.scan), kOneSurface_m);
+  const std::vector<ScanPoint> thinned = OneOfEachSurface(ToPoints(placed.scan));
   return ShareStored(map.surfaces(), thinned, placed.T_map_robot, before, kOneSurface_m);
 }
 
@@ -171,7 +175,7 @@ MutualFit PlaceEvidence::WeighBothWays(const ScanMap& map,
                                        const ScanAtPlace& placed,
                                        ScanId before) {
   const std::vector<ScanPoint> points = ToPoints(placed.scan);
-  const std::vector<ScanPoint> thinned = ThinOut(points, kOneSurface_m);
+  const std::vector<ScanPoint> thinned = OneOfEachSurface(points);
   const auto counts = [before](ScanId scan) { return scan < before; };
   PlaceFit of_scan{.told = Told(thinned), .explained = ExplainedBefore(map, placed, before)};
   // From afar a map that drifted sees through its own walls, too.

@@ -7,7 +7,6 @@
 namespace qwsm {
 namespace {
 
-constexpr double kWeighSpacing_m = 0.15;
 constexpr double kBetweenWeighings_m = 0.5;
 // As convincing as a place has to be to be told from one that looks alike: a chance of 1 in 100.
 constexpr double kDoubtedNats = -4.6;
@@ -27,7 +26,7 @@ PlaceDoubt PlaceWatch::Look(const ScanMap& map,
   evidence_.ForgetFarFrom(map, T_map_robot);
   MatchResult match = step.match;
   match.T_ref_cur = T_map_robot;
-  const PlaceFit fit = evidence_.Weigh(map, ThinOut(points, kWeighSpacing_m), match, counts);
+  const PlaceFit fit = evidence_.Weigh(map, PlaceEvidence::OneOfEachSurface(points), match, counts);
   nats_ = std::min(0.0, nats_ + std::max(0.5 * kRefutedNats, NatsOf(fit)));
   return Doubt();
 }

@@ -60,6 +60,8 @@ class PlaceEvidence {
  public:
   explicit PlaceEvidence(const FreeSpaceOptions& options = {}) : options_(options) {}
 
+  /// One point of each surface that a scan shows, where neighbours are of the same.
+  static std::vector<ScanPoint> OneOfEachSurface(std::span<const ScanPoint> points);
   /// How many points tell something that no other one tells: neighbours share their errors.
   static double Told(std::span<const ScanPoint> points);
   /// The same where all points of one surface tell as much as the few by which it is met from afar.
