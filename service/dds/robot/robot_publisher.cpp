@@ -22,7 +22,8 @@ template <class Kind>
 class BasicRobotPublisher<Kind>::Topics {
  public:
   Topics(const Participant& participant, RobotNames names, OdometryUse use, ImuUse imu)
-      : names_(std::move(names)),
+      : participant_(participant),
+        names_(std::move(names)),
         odom_frame_(names_.Frame(kOdometryFrame)),
         robot_frame_(names_.Frame(kRobotFrame)),
         static_transforms_(participant, kStaticTransformsTopic, Profile::kStaticTransformsOut),
@@ -57,7 +58,8 @@ class BasicRobotPublisher<Kind>::Topics {
     std::string frame = names_.Frame(kLaserFrame);
     if (placements_++ > 0) frame += "_" + std::to_string(placements_);
     sensors_.push_back({T_robot_sensor, std::move(frame)});
-    TellSensors();
+    // Who listens now is to know it before the sensor's first scan comes.
+    TellSensors(static_transforms_, kPatienceForMountings);
     return sensors_.back().frame;
   }
 
@@ -93,6 +95,12 @@ class BasicRobotPublisher<Kind>::Topics {
     truth_.Write(OdometryOf(stamp, world_frame_, T_world_robot));
   }
 
+  /// Waits until who listens has discovered all that is published here: a reader that does not know
+  /// its writer yet takes nothing of it. Who has what the writer made last says knows the others.
+  bool WaitForDiscovery(std::chrono::nanoseconds timeout) const {
+    return TellSensors({participant_, kStaticTransformsTopic, Profile::kStaticTransformsOut},
+                       timeout);
+  }
   bool WaitForAcknowledgments(std::chrono::nanoseconds timeout) {
     return dds_wait_for_acks(static_transforms_.handle(), timeout.count()) == DDS_RETCODE_OK &&
            (!odometry_ || dds_wait_for_acks(odometry_->handle(), timeout.count()) == 0) &&
@@ -108,14 +116,14 @@ class BasicRobotPublisher<Kind>::Topics {
   static constexpr std::chrono::nanoseconds kPatienceForMountings = std::chrono::milliseconds(100);
 
   /// Tells where all sensors sit, in one message: of a latched topic the last one is kept for who
-  /// listens later. Who listens now is to know it before the sensor's first scan comes.
-  void TellSensors() {
+  /// listens later. @returns whether all who listen now have it in time.
+  bool TellSensors(const Writer<wire::TFMessage>& writer, std::chrono::nanoseconds timeout) const {
     TransformSample mountings;
     for (const Sensor& sensor : sensors_) {
       mountings.Add({}, robot_frame_, sensor.frame, ToWire(sensor.T_robot_sensor));
     }
-    static_transforms_.Write(mountings.sample());
-    dds_wait_for_acks(static_transforms_.handle(), kPatienceForMountings.count());
+    writer.Write(mountings.sample());
+    return dds_wait_for_acks(writer.handle(), timeout.count()) == DDS_RETCODE_OK;
   }
 
   wire::Odometry OdometryOf(Timestamp stamp, const std::string& frame, const Pose& pose) const {
@@ -126,6 +134,7 @@ class BasicRobotPublisher<Kind>::Topics {
     return sample;
   }
 
+  const Participant& participant_;
   RobotNames names_;
   std::string odom_frame_;
   std::string robot_frame_;
@@ -162,7 +171,7 @@ bool BasicRobotPublisher<Kind>::WaitForListener(const Pose& T_robot_sensor,
     if (std::chrono::steady_clock::now() >= until) return false;
     std::this_thread::sleep_for(kLook);
   }
-  return topics_->WaitForAcknowledgments(until - std::chrono::steady_clock::now());
+  return topics_->WaitForDiscovery(until - std::chrono::steady_clock::now());
 }
 
 template <class Kind>

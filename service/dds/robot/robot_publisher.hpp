@@ -27,14 +27,15 @@ class BasicRobotPublisher {
   using Pose = typename Kind::Pose;
   using Observation = typename Kind::Observation;
 
-  /// Begins to publish a robot's topics. @throws DdsError.
+  /// Begins to publish a robot's topics. @param participant outlives this. @throws DdsError.
   BasicRobotPublisher(const Participant& participant,
                       RobotNames names,
                       OdometryUse odometry,
                       ImuUse imu = ImuUse::kNone);
   ~BasicRobotPublisher();
 
-  /// Waits until somebody listens to the scans, knows where the sensor is, and hears the odometry.
+  /// Waits until somebody listens to the scans, knows where the sensor is, and hears the odometry
+  /// from the first one on.
   /// @returns false where nobody came in time.
   bool WaitForListener(const Pose& T_robot_sensor, std::chrono::nanoseconds timeout);
 
