@@ -79,8 +79,8 @@ TEST(CoarseLikelihood, NoPoseOfABlockIsMoreLikelyThanItsBound) {
     for (int i = 0; i < 4; ++i) {
       const GridCell offset{first.x + (i & 1) * width + in_square(random),
                             first.y + (i >> 1) * width + in_square(random)};
-      const int sum = SumOf(map, Moved(random, near, offset, width / 4)) +
-                      SumOf(map, Moved(random, far, offset, width / 2));
+      const int sum = SumOf(map, Moved(random, near, offset, width / 8)) +
+                      SumOf(map, Moved(random, far, offset, width / 4));
       ASSERT_LE(sum / kFull, bounds[static_cast<std::size_t>(i)] + 1e-9) << "square " << i;
     }
   }

@@ -104,6 +104,26 @@ TEST(ModeSearch, FindsAllPlacesThatAreAlike) {
   EXPECT_TRUE(IsNear(found.modes[is_first ? 1 : 0].T_map_robot, T_map_other * T_map_robot));
 }
 
+TEST(ModeSearch, FindsTheSameWhereTheBestScoreIsKnown) {
+  Random random(5);
+  for (int round = 0; round < 20; ++round) {
+    SCOPED_TRACE(round);
+    const Points walls_m = AnyPlaces(random, 80);
+    const LikelihoodPyramid map = PyramidOf(walls_m);
+    const Points scan_m = SeenFrom({1.3, -0.7, 2.0}, Points(walls_m.begin() + 40, walls_m.end()));
+    const FoundModes found = FindModes(map, kPlaces, scan_m, {.margin = 0.3});
+    ASSERT_FALSE(found.modes.empty());
+    const double best = found.modes.front().score;
+    const FoundModes again = FindModes(map, kPlaces, scan_m, {.margin = 0.3, .known_score = best});
+    ASSERT_EQ(again.modes.size(), found.modes.size());
+    for (std::size_t i = 0; i < found.modes.size(); ++i) {
+      EXPECT_TRUE(IsNear(again.modes[i].T_map_robot, found.modes[i].T_map_robot));
+    }
+    EXPECT_NEAR(again.floor_score, best - 0.3, 1e-9);
+    EXPECT_TRUE(FindModes(map, kPlaces, scan_m, {.known_score = best + 0.01}).modes.empty());
+  }
+}
+
 // A window around all of them would not fit into memory.
 TEST(ModeSearch, SearchesMapsThatAreFarApart) {
   Random random(4);

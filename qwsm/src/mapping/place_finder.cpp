@@ -77,14 +77,19 @@ struct PlaceFinder::Sight {
   std::vector<Eigen::Vector2d> positions_m;
   FoundModes modes;
 
-  Sight(const ScanMap& in, const ModeSearchArea& area, std::span<const ScanPoint> all)
+  Sight(const ScanMap& in, std::span<const ScanPoint> all)
       : map(in),
         points(ThinOut(all, kLookSpacing_m, kLookedAtPoints)),
-        positions_m(PositionsOf(points)),
-        modes(SearchModes(map.surfaces().likelihood(),
-                          area,
-                          positions_m,
-                          {.min_score = kMinScore, .margin = kModeMargin})) {}
+        positions_m(PositionsOf(points)) {}
+
+  // @param known_score of the best of the places that are followed.
+  void Search(const ModeSearchArea& area, double known_score) {
+    modes =
+        SearchModes(map.surfaces().likelihood(),
+                    area,
+                    positions_m,
+                    {.min_score = kMinScore, .margin = kModeMargin, .known_score = known_score});
+  }
 };
 
 std::string_view Name(PlaceVerdict verdict) {
@@ -106,8 +111,9 @@ const PlaceBelief& PlaceFinder::Look(const ScanMap& map,
                                      std::span<const ScanPoint> points,
                                      const Pose2& T_local_robot) {
   if (map.empty() || points.empty() || !HasMovedOn(T_local_robot)) return belief_;
-  const Sight sight(map, AreaOf(map), points);
+  Sight sight(map, points);
   if (T_local_last_) Follow(sight, T_local_last_->Inverse() * T_local_robot);
+  sight.Search(AreaOf(map), FollowedScore());
   AddModes(sight);
   elsewhere_nats_ = std::log(CountPlaces(path_m_));
   Weigh(sight, seen_.TakeNews(points, T_local_robot));
@@ -151,6 +157,13 @@ void PlaceFinder::Follow(const Sight& sight, const Pose2& T_last_robot) {
         locator_.options().search);
     one.score = found ? found->score : 0.0;
   }
+}
+
+// Of the best place, at this look.
+double PlaceFinder::FollowedScore() const {
+  double best = 0.0;
+  for (const Hypothesis& one : hypotheses_) best = std::max(best, one.score);
+  return best;
 }
 
 void PlaceFinder::AddModes(const Sight& sight) {

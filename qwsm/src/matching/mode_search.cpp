@@ -24,11 +24,11 @@ constexpr double kHighScore = 0.75;  // Of most scans in their place.
 constexpr double kLower = 0.8;
 constexpr int kLevelsOfMode = 2;             // Blocks of higher levels are wider than that.
 constexpr std::size_t kMostModes = 64;       // More are no knowledge.
-constexpr std::size_t kMostBlocks = 150000;  // Where everything is alike, the search is given up.
+constexpr std::size_t kMostBlocks = 120000;  // Where everything is alike, the search is given up.
 
 // Poses with the robot in a square of positions, as wide as a level of CoarseLikelihood says, and
-// the heading in an interval: turning to either end of it moves no point by more than half the
-// width.
+// the heading in an interval: turning to either end of it moves no point by more than a quarter of
+// the width.
 struct PoseBlock {
   double bound = 0.0;
   int level = 0;
@@ -74,7 +74,8 @@ class BlockQueue {
 
 int WidthOf(int level) { return CoarseLikelihood::WidthOf(level); }
 
-// Where the beams end in the frame of the robot turned to the headings of one level.
+// Where the beams end in the frame of the robot turned to the headings of one level; found for each
+// when it is first asked for.
 class TurnedPoints {
  public:
   // @param points_m so many near ones first, which a turn moves half as far as it may.
@@ -82,31 +83,37 @@ class TurnedPoints {
                std::size_t near,
                int headings,
                double cell_m)
-      : points_(points_m.size()), near_(near), headings_(headings) {
-    cells_.reserve(points_ * static_cast<std::size_t>(headings));
-    for (int heading = 0; heading < headings; ++heading) {
-      const Eigen::Matrix2d R = Eigen::Rotation2Dd(Middle_rad(heading)).toRotationMatrix();
-      for (const Eigen::Vector2d& p_m : points_m) {
-        const Eigen::Vector2d cell = (R * p_m / cell_m).array().floor();
-        cells_.push_back({static_cast<int>(cell.x()), static_cast<int>(cell.y())});
-      }
-    }
-  }
+      : points_m_(points_m),
+        near_(near),
+        cell_m_(cell_m),
+        cells_(static_cast<std::size_t>(headings)) {}
 
-  int headings() const { return headings_; }
-  double HalfWidth_rad() const { return std::numbers::pi / headings_; }
+  int headings() const { return static_cast<int>(cells_.size()); }
+  double HalfWidth_rad() const { return std::numbers::pi / headings(); }
   double Middle_rad(int heading) const { return (2 * heading + 1) * HalfWidth_rad(); }
-  CoarseLikelihood::Cells At(int heading) const {
-    const auto cells =
-        std::span(cells_).subspan(static_cast<std::size_t>(heading) * points_, points_);
-    return {.near = cells.first(near_), .far = cells.subspan(near_)};
+  CoarseLikelihood::Cells At(int heading) {
+    std::vector<GridCell>& cells = cells_[static_cast<std::size_t>(heading)];
+    if (cells.empty()) cells = CellsAt(Middle_rad(heading));
+    const std::span all(cells);
+    return {.near = all.first(near_), .far = all.subspan(near_)};
   }
 
  private:
-  std::size_t points_;
+  std::vector<GridCell> CellsAt(double heading_rad) const {
+    const Eigen::Matrix2d R = Eigen::Rotation2Dd(heading_rad).toRotationMatrix();
+    std::vector<GridCell> cells;
+    cells.reserve(points_m_.size());
+    for (const Eigen::Vector2d& p_m : points_m_) {
+      const Eigen::Vector2d cell = (R * p_m / cell_m_).array().floor();
+      cells.push_back({static_cast<int>(cell.x()), static_cast<int>(cell.y())});
+    }
+    return cells;
+  }
+
+  std::span<const Eigen::Vector2d> points_m_;
   std::size_t near_;
-  int headings_;
-  std::vector<GridCell> cells_;
+  double cell_m_;
+  std::vector<std::vector<GridCell>> cells_;  // By heading; none where nobody asked yet.
 };
 
 std::vector<Eigen::Vector2d> NearOnes(std::span<const Eigen::Vector2d> points_m) {
@@ -154,7 +161,7 @@ class ModeSearch {
              const ModeSearchLimits& limits)
       : map_(map), area_(area), points_m_(std::move(points_m)), limits_(limits) {
     const double lever_m = FarthestOf(points_m_);
-    const double half_width_rad = 0.5 * WidestBlock_m(map) / lever_m;
+    const double half_width_rad = 0.25 * WidestBlock_m(map) / lever_m;
     int headings = static_cast<int>(std::ceil(std::numbers::pi / half_width_rad));
     const auto far = std::ranges::partition(
         points_m_, [&](const Eigen::Vector2d& p_m) { return p_m.norm() <= 0.5 * lever_m; });
@@ -166,15 +173,16 @@ class ModeSearch {
   }
 
   // The higher the threshold, the fewer blocks are of interest: a low one serves only where nothing
-  // scores more. What is found is the same.
+  // is known to score more. What is found is the same.
   FoundModes Run() {
-    double score = std::max(limits_.min_score, kHighScore);
+    const double least = std::max(limits_.min_score, limits_.known_score - limits_.margin);
+    double score = limits_.known_score > 0.0 ? least : std::max(least, kHighScore);
     FoundModes found = RunAbove(score);
-    while (!is_given_up_ && score > limits_.min_score) {
+    while (!is_given_up_ && score > least) {
       const double enough =
           found.modes.empty() ? kLower * score : found.modes.front().score - limits_.margin;
       if (enough >= score) break;
-      score = std::max(limits_.min_score, enough);
+      score = std::max(least, enough);
       found = RunAbove(score);
     }
     return found;
@@ -187,12 +195,12 @@ class ModeSearch {
     tried_.clear();
     found_.clear();
     PushPlaces();
-    for (std::size_t visited = 0; !queue_.empty(); ++visited) {
+    for (; !queue_.empty(); ++visited_) {
       const double highest = queue_.Highest();
       if (highest <= threshold_) break;
       const PoseBlock block = queue_.Pop();
       if (block.bound <= threshold_ || IsTried(block)) continue;
-      is_given_up_ = visited == kMostBlocks || found_.size() == kMostModes;
+      is_given_up_ = visited_ >= kMostBlocks || found_.size() == kMostModes;
       if (is_given_up_) return Best(highest);
       block.level == 0 ? Try(block) : PushParts(block);
     }
@@ -240,8 +248,8 @@ class ModeSearch {
     queue_.Push(block);
   }
 
-  CoarseLikelihood::FourBounds BoundsOfFour(const PoseBlock& first) const {
-    const TurnedPoints& turned = turned_[static_cast<std::size_t>(first.level)];
+  CoarseLikelihood::FourBounds BoundsOfFour(const PoseBlock& first) {
+    TurnedPoints& turned = turned_[static_cast<std::size_t>(first.level)];
     return area_.districts()[first.district].likelihood->BoundsOfFour(
         first.level, turned.At(first.heading), {first.x, first.y}, threshold_);
   }
@@ -314,6 +322,7 @@ class ModeSearch {
   std::vector<TurnedPoints> turned_;  // By level.
   double threshold_ = 0.0;            // What scores less is of no interest.
   bool is_given_up_ = false;
+  std::size_t visited_ = 0;  // Blocks, so far.
   BlockQueue queue_;
   std::vector<Pose2> tried_;
   std::vector<FoundPose> found_;

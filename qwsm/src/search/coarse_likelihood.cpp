@@ -118,11 +118,11 @@ CoarseLikelihood::CoarseLikelihood(const LikelihoodPyramid& map, const Eigen::Al
                        (high.y >> LikelihoodTile::kBits) - first.y + 1};
   first_ = {first.x * kTileSide, first.y * kTileSide};
   planes_.push_back(Coarsened(FinestPlane(map, first, tiles), 2, 0));
-  planes_.push_back(Coarsened(planes_.back(), 4, 1));
+  planes_.push_back(Coarsened(planes_.back(), 3, 1));
   for (int level = 2; level < kLevels; ++level) {
     const int width = WidthOf(level);
+    planes_.push_back(Coarsened(planes_.back(), width + width / 4, level - 1));
     planes_.push_back(Coarsened(planes_.back(), width + width / 2, level - 1));
-    planes_.push_back(Coarsened(planes_.back(), 2 * width, level - 1));
   }
 }
 

@@ -82,6 +82,7 @@ class PlaceFinder {
   const ModeSearchArea& AreaOf(const ScanMap& map);
   bool HasMovedOn(const Pose2& T_local_robot) const;
   void Follow(const Sight& sight, const Pose2& T_last_robot);
+  double FollowedScore() const;
   void AddModes(const Sight& sight);
   void Weigh(const Sight& sight, double news);
   void ForgetUnlikely();

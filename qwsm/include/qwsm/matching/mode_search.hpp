@@ -47,6 +47,7 @@ class ModeSearchArea {
 struct ModeSearchLimits {
   double min_score = 0.0;  ///< Poses that score no better are not found.
   double margin = 0.0;     ///< Poses that score this much less than the best one are not found.
+  double known_score = 0.0;  ///< So much the best one scores at least, as somebody knows.
 };
 
 /// All poses that may be the right one.

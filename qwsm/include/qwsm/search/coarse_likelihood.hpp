@@ -19,10 +19,9 @@ namespace qwsm {
 /// with nothing every wall seems to be everywhere.
 ///
 /// A level bounds squares of `w` offsets to a side, w = 1, 2, 4 ... in level-0 cells of the
-/// pyramid, of a scan that is turned by up to so much that its far points move by w / 2, its near
-/// ones by w / 4: for these, which are most, the bounds are the closer. (Half a cell, where w is 1,
-/// may lead into the cell before; the one after is not counted, or the finest bounds would tell
-/// little.)
+/// pyramid, of a scan that is turned by up to so much that its far points move by w / 4, its near
+/// ones by w / 8: for these, which are most, the bounds are the closer. (Parts of a cell may lead
+/// into the cell before; the one after is not counted, or the finest bounds would tell little.)
 class CoarseLikelihood {
  public:
   static constexpr int kLevels = 6;
