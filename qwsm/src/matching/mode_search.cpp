@@ -27,8 +27,8 @@ constexpr std::size_t kMostModes = 64;       // More are no knowledge.
 constexpr std::size_t kMostBlocks = 120000;  // Where everything is alike, the search is given up.
 
 // Poses with the robot in a square of positions, as wide as a level of CoarseLikelihood says, and
-// the heading in an interval: turning to either end of it moves no point by more than a quarter of
-// the width.
+// the heading in an interval: turning to either end of it moves no point by more than
+// CoarseLikelihood::kFarMove of the width.
 struct PoseBlock {
   double bound = 0.0;
   int level = 0;
@@ -161,7 +161,7 @@ class ModeSearch {
              const ModeSearchLimits& limits)
       : map_(map), area_(area), points_m_(std::move(points_m)), limits_(limits) {
     const double lever_m = FarthestOf(points_m_);
-    const double half_width_rad = 0.25 * WidestBlock_m(map) / lever_m;
+    const double half_width_rad = CoarseLikelihood::kFarMove * WidestBlock_m(map) / lever_m;
     int headings = static_cast<int>(std::ceil(std::numbers::pi / half_width_rad));
     const auto far = std::ranges::partition(
         points_m_, [&](const Eigen::Vector2d& p_m) { return p_m.norm() <= 0.5 * lever_m; });

@@ -3,6 +3,7 @@
 #include "qwsm/search/coarse_likelihood.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "short_sums.hpp"
@@ -32,6 +33,13 @@ std::vector<int> PartsOf(int reach, int stride, int wanted_reach) {
   for (int part = 0; part < last; part += reach / stride) parts.push_back(part);
   parts.push_back(last);
   return parts;
+}
+
+// Offsets of a square and beside it, to both sides, that points reach which move by so much of its
+// width.
+int SideOf(int level, double move) {
+  const int width = CoarseLikelihood::WidthOf(level);
+  return width + static_cast<int>(std::ceil(2.0 * move * width));
 }
 
 // So that four bytes may be read wherever there is one.
@@ -117,12 +125,11 @@ CoarseLikelihood::CoarseLikelihood(const LikelihoodPyramid& map, const Eigen::Al
   const GridCell tiles{(high.x >> LikelihoodTile::kBits) - first.x + 1,
                        (high.y >> LikelihoodTile::kBits) - first.y + 1};
   first_ = {first.x * kTileSide, first.y * kTileSide};
-  planes_.push_back(Coarsened(FinestPlane(map, first, tiles), 2, 0));
-  planes_.push_back(Coarsened(planes_.back(), 3, 1));
+  planes_.push_back(Coarsened(FinestPlane(map, first, tiles), SideOf(0, kFarMove), 0));
+  planes_.push_back(Coarsened(planes_.back(), SideOf(1, kFarMove), 1));
   for (int level = 2; level < kLevels; ++level) {
-    const int width = WidthOf(level);
-    planes_.push_back(Coarsened(planes_.back(), width + width / 4, level - 1));
-    planes_.push_back(Coarsened(planes_.back(), width + width / 2, level - 1));
+    planes_.push_back(Coarsened(planes_.back(), SideOf(level, 0.5 * kFarMove), level - 1));
+    planes_.push_back(Coarsened(planes_.back(), SideOf(level, kFarMove), level - 1));
   }
 }
 

@@ -27,6 +27,8 @@ class CoarseLikelihood {
   static constexpr int kLevels = 6;
   /// Side of the squares of offsets that a level bounds.
   static constexpr int WidthOf(int level) { return 1 << level; }
+  /// By how much of that width far points move at most where the scan turns, near ones by half.
+  static constexpr double kFarMove = 0.25;
 
   /// Where the points of a scan are. The order within each group does not matter.
   struct Cells {
