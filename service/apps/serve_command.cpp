@@ -37,7 +37,10 @@ class TeamServer {
         map_outbox_(participant_, graph_),
         marks_(participant_, refusals_, JournalForMarks(arguments)),
         mark_places_(marks_),
-        results_(folder ? std::make_unique<pipeline::TeamResults>(*folder, options.rendering)
+        results_(folder ? std::make_unique<pipeline::TeamResults>(
+                              *folder,
+                              pipeline::TeamResultsOptions{.rendering = options.rendering,
+                                                           .corrects = options.graph.enabled})
                         : nullptr),
         service_({.team = options.team,
                   .mapper = options.mapper,

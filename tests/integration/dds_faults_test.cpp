@@ -57,9 +57,7 @@ class DdsFaults : public ::testing::Test {
     more.insert(more.begin(), {"replay", Log(), "--robot", "robot1"});
     return network_.Run(more);
   }
-  Outcome MapOf() const {
-    return RunProgram({"map", Log(), "--output", Path("mapped"), "--set", "graph.enabled=false"});
-  }
+  Outcome MapOf() const { return RunProgram({"map", Log(), "--output", Path("mapped")}); }
 
   TemporaryFolder folder_;
   PrivateNetwork network_;

@@ -61,8 +61,7 @@ TEST_F(DdsStop, SavesAllInLessThanAThirdOfTheTimeThatMappingTook) {
   const Seconds stopping = std::chrono::steady_clock::now() - begun;
   ASSERT_EQ(served.exit_code, 0) << served.errors;
 
-  const Outcome mapped =
-      RunProgram({"map", log, "--output", Path("mapped"), "--set", "graph.enabled=false"});
+  const Outcome mapped = RunProgram({"map", log, "--output", Path("mapped")});
   ASSERT_EQ(mapped.exit_code, 0) << mapped.errors;
   for (const char* file : {"trajectory.tum", "map.pgm", "map.yaml", "map.png"}) {
     const std::string expected = ReadFile(Path("mapped") / file);

@@ -5,10 +5,32 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <string>
 
 #include "tests/support/network.hpp"
 
 namespace qwsm::test {
+
+/// Expects of a service that was played a log what the mapper leaves of it, bit for bit: the poses
+/// as they were answered, and path, loops, graph and map as they are corrected in the end.
+/// @param served folder of the robot among the service's results. @param mapped the mapper's.
+inline void ExpectSamePath(const std::filesystem::path& served,
+                           const std::filesystem::path& mapped) {
+  for (const char* file : {"trajectory_live.tum", "trajectory.tum", "trajectory.kitti"}) {
+    const std::string expected = ReadFile(mapped / file);
+    EXPECT_GT(expected.size(), 10'000U) << file;
+    EXPECT_TRUE(ReadFile(served / file) == expected) << file;
+  }
+}
+inline void ExpectSameMap(const std::filesystem::path& served,
+                          const std::filesystem::path& mapped) {
+  for (const char* file :
+       {"loops.csv", "graph.g2o", "graph.toro", "map.pgm", "map.yaml", "map.png", "map_live.png"}) {
+    const std::string expected = ReadFile(mapped / file);
+    EXPECT_FALSE(expected.empty()) << file;
+    EXPECT_TRUE(ReadFile(served / file) == expected) << file;
+  }
+}
 
 /// Maps a log twice: played to a service over DDS as fast as it is answered, and read from its
 /// file. Leaves the results in the folders `served` and `mapped`.

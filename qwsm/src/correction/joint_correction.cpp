@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "anchored_path.hpp"
+#include "qwsm/correction/anchored_path.hpp"
 #include "qwsm/mapping/motion_model.hpp"
 
 namespace qwsm {
@@ -58,7 +58,7 @@ class NodesOfMap {
 AnchoredPath Hang(std::span<const StampedAnswer> answers, std::span<const RelevantScan> scans) {
   AnchoredPath path;
   auto next = scans.begin();
-  UncertainPose2 map_last;
+  std::optional<UncertainPose2> map_last;
   for (const StampedAnswer& answer : answers) {
     MappingStep step{.stamp = answer.stamp, .map_robot = answer.map_robot};
     if (next != scans.end() && next->scan.stamp <= answer.stamp) {

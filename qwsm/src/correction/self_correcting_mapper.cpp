@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "anchored_path.hpp"
+#include "qwsm/correction/anchored_path.hpp"
 #include "qwsm/geometry/frame_covariance.hpp"
 #include "qwsm/mapping/scan_locator.hpp"
 
@@ -64,7 +64,7 @@ void SelfCorrectingMapper::Note(const Observation& observation, std::size_t answ
 }
 
 void SelfCorrectingMapper::Take(const MappingStep& step, const std::optional<FoundBeside>& found) {
-  path_->Take(step, nodes_.map_last().value_or(UncertainPose2{}));
+  path_->Take(step, nodes_.map_last());
   auto node = nodes_.Take(step);
   if (!node) return;
   node->robot = components_ - 1;

@@ -33,7 +33,7 @@ std::string LineOf(const Loop& loop, const ScanMap& map) {
   return row.Finish();
 }
 
-void WriteEpochs(const ResultsFolder& folder, const CorrectedRun& run) {
+void WriteEpochs(const std::filesystem::path& folder, const CorrectedRun& run) {
   io::AtomicFile table(folder / "epochs.csv");
   table.stream() << kEpochHeader;
   for (std::size_t i = 0; i < run.epochs.size(); ++i) {
@@ -78,7 +78,7 @@ CorrectedRun CorrectAtTheEnd(SelfCorrectingMapper& mapper) {
           .epochs = {mapper.epochs().begin(), mapper.epochs().end()}};
 }
 
-void WriteLoops(const ResultsFolder& folder, const CorrectedRun& run) {
+void WriteLoops(const std::filesystem::path& folder, const CorrectedRun& run) {
   io::AtomicFile table(folder / "loops.csv");
   table.stream() << kLoopHeader;
   for (const Loop& loop : run.correction.loops) table.stream() << LineOf(loop, run.map);

@@ -3,13 +3,13 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <span>
 #include <vector>
 
 #include "qwsm/correction/joint_correction.hpp"
 #include "qwsm/correction/self_correcting_mapper.hpp"
 #include "service/io/pictures/trajectory_picture.hpp"
-#include "service/pipeline/results/results_folder.hpp"
 
 namespace qwsm::pipeline {
 
@@ -38,7 +38,7 @@ CorrectedRun CorrectAtTheEnd(SelfCorrectingMapper& mapper);
 /// there were any; loops.csv, a line per loop that was found, and the graph as graph.g2o and
 /// graph.toro.
 /// @throws io::WriteError.
-void WriteLoops(const ResultsFolder& folder, const CorrectedRun& run);
+void WriteLoops(const std::filesystem::path& folder, const CorrectedRun& run);
 
 /// The loops of a correction as lines between the places that they join.
 std::vector<io::LoopLine> LoopLines(const Correction& correction);

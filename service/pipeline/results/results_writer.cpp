@@ -70,7 +70,7 @@ void ResultsWriter::Finish(const ScanMap& map_live,
   const Trajectory trajectory = io::TrajectoryOf(overlay.path);
   io::WriteTumFile(folder_ / "trajectory.tum", trajectory);
   io::WriteKittiFile(folder_ / kKittiFile, trajectory);
-  WriteLoops(folder_, corrected);
+  WriteLoops(folder_.path(), corrected);
   WriteFigures({.map = corrected.map,
                 .matcher = matcher,
                 .path = overlay.path,

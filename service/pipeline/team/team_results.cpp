@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/team/team_results.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -10,14 +9,18 @@
 #include <utility>
 #include <vector>
 
+#include "qwsm/metrics/pose_lookup.hpp"
 #include "service/io/files/atomic_file.hpp"
 #include "service/io/maps/ros_map_file.hpp"
+#include "service/io/pictures/map_picture.hpp"
 #include "service/io/pictures/team_picture.hpp"
 #include "service/io/pictures/trajectory_picture.hpp"
+#include "service/io/trajectories/trajectory_file.hpp"
+#include "service/pipeline/results/corrected_run.hpp"
 #include "service/pipeline/results/results_writer.hpp"
 #include "service/pipeline/results/run_report.hpp"
 #include "service/pipeline/run/parallel.hpp"
-#include "service/pipeline/team/path_in_map.hpp"
+#include "service/pipeline/team/robot_path.hpp"
 #include "service/pipeline/text/messages.hpp"
 
 namespace qwsm::pipeline {
@@ -30,9 +33,9 @@ constexpr std::size_t kMostPoses = 20'000;
 /// What one robot leaves.
 class TeamResults::RobotResults {
  public:
-  explicit RobotResults(fs::path folder) : folder_(std::move(folder)) {}
+  RobotResults(fs::path folder, bool corrects) : folder_(std::move(folder)), corrects_(corrects) {}
 
-  void Take(const TimedStep& timed, const team::MapVersion& version) {
+  void Take(const TimedStep& timed, const team::RobotAnswer& answer) {
     if (has_failed_) return;
     try {
       if (!files_) Open();
@@ -44,42 +47,28 @@ class TeamResults::RobotResults {
     }
     statistics_.Take(timed);
     history_.Take(timed);
-    const MappingStep& step = timed.step;
-    if (stretches_.empty() || stretches_.back().version != version) {
-      stretches_.push_back({.version = version, .since = step.stamp, .relevant = {}});
-    }
-    if (!step.relevant) return;
-    stretches_.back().relevant.push_back(
-        {.stamp = step.relevant_scan.stamp, .T_map_robot = step.map_relevant.T_a_b});
+    path_.Take(answer);
   }
 
-  std::vector<io::PathPose> PathIn(const ScansInMap& map) const {
-    return PathInMap(history_.path(), stretches_, map);
-  }
+  std::vector<io::PathPose> PathIn(const RobotInMap& map) const { return path_.In(map); }
 
-  void Finish(const ScanMap& map, const OccupancyGrid* grid, std::vector<io::PathPose> path) {
-    if (has_failed_ || !files_) return;
-    files_->first.Commit();
-    files_->second.Commit();
-    io::WriteTextFile(folder_ / "metrics.json",
-                      MetricsJson(statistics_, map, MatcherKind::kQWsm, std::nullopt).Text());
-    if (!grid) return;
-    io::WriteTrajectoryPicture(folder_ / "trajectory.png", *grid, OverlayOf(std::move(path)));
-  }
+  void Finish(const FinalMap& map, std::vector<io::PathPose> path);
 
   const fs::path& folder() const { return folder_; }
 
  private:
-  // With the path as it was answered where that is another one. Odometry begins where that does.
-  io::MapOverlay OverlayOf(std::vector<io::PathPose> path) const {
+  // With the path as it was answered in that map. Odometry begins where the path does.
+  io::MapOverlay OverlayOf(std::vector<io::PathPose> path, std::uint64_t map) const {
     io::MapOverlay overlay = history_.Overlay();
-    const Trajectory answered = io::TrajectoryOf(overlay.path);
-    if (path.empty() || io::TrajectoryOf(path) == answered) return overlay;
-    const auto then = std::ranges::find(answered, path.front().stamp, &StampedPose2::stamp);
-    const Pose2 T_now_then = path.front().map_robot.T_a_b * then->T_map_robot.Inverse();
+    if (path.empty()) return overlay;
+    Trajectory answered = io::TrajectoryOf(overlay.path);
+    const auto then = NearestIndex(answered, path.front().stamp, Timestamp::max());
+    const Pose2 T_now_then = path.front().map_robot.T_a_b * answered[*then].T_map_robot.Inverse();
     for (StampedPose2& pose : overlay.odometry) pose.T_map_robot = T_now_then * pose.T_map_robot;
-    overlay.answered = answered;
+    std::erase_if(answered,
+                  [&](const StampedPose2& pose) { return path_.MapAt(pose.stamp) != map; });
     overlay.path = std::move(path);
+    if (io::TrajectoryOf(overlay.path) != answered) overlay.answered = std::move(answered);
     return overlay;
   }
 
@@ -89,28 +78,53 @@ class TeamResults::RobotResults {
     if (error) throw io::WriteError(folder_.string() + ": cannot be created: " + error.message());
     files_ = std::make_unique<std::pair<TrajectorySink, ScanTableSink>>(
         std::piecewise_construct,
-        std::forward_as_tuple(folder_ / "trajectory.tum"),
+        std::forward_as_tuple(folder_ / (corrects_ ? "trajectory_live.tum" : "trajectory.tum")),
         std::forward_as_tuple(folder_ / "scans.csv"));
   }
 
   fs::path folder_;
+  bool corrects_;
   bool has_failed_ = false;
   std::unique_ptr<std::pair<TrajectorySink, ScanTableSink>> files_;
   RunStatistics statistics_;
   RunHistory history_{kMostPoses};
-  std::vector<AnsweredStretch> stretches_;
+  RobotPath path_;
 };
 
-/// A map that is drawn, with those in it.
-struct TeamResults::DrawnMap {
+/// A map as it is in the end, with those in it.
+struct TeamResults::FinalMap {
   fs::path folder;
-  std::optional<OccupancyGrid> grid;
-  std::map<std::string, ScansInMap> scans;  // By robot.
-  std::vector<io::RobotPath> robots;
+  std::shared_ptr<const team::TeamMap> known;  ///< As the robots know it.
+  std::optional<CorrectedRun> corrected{};     ///< What it comes to where it is corrected.
+  std::optional<LoopCounts> loops{};
+  std::optional<OccupancyGrid> grid{};    ///< As it is in the end.
+  std::optional<OccupancyGrid> before{};  ///< As the robots know it, where it is corrected.
+  std::map<std::string, RobotInMap> robots_in{};
+  std::vector<io::RobotPath> paths{};
 };
 
-TeamResults::TeamResults(const ResultsFolder& folder, const OccupancyGridOptions& rendering)
-    : folder_(folder), rendering_(rendering) {}
+void TeamResults::RobotResults::Finish(const FinalMap& map, std::vector<io::PathPose> path) {
+  if (has_failed_ || !files_) return;
+  files_->first.Commit();
+  files_->second.Commit();
+  if (corrects_) {
+    const Trajectory trajectory = io::TrajectoryOf(path);
+    io::WriteTumFile(folder_ / "trajectory.tum", trajectory);
+    io::WriteKittiFile(folder_ / "trajectory.kitti", trajectory);
+  }
+  const team::TeamMap::State::View known = map.known->Read();
+  const ScanMap& scans = map.corrected ? map.corrected->map : known->map;
+  io::WriteTextFile(
+      folder_ / "metrics.json",
+      MetricsJson(statistics_, scans, MatcherKind::kQWsm, std::nullopt, map.loops).Text());
+  if (!map.grid) return;
+  io::MapOverlay overlay = OverlayOf(std::move(path), map.known->VersionOf(*known).map);
+  if (map.corrected) overlay.loops = LoopLines(map.corrected->correction);
+  io::WriteTrajectoryPicture(folder_ / "trajectory.png", *map.grid, overlay);
+}
+
+TeamResults::TeamResults(const ResultsFolder& folder, const TeamResultsOptions& options)
+    : folder_(folder), options_(options) {}
 
 TeamResults::~TeamResults() = default;
 
@@ -121,57 +135,74 @@ void TeamResults::TakeAnswer(const team::RobotAnswer& answer) {
              .duration = answer.matching,
              .worked = answer.matching,
              .T_odom_robot = answer.T_odom_robot},
-            answer.version);
+            answer);
 }
 
 TeamResults::RobotResults& TeamResults::ResultsOf(const std::string& robot) {
   const std::lock_guard lock(mutex_);
   std::unique_ptr<RobotResults>& results = robots_[robot];
-  if (!results) results = std::make_unique<RobotResults>(folder_.path() / robot);
+  if (!results) {
+    results = std::make_unique<RobotResults>(folder_.path() / robot, options_.corrects);
+  }
   return *results;
 }
 
 void TeamResults::Finish(team::TeamService& service) {
-  std::map<const team::TeamMap*, DrawnMap> maps;
-  const auto map_of = [&](const std::string& robot, const fs::path& folder) -> DrawnMap& {
+  std::map<const team::TeamMap*, FinalMap> maps;
+  const auto map_of = [&](const std::string& robot, const fs::path& folder) -> FinalMap& {
     const auto [known, is_new] = maps.try_emplace(service.MapOf(robot).get());
-    if (is_new) known->second = Draw(service, robot, folder);
+    if (is_new) known->second = FinishMap(service, robot, folder);
     return known->second;
   };
   std::vector<std::function<void()>> tasks;
   map_of("", folder_.path());  // The team's, where it shares one.
   for (const auto& [robot, results] : robots_) {
-    DrawnMap& map = map_of(robot, results->folder());
-    std::vector<io::PathPose> path = results->PathIn(map.scans[robot]);
-    map.robots.push_back({.robot = robot, .path = io::TrajectoryOf(path)});
-    tasks.push_back([&service, &robot, &results, &map, path = std::move(path)] {
-      const OccupancyGrid* const grid = map.grid ? &*map.grid : nullptr;
-      results->Finish(service.MapOf(robot)->Read()->map, grid, path);
-    });
+    FinalMap& map = map_of(robot, results->folder());
+    std::vector<io::PathPose> path = results->PathIn(map.robots_in[robot]);
+    map.paths.push_back({.robot = robot, .path = io::TrajectoryOf(path)});
+    tasks.push_back(
+        [&results, &map, path = std::move(path)] { results->Finish(map, std::move(path)); });
   }
   for (const auto& [_, map] : maps) {
+    if (map.corrected) {
+      tasks.push_back([&map] { WriteLoops(map.folder, *map.corrected); });
+    }
+    if (map.before) {
+      tasks.push_back([&map] { io::WriteMapPicture(map.folder / "map_live.png", *map.before); });
+    }
     if (!map.grid) continue;
     tasks.push_back([&map] { io::WriteRosMap(map.folder / "map.yaml", *map.grid); });
-    tasks.push_back(
-        [&map] { io::WriteTeamPicture(map.folder / "map.png", *map.grid, map.robots); });
+    tasks.push_back([&map] { io::WriteTeamPicture(map.folder / "map.png", *map.grid, map.paths); });
   }
   RunInParallel(tasks);
 }
 
-TeamResults::DrawnMap TeamResults::Draw(team::TeamService& service,
-                                        const std::string& robot,
-                                        const fs::path& folder) const {
-  const std::shared_ptr<const team::TeamMap> map = service.MapOf(robot);
-  DrawnMap drawn{.folder = folder, .grid = {}, .scans = {}, .robots = {}};
-  const team::TeamMap::State::View contents = map->Read();
-  for (const auto& [name, _] : robots_) drawn.scans[name].version = map->VersionOf(*contents);
-  for (const RelevantScan& scan : contents->map.scans()) {
-    drawn.scans[map->KeyOf(scan.id).robot].T_map_robot[scan.scan.stamp] = scan.map_robot.T_a_b;
+TeamResults::FinalMap TeamResults::FinishMap(team::TeamService& service,
+                                             std::string_view robot,
+                                             const fs::path& folder) const {
+  FinalMap end{.folder = folder, .known = service.MapOf(robot)};
+  const team::TeamMap::State::View known = end.known->Read();
+  if (known->map.empty()) return end;
+  end.grid = service.DrawMapOf(robot);
+  if (!end.grid) end.grid = RenderOrWarn(known->map, options_.rendering);
+  if (auto finished = service.FinishMapOf(robot)) {
+    end.corrected = {.correction = std::move(finished->correction),
+                     .map = std::move(finished->map),
+                     .epochs = {}};
+    end.loops = CountLoops(*end.corrected);
+    end.loops->epochs = known->epoch;
+    end.before = std::move(end.grid);
+    end.grid = RenderOrWarn(end.corrected->map, options_.rendering);
   }
-  if (contents->map.empty()) return drawn;
-  drawn.grid = service.DrawMapOf(robot);
-  if (!drawn.grid) drawn.grid = RenderOrWarn(contents->map, rendering_);
-  return drawn;
+  const ScanMap& map = end.corrected ? end.corrected->map : known->map;
+  for (const RelevantScan& scan : map.scans()) {
+    RobotInMap& in_map = end.robots_in[end.known->KeyOf(scan.id).robot];
+    in_map.map_robot[scan.scan.stamp] = scan.map_robot;
+  }
+  for (const auto& [name, _] : robots_) {
+    end.robots_in[name].map = end.known->VersionOf(*known).map;
+  }
+  return end;
 }
 
 }  // namespace qwsm::pipeline

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
 
 #include "qwsm/mapping/occupancy_grid.hpp"
 #include "service/pipeline/results/results_folder.hpp"
@@ -15,14 +16,20 @@
 
 namespace qwsm::pipeline {
 
-/// Leaves what `qwsm map` leaves, for every robot of a team: paths and tables as it goes, pictures
-/// at the end, each map with the paths of all where several are in it. A robot without a namespace
-/// has the folder itself, others a folder of their name in it.
+struct TeamResultsOptions {
+  OccupancyGridOptions rendering;
+  bool corrects = true;  ///< Whether the service corrects its maps.
+};
+
+/// Leaves what `qwsm map` leaves, for every robot of a team: answers and tables as it goes, at the
+/// end the maps, corrected once more, paths in them, loops and pictures, each map with the paths of
+/// all where several are in it. A robot without a namespace has the folder itself, others a folder
+/// of their name in it.
 ///
 /// Where the disk is full the results end there, with a message; the service goes on.
 class TeamResults final : public team::TeamSink {
  public:
-  TeamResults(const ResultsFolder& folder, const OccupancyGridOptions& rendering);
+  TeamResults(const ResultsFolder& folder, const TeamResultsOptions& options);
   ~TeamResults() override;
 
   void TakeAnswer(const team::RobotAnswer& answer) override;
@@ -34,15 +41,15 @@ class TeamResults final : public team::TeamSink {
 
  private:
   class RobotResults;
-  struct DrawnMap;
+  struct FinalMap;
 
   RobotResults& ResultsOf(const std::string& robot);
-  DrawnMap Draw(team::TeamService& service,
-                const std::string& robot,
-                const std::filesystem::path& folder) const;
+  FinalMap FinishMap(team::TeamService& service,
+                     std::string_view robot,
+                     const std::filesystem::path& folder) const;
 
   ResultsFolder folder_;
-  OccupancyGridOptions rendering_;
+  TeamResultsOptions options_;
   std::mutex mutex_;  // Guards the list; each robot is answered by one thread at a time.
   std::map<std::string, std::unique_ptr<RobotResults>> robots_;
 };

@@ -246,6 +246,22 @@ void TeamAtlas::NoteJoined(const std::string& component,
                         .T_into_from = wanted.map_robot.T_a_b * before.Inverse()};
 }
 
+std::optional<FinishedDrive> TeamAtlas::Finish(const std::string& component) {
+  const std::lock_guard lock(extension_);
+  const MapComponent home = maps_.Named(component);
+  const bool is_empty = home.map->Read()->map.empty();
+  if (!options_.corrects || is_empty || IsKnownToOthers(*home.map)) return std::nullopt;
+  CatchUp(home);
+  return std::move(CorrectorOf(component)).Finish();
+}
+
+bool TeamAtlas::IsKnownToOthers(const TeamMap& map) const {
+  const std::string service = surroundings_.service();
+  return std::ranges::any_of(map.Read()->map.scans(), [&](const RelevantScan& scan) {
+    return map.KeyOf(scan.id).service != service;
+  });
+}
+
 // To free a large map takes longer than to answer a scan. Sessions let it go with their next scans.
 void TeamAtlas::Tidy() {
   decltype(retired_) retired;

@@ -83,6 +83,12 @@ class TeamAtlas {
   /// Takes all scans of a robot out of a component, into one of their own.
   /// @return false if the component has been corrected since.
   bool Part(const std::string& robot, const MapVersion& from, const std::string& from_name);
+  /// Corrects a component once more, in the end, for those who look at what is left; nobody is
+  /// told.
+  /// @return nothing where it is empty, or maps are not corrected, or where other services know it,
+  /// too: they have agreed on it as it is. @pre it changes no more, and this is the first call for
+  /// it.
+  std::optional<FinishedDrive> Finish(const std::string& component);
   /// Ends looks at components that are none any more, and frees maps that others have replaced and
   /// nobody reads any more. Takes as long as these; to be called beside.
   void Tidy();
@@ -99,6 +105,7 @@ class TeamAtlas {
   };
   using Planner = std::function<std::optional<Plan>()>;
 
+  bool IsKnownToOthers(const TeamMap& map) const;
   bool IsTeams() const { return options_.sharing == MapSharing::kTeam; }
   bool IsStill(const std::string& component, const MapVersion& version);
   void Settle(TeamScan& scan) const;

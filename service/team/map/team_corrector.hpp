@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "qwsm/correction/background_corrector.hpp"
+#include "qwsm/correction/self_correcting_mapper.hpp"
 #include "qwsm/mapping/mapper_options.hpp"
 #include "service/team/scans/team_scan.hpp"
 
@@ -29,6 +30,9 @@ class TeamCorrector {
   /// Takes over the poses that somebody else found, without waiting for a look that is under way.
   /// @param map_node of all scans that were taken.
   void Adopt(std::span<const UncertainPose2> map_node);
+
+  /// Corrects the map once more, in the end, when nothing follows any more.
+  FinishedDrive Finish() &&;
 
   /// Number of scans that were taken.
   std::size_t size() const { return nodes_; }

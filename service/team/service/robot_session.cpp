@@ -77,6 +77,7 @@ void RobotSession::Answer(Work& work, const std::optional<Pose2>& claimed_mounti
                            .step = AsTold(step),
                            .component = ComponentName(),
                            .version = version_,
+                           .last_relevant = LastRelevantPlace(),
                            .T_odom_robot = work.T_odom_robot,
                            .told = easing_.Tell(step, work.T_odom_robot),
                            .matching = answered - begun,
@@ -158,7 +159,7 @@ TeamMap::State::View RobotSession::FollowCorrections() {
   if (before == now) return contents;
   before.map == now.map ? watch_.FollowCorrection() : watch_.BeginInAnotherMap();
   if (!last_relevant_) return contents;
-  const std::optional<ScanId> last = component_.map->Find(*last_relevant_);
+  const std::optional<ScanId> last = component_.map->Find(last_relevant_->key);
   if (!last) {  // Another service has answered the robot since, elsewhere.
     last_relevant_.reset();
     is_placed_ = false;
@@ -202,7 +203,12 @@ void RobotSession::ExtendWith(TeamScan& scan) {
     scan.component = ComponentName();
     scan.map_robot.T_a_b = (tracker_.map_robot() * robot_scan).T_a_b;
   }
-  last_relevant_ = scan.key;
+  last_relevant_ = {.key = scan.key, .stamp = scan.scan.stamp};
+}
+
+std::optional<RelevantPlace<Planar>> RobotSession::LastRelevantPlace() const {
+  if (!last_relevant_) return std::nullopt;
+  return RelevantPlace<Planar>{.stamp = last_relevant_->stamp, .map_robot = *nodes_.map_last()};
 }
 
 // Only where there is something to be found.

@@ -78,6 +78,7 @@ class RobotSession final : public Lane {
   MappingStep AsTold(MappingStep step) const;
   void Extend(ContestedTracker::Tracked& tracked);
   void ExtendWith(TeamScan& scan);
+  std::optional<RelevantPlace<Planar>> LastRelevantPlace() const;
   void Place();
   void TakeUp(const UncertainPose2& told);
   bool IsApart() const;
@@ -108,7 +109,12 @@ class RobotSession final : public Lane {
   CorrectionEasing easing_;
   MapComponent component_;  // That the tracker's poses are in.
   MapVersion version_;      // Of its map.
-  std::optional<ScanKey> last_relevant_;
+  // The last scan that has extended it.
+  struct LastRelevant {
+    ScanKey key;
+    Timestamp stamp{};
+  };
+  std::optional<LastRelevant> last_relevant_;
   bool is_placed_ = false;
   bool is_new_start_ = false;  // Nothing ties the next relevant scan to the one before.
   std::optional<Pose2> T_odom_last_;

@@ -15,6 +15,13 @@
 
 namespace qwsm::team {
 
+/// Where a relevant scan was taken, in a map.
+template <class Kind>
+struct RelevantPlace {
+  Timestamp stamp{};
+  typename Kind::UncertainPose map_robot;
+};
+
 /// The answer to one scan.
 /// @tparam Kind Planar or Spatial.
 template <class Kind>
@@ -23,6 +30,9 @@ struct Answer {
   typename Kind::Step step;
   std::string component{};  ///< Of the team's map, that the step's pose is in.
   MapVersion version{};     ///< Of that map, where robots share one.
+  /// The robot's last relevant scan before this one in that map, as it was then; none where the
+  /// robot has not extended it since it was put there.
+  std::optional<RelevantPlace<Kind>> last_relevant{};
   std::optional<typename Kind::Pose> T_odom_robot{};  ///< Odometry at the scan's stamp.
   /// Where who drives by it is told that the robot is, as long as a correction of the map has not
   /// reached it in full; nothing where that is the answer.

@@ -16,11 +16,15 @@ namespace qwsm {
 class AnchoredPath {
  public:
   /// Takes the answer to a scan. If it is relevant, it is a node, the first one being node 0.
-  /// @param map_last the last node in the map of the answer.
-  void Take(const MappingStep& step, const UncertainPose2& map_last);
+  /// @param map_last the last node in the map of the answer; none where nothing ties them.
+  void Take(const MappingStep& step, const std::optional<UncertainPose2>& map_last);
+  /// Takes a node that is no answer's, and tied to none before.
+  void TakeNode() { anchors_.emplace_back(); }
 
   /// Number of answers that were taken.
   std::size_t size() const { return answers_.size(); }
+  /// Number of nodes that were taken.
+  std::size_t nodes() const { return anchors_.size(); }
   /// Forgets the answers from one on, and the nodes from one on.
   void ForgetSince(std::size_t first_answer, NodeId first_node);
 
@@ -28,6 +32,10 @@ class AnchoredPath {
   /// to that of the other, scan by scan, and most of the way where an answer went elsewhere than
   /// odometry; where the answers did not continue, it keeps the first.
   std::vector<UncertainPose2> At(std::span<const UncertainPose2> map_node) const;
+  /// Likewise where some nodes are in another map, or in none. @return none of answers beside
+  /// these.
+  std::vector<std::optional<UncertainPose2>> At(
+      std::span<const std::optional<UncertainPose2>> map_node) const;
 
  private:
   struct Answer {
@@ -40,8 +48,9 @@ class AnchoredPath {
     double strain = 0.0;               // Likewise since the node before.
   };
 
-  double StrainOf(const MappingStep& step, const UncertainPose2& map_last) const;
-  Pose2 Interpolated(const Answer& answer, std::span<const UncertainPose2> map_node) const;
+  double StrainOf(const MappingStep& step, const std::optional<UncertainPose2>& map_last) const;
+  std::optional<UncertainPose2> Place(
+      const Answer& answer, std::span<const std::optional<UncertainPose2>> map_node) const;
 
   std::vector<Answer> answers_;
   std::vector<Anchor> anchors_;  // By node.
