@@ -50,6 +50,13 @@ class TeamResults::RobotResults {
     path_.Take(answer);
   }
 
+  /// Leaves what was answered.
+  void FinishAnswers() {
+    if (has_failed_ || !files_) return;
+    files_->first.Commit();
+    files_->second.Commit();
+  }
+
   std::vector<io::PathPose> PathIn(const RobotInMap& map) const { return path_.In(map); }
 
   void Finish(const FinalMap& map, std::vector<io::PathPose> path);
@@ -105,8 +112,6 @@ struct TeamResults::FinalMap {
 
 void TeamResults::RobotResults::Finish(const FinalMap& map, std::vector<io::PathPose> path) {
   if (has_failed_ || !files_) return;
-  files_->first.Commit();
-  files_->second.Commit();
   if (corrects_) {
     const Trajectory trajectory = io::TrajectoryOf(path);
     io::WriteTumFile(folder_ / "trajectory.tum", trajectory);
@@ -148,6 +153,7 @@ TeamResults::RobotResults& TeamResults::ResultsOf(const std::string& robot) {
 }
 
 void TeamResults::Finish(team::TeamService& service) {
+  for (const auto& [_, results] : robots_) results->FinishAnswers();
   std::map<const team::TeamMap*, FinalMap> maps;
   const auto map_of = [&](const std::string& robot, const fs::path& folder) -> FinalMap& {
     const auto [known, is_new] = maps.try_emplace(service.MapOf(robot).get());
