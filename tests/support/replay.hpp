@@ -4,12 +4,32 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <filesystem>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "tests/support/network.hpp"
 
 namespace qwsm::test {
+
+/// A table of scans without how long their answers took.
+inline std::string WithoutTimes(const std::string& table) {
+  constexpr std::ptrdiff_t kTimes = 18;  // ms, cpu_ms.
+  std::istringstream lines(table);
+  std::string without;
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string> cells;
+    std::istringstream row(line);
+    for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+    if (std::ssize(cells) < kTimes + 2) return table;
+    cells.erase(cells.begin() + kTimes, cells.begin() + kTimes + 2);
+    for (const std::string& cell : cells) without += cell + ',';
+    without += '\n';
+  }
+  return without;
+}
 
 /// Expects of a service that was played a log what the mapper leaves of it, bit for bit: the poses
 /// as they were answered, and path, loops, graph and map as they are corrected in the end.
@@ -21,6 +41,8 @@ inline void ExpectSamePath(const std::filesystem::path& served,
     EXPECT_GT(expected.size(), 10'000U) << file;
     EXPECT_TRUE(ReadFile(served / file) == expected) << file;
   }
+  EXPECT_EQ(WithoutTimes(ReadFile(served / "scans.csv")),
+            WithoutTimes(ReadFile(mapped / "scans.csv")));
 }
 inline void ExpectSameMap(const std::filesystem::path& served,
                           const std::filesystem::path& mapped) {

@@ -27,8 +27,6 @@ Pose2 Driven(Timestamp stamp) { return {std::chrono::duration<double>(stamp).cou
 /// A robot that is answered once a second, in frames as they are then.
 class Drive {
  public:
-  RobotPath path;
-
   void Answer(bool is_relevant, const team::MapVersion& version, const Pose2& T_map_drive = {}) {
     team::RobotAnswer answer{.robot = "r", .step = {}, .version = version};
     answer.step.stamp = stamp_;
@@ -42,7 +40,7 @@ class Drive {
           .map_robot = {.T_a_b = T_map_drive * Driven(*last_relevant_)},
       };
     }
-    path.Take(answer);
+    path_.Take(answer);
     if (is_relevant) last_relevant_ = stamp_;
     stamp_ += 1s;
   }
@@ -50,7 +48,12 @@ class Drive {
   void Extend(Timestamp stamp) { last_relevant_ = stamp; }
   void BeginInAnotherMap() { last_relevant_.reset(); }
 
+  std::vector<io::PathPose> PathIn(const RobotInMap& end) const {
+    return path_.PathOf(path_.In(end));
+  }
+
  private:
+  RobotPath path_;
   Timestamp stamp_ = 0s;
   std::optional<Timestamp> last_relevant_;
 };
@@ -66,7 +69,7 @@ TEST(RobotPath, GoesOnFromAComponentIntoTheMapItJoined) {
   drive.Answer(true, kComponent);
   for (int i = 0; i < 3; ++i) drive.Answer(false, kComponent);
   for (int i = 0; i < 4; ++i) drive.Answer(false, kJoined, kT_map_component);
-  const auto path = drive.path.In({.map = 1, .map_robot = {{0s, {.T_a_b = kT_map_component}}}});
+  const auto path = drive.PathIn({.map = 1, .map_robot = {{0s, {.T_a_b = kT_map_component}}}});
   ASSERT_EQ(path.size(), 8U);
   for (const io::PathPose& pose : path) ExpectNear(pose, kT_map_component * Driven(pose.stamp));
 }
@@ -78,7 +81,7 @@ TEST(RobotPath, GoesFromTheCorrectionOfOneRelevantScanToThatOfTheNext) {
   drive.Answer(true, kJoined);
   const Pose2 aside{0.0, 0.2, 0.0};
   const auto path =
-      drive.path.In({.map = 1, .map_robot = {{0s, {}}, {2s, {.T_a_b = aside * Driven(2s)}}}});
+      drive.PathIn({.map = 1, .map_robot = {{0s, {}}, {2s, {.T_a_b = aside * Driven(2s)}}}});
   ASSERT_EQ(path.size(), 3U);
   ExpectNear(path[0], Driven(0s));
   ExpectNear(path[1], Pose2{0.0, 0.1, 0.0} * Driven(1s));
@@ -93,7 +96,7 @@ TEST(RobotPath, LeavesOutWhatTheMapKnowsNothingOf) {
   drive.Answer(false, kComponent);
   drive.Answer(true, kJoined);
   drive.Answer(false, kJoined);
-  const auto path = drive.path.In({.map = 1, .map_robot = {{3s, {.T_a_b = Driven(3s)}}}});
+  const auto path = drive.PathIn({.map = 1, .map_robot = {{3s, {.T_a_b = Driven(3s)}}}});
   ASSERT_EQ(path.size(), 2U);
   EXPECT_EQ(path.front().stamp, Timestamp(3s));
   EXPECT_EQ(path.back().stamp, Timestamp(4s));
@@ -107,7 +110,7 @@ TEST(RobotPath, HangsOnScansThatExtendedTheMapLater) {
   drive.Answer(false, kJoined);
   const Pose2 aside{0.0, 0.2, 0.0};
   const auto path =
-      drive.path.In({.map = 1, .map_robot = {{0s, {}}, {1s, {.T_a_b = aside * Driven(1s)}}}});
+      drive.PathIn({.map = 1, .map_robot = {{0s, {}}, {1s, {.T_a_b = aside * Driven(1s)}}}});
   ASSERT_EQ(path.size(), 3U);
   ExpectNear(path[1], Driven(1s));
   ExpectNear(path[2], aside * Driven(2s));
@@ -116,11 +119,11 @@ TEST(RobotPath, HangsOnScansThatExtendedTheMapLater) {
 TEST(RobotPath, IsThatOfTheAnswersInAMapThatTheRobotHasNotExtended) {
   Drive drive;
   for (int i = 0; i < 3; ++i) drive.Answer(false, kJoined);
-  const auto path = drive.path.In({.map = 1, .map_robot = {}});
+  const auto path = drive.PathIn({.map = 1, .map_robot = {}});
   ASSERT_EQ(path.size(), 3U);
   for (const io::PathPose& pose : path) EXPECT_EQ(pose.map_robot.T_a_b, Driven(pose.stamp));
-  EXPECT_TRUE(drive.path.In({.map = 3, .map_robot = {}}).empty());
-  EXPECT_TRUE(RobotPath().In({.map = 1, .map_robot = {}}).empty());
+  EXPECT_TRUE(drive.PathIn({.map = 3, .map_robot = {}}).empty());
+  EXPECT_TRUE(Drive().PathIn({.map = 1, .map_robot = {}}).empty());
 }
 
 }  // namespace

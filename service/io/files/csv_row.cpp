@@ -3,6 +3,7 @@
 #include "service/io/files/csv_row.hpp"
 
 #include <cassert>
+#include <cstddef>
 
 #include "service/io/files/number_text.hpp"
 
@@ -23,6 +24,12 @@ void CsvRow::Add(const UncertainPose2& pose) {
   for (int i = 0; i < 3; ++i) {
     for (int j = i; j < 3; ++j) Add(pose.covariance(i, j));
   }
+}
+
+void CsvRow::Add(const std::optional<UncertainPose2>& pose) {
+  constexpr std::size_t kColumns = 9;
+  if (pose) return Add(*pose);
+  text_.append(kColumns, ',');
 }
 
 void CsvRow::Add(std::string_view word) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -17,6 +18,8 @@ class CsvRow {
   void Add(Timestamp stamp);
   /// Adds nine columns: x, y and theta, and the upper triangle of their covariance, row by row.
   void Add(const UncertainPose2& pose);
+  /// Adds as many, which are empty where there is none.
+  void Add(const std::optional<UncertainPose2>& pose);
   /// Adds a word of our own. @pre it has no comma or quote.
   void Add(std::string_view word);
 

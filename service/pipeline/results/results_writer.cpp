@@ -66,7 +66,9 @@ void ResultsWriter::Finish(const ScanMap& map_live,
   overlay.answered = io::TrajectoryOf(overlay.path);
   Correct(overlay.path, correction);
   overlay.loops = LoopLines(correction);
-  AddCorrectedPoses(folder_ / "scans.csv", correction.map_robot);
+  const std::vector<std::optional<UncertainPose2>> corrected_poses(correction.map_robot.begin(),
+                                                                   correction.map_robot.end());
+  AddCorrectedPoses(folder_ / "scans.csv", corrected_poses);
   const Trajectory trajectory = io::TrajectoryOf(overlay.path);
   io::WriteTumFile(folder_ / "trajectory.tum", trajectory);
   io::WriteKittiFile(folder_ / kKittiFile, trajectory);

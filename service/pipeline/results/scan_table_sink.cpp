@@ -51,13 +51,13 @@ void ScanTableSink::Take(const TimedStep& timed) {
 }
 
 void AddCorrectedPoses(const std::filesystem::path& table,
-                       std::span<const UncertainPose2> corrected) {
+                       std::span<const std::optional<UncertainPose2>> corrected) {
   std::ifstream rows(table);
   io::AtomicFile wider(table);
   std::string row;
   std::getline(rows, row);
   wider.stream() << row << ',' << kCorrectedHeader;
-  for (const UncertainPose2& map_robot : corrected) {
+  for (const std::optional<UncertainPose2>& map_robot : corrected) {
     std::getline(rows, row);
     io::CsvRow columns;
     columns.Add(map_robot);

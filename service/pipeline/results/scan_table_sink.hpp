@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -28,8 +29,9 @@ class ScanTableSink final : public StepSink {
 };
 
 /// Adds the corrected poses and their covariances to a table, as further columns.
-/// @param corrected of every scan of the table. @throws io::WriteError.
+/// @param corrected of every scan of the table; none where the corrected map has no place for it.
+/// @throws io::WriteError.
 void AddCorrectedPoses(const std::filesystem::path& table,
-                       std::span<const UncertainPose2> corrected);
+                       std::span<const std::optional<UncertainPose2>> corrected);
 
 }  // namespace qwsm::pipeline

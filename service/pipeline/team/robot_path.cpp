@@ -27,7 +27,7 @@ void RobotPath::Take(const team::RobotAnswer& answer) {
   taken_.push_back({.stamp = step.stamp, .status = step.status});
 }
 
-std::vector<io::PathPose> RobotPath::In(const RobotInMap& end) const {
+std::vector<std::optional<UncertainPose2>> RobotPath::In(const RobotInMap& end) const {
   std::vector<std::optional<UncertainPose2>> map_node;
   map_node.reserve(nodes_.size());
   for (const Timestamp& stamp : nodes_) {
@@ -38,11 +38,17 @@ std::vector<io::PathPose> RobotPath::In(const RobotInMap& end) const {
   for (const auto& [i, map_robot] : unanchored_) {
     if (MapAt(taken_[i].stamp) == end.map) placed[i] = map_robot;
   }
+  return placed;
+}
+
+std::vector<io::PathPose> RobotPath::PathOf(
+    std::span<const std::optional<UncertainPose2>> map_robot) const {
   std::vector<io::PathPose> path;
-  path.reserve(placed.size());
-  for (std::size_t i = 0; i < placed.size(); ++i) {
-    if (!placed[i]) continue;
-    path.push_back({.stamp = taken_[i].stamp, .map_robot = *placed[i], .status = taken_[i].status});
+  path.reserve(map_robot.size());
+  for (std::size_t i = 0; i < map_robot.size(); ++i) {
+    if (!map_robot[i]) continue;
+    path.push_back(
+        {.stamp = taken_[i].stamp, .map_robot = *map_robot[i], .status = taken_[i].status});
   }
   return path;
 }

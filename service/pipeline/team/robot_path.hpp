@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "qwsm/correction/anchored_path.hpp"
@@ -28,8 +29,11 @@ class RobotPath {
   /// Takes the answer to the next scan.
   void Take(const team::RobotAnswer& answer);
 
-  /// The path in the map as it is in the end. What hangs on scans that the map has not is left out.
-  std::vector<io::PathPose> In(const RobotInMap& end) const;
+  /// Where each answer is in the map as it is in the end; none where it hangs on a scan that the
+  /// map has not.
+  std::vector<std::optional<UncertainPose2>> In(const RobotInMap& end) const;
+  /// The path of these answers. @param map_robot as In() gives them.
+  std::vector<io::PathPose> PathOf(std::span<const std::optional<UncertainPose2>> map_robot) const;
   /// Number of the map that the robot was in at a time; none before the first answer.
   std::optional<std::uint64_t> MapAt(Timestamp stamp) const;
 

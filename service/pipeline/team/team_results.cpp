@@ -57,9 +57,14 @@ class TeamResults::RobotResults {
     files_->second.Commit();
   }
 
-  std::vector<io::PathPose> PathIn(const RobotInMap& map) const { return path_.In(map); }
+  /// Places the answers in the map as it is in the end. @return the path there.
+  const std::vector<io::PathPose>& PlaceIn(const RobotInMap& map) {
+    map_robot_ = path_.In(map);
+    return placed_ = path_.PathOf(map_robot_);
+  }
 
-  void Finish(const FinalMap& map, std::vector<io::PathPose> path);
+  /// Leaves what is known of them in the end. @pre they are placed in the map.
+  void Finish(const FinalMap& map);
 
   const fs::path& folder() const { return folder_; }
 
@@ -96,6 +101,8 @@ class TeamResults::RobotResults {
   RunStatistics statistics_;
   RunHistory history_{kMostPoses};
   RobotPath path_;
+  std::vector<std::optional<UncertainPose2>> map_robot_;  // In the end, of each answer.
+  std::vector<io::PathPose> placed_;                      // Those that have a place there.
 };
 
 /// A map as it is in the end, with those in it.
@@ -110,10 +117,11 @@ struct TeamResults::FinalMap {
   std::vector<io::RobotPath> paths{};
 };
 
-void TeamResults::RobotResults::Finish(const FinalMap& map, std::vector<io::PathPose> path) {
+void TeamResults::RobotResults::Finish(const FinalMap& map) {
   if (has_failed_ || !files_) return;
   if (corrects_) {
-    const Trajectory trajectory = io::TrajectoryOf(path);
+    AddCorrectedPoses(folder_ / "scans.csv", map_robot_);
+    const Trajectory trajectory = io::TrajectoryOf(placed_);
     io::WriteTumFile(folder_ / "trajectory.tum", trajectory);
     io::WriteKittiFile(folder_ / "trajectory.kitti", trajectory);
   }
@@ -123,7 +131,7 @@ void TeamResults::RobotResults::Finish(const FinalMap& map, std::vector<io::Path
       folder_ / "metrics.json",
       MetricsJson(statistics_, scans, MatcherKind::kQWsm, std::nullopt, map.loops).Text());
   if (!map.grid) return;
-  io::MapOverlay overlay = OverlayOf(std::move(path), map.known->VersionOf(*known).map);
+  io::MapOverlay overlay = OverlayOf(std::move(placed_), map.known->VersionOf(*known).map);
   if (map.corrected) overlay.loops = LoopLines(map.corrected->correction);
   io::WriteTrajectoryPicture(folder_ / "trajectory.png", *map.grid, overlay);
 }
@@ -164,10 +172,9 @@ void TeamResults::Finish(team::TeamService& service) {
   map_of("", folder_.path());  // The team's, where it shares one.
   for (const auto& [robot, results] : robots_) {
     FinalMap& map = map_of(robot, results->folder());
-    std::vector<io::PathPose> path = results->PathIn(map.robots_in[robot]);
+    const std::vector<io::PathPose>& path = results->PlaceIn(map.robots_in[robot]);
     map.paths.push_back({.robot = robot, .path = io::TrajectoryOf(path)});
-    tasks.push_back(
-        [&results, &map, path = std::move(path)] { results->Finish(map, std::move(path)); });
+    tasks.push_back([&results, &map] { results->Finish(map); });
   }
   for (const auto& [_, map] : maps) {
     if (map.corrected) {

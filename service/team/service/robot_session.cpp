@@ -69,6 +69,7 @@ void RobotSession::Answer(Work& work, const std::optional<Pose2>& claimed_mounti
   is_placed_ = is_placed_ && !work.was_elsewhere;
   ContestedTracker::Tracked tracked = Track(work, observation, claimed_mounting);
   const auto answered = steady_clock::now();
+  tracked.step.epoch = static_cast<int>(version_.epoch);
   const MappingStep& step = tracked.step;
   TellNews(tracked.news);
   const SessionCounts counts = Note(work, tracked, answered - begun);
