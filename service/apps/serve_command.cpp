@@ -56,7 +56,7 @@ class TeamServer {
 
   void Run(const pipeline::Interruption& interruption) {
     Serve(Serving{service_, inbox_, results_.get()}, interruption);
-    if (folder_) pipeline::WriteMarks(folder_->path(), marks_.marks());
+    if (folder_) pipeline::WriteMarks(folder_->path(), results_->Placed(marks_.marks()));
   }
   team::TeamStatus Status() const { return service_.Status(); }
 

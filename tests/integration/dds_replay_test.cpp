@@ -4,11 +4,18 @@
 // A log through the network: `qwsm replay`, `qwsm serve` and `qwsm echo` as processes on loopback.
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "service/dds/service/mark_exchange.hpp"
 #include "service/io/trajectories/trajectory_file.hpp"
 #include "tests/support/network.hpp"
 #include "tests/support/replay.hpp"
@@ -17,6 +24,7 @@ namespace qwsm::test {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace std::chrono_literals;
 
 class DdsReplay : public ::testing::Test {
  protected:
@@ -74,6 +82,52 @@ TEST_F(DdsReplay, LeavesThePathAsAnsweredWhereNothingIsCorrected) {
   EXPECT_TRUE(ReadFile(Path("served/trajectory.tum")) == ReadFile(Path("mapped/trajectory.tum")));
   EXPECT_FALSE(fs::exists(Path("served/trajectory_live.tum")));
   EXPECT_FALSE(fs::exists(Path("served/loops.csv")));
+}
+
+/// Where a list of marks has the only one.
+Eigen::Vector2d PlaceOfMark(const std::string& list) {
+  Eigen::Vector2d p_map_m = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  const std::size_t name = list.find("\"Anna\",");
+  if (name != std::string::npos) {
+    sscanf(list.c_str() + name, "\"Anna\",%lf,%lf", &p_map_m.x(), &p_map_m.y());
+  }
+  return p_map_m;
+}
+
+// The park is driven round once: at its end the answers have drifted by decimetres.
+TEST_F(DdsReplay, LeavesMarksWhereTheCorrectedMapHasTheirScans) {
+  ASSERT_EQ(RunProgram({"sim", "park", "--output", Path("drive")}).exit_code, 0);
+  const std::string log = Path("drive/robot.log");
+  ASSERT_EQ(RunProgram({"map", log, "--output", Path("mapped")}).exit_code, 0);
+  const Trajectory answered = io::ReadTumFile(Path("mapped/trajectory_live.tum"));
+  const Trajectory corrected = io::ReadTumFile(Path("mapped/trajectory.tum"));
+  ASSERT_EQ(answered.size(), corrected.size());
+  std::vector<double> moved_m;
+  for (std::size_t i = 0; i < answered.size(); ++i) {
+    moved_m.push_back(
+        (answered[i].T_map_robot.translation_m() - corrected[i].T_map_robot.translation_m())
+            .norm());
+  }
+  const auto farthest = std::ranges::max_element(moved_m);
+  const auto there = static_cast<std::size_t>(farthest - moved_m.begin());
+  ASSERT_GT(*farthest, 0.1);
+
+  Daemon service(network_.JoinService({"serve", "--output", Path("served")}));
+  const dds::Participant participant({.interface = "lo", .tag = network_.tag()});
+  dds::Refusals refusals([](const std::string&) {});
+  dds::MarkExchange operators(
+      participant, refusals, team::MarkJournal({}, [](const std::string&) {}));
+  operators.Start();
+  ASSERT_EQ(network_.Run({"replay", log, "--rate", "max"}).exit_code, 0);
+  std::this_thread::sleep_for(500ms);  // Nothing tells that all scans were heard of, nor the mark.
+  operators.Tell({.id = "anna",
+                  .kind = "victim",
+                  .text = "Anna",
+                  .p_map_m = answered[there].T_map_robot.translation_m()});
+  std::this_thread::sleep_for(500ms);
+  ASSERT_EQ(service.End().exit_code, 0);
+  const Eigen::Vector2d mark_m = PlaceOfMark(ReadFile(Path("served/marks.csv")));
+  EXPECT_LT((mark_m - corrected[there].T_map_robot.translation_m()).norm(), 0.02);
 }
 
 TEST_F(DdsReplay, IsHeardPoseByPose) {

@@ -177,6 +177,11 @@ void TeamResults::Finish(team::TeamService& service) {
     tasks.push_back([&results, &map] { results->Finish(map); });
   }
   for (const auto& [_, map] : maps) {
+    for (const auto& [robot, in_map] : map.robots_in) {
+      for (const auto& [stamp, map_robot] : in_map.map_robot) {
+        scans_.push_back({.robot = robot, .stamp = stamp, .T_map_robot = map_robot.T_a_b});
+      }
+    }
     if (map.corrected) {
       tasks.push_back([&map] { WriteLoops(map.folder, *map.corrected); });
     }
@@ -188,6 +193,13 @@ void TeamResults::Finish(team::TeamService& service) {
     tasks.push_back([&map] { io::WriteTeamPicture(map.folder / "map.png", *map.grid, map.paths); });
   }
   RunInParallel(tasks);
+}
+
+std::vector<team::Mark> TeamResults::Placed(std::span<const team::Mark> marks) const {
+  team::MarkBook book;
+  for (const team::Mark& mark : marks) book.Take(mark);
+  book.Place(scans_);
+  return book.marks();
 }
 
 TeamResults::FinalMap TeamResults::FinishMap(team::TeamService& service,

@@ -6,11 +6,14 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "qwsm/mapping/occupancy_grid.hpp"
 #include "service/pipeline/results/results_folder.hpp"
+#include "service/team/marks/mark_book.hpp"
 #include "service/team/service/team_service.hpp"
 #include "service/team/sinks/team_sink.hpp"
 
@@ -38,6 +41,8 @@ class TeamResults final : public team::TeamSink {
   /// @pre the service has stopped.
   /// @throws io::WriteError.
   void Finish(team::TeamService& service);
+  /// The marks on the maps as they are in the end. @pre Finish() is done.
+  std::vector<team::Mark> Placed(std::span<const team::Mark> marks) const;
 
  private:
   class RobotResults;
@@ -52,6 +57,7 @@ class TeamResults final : public team::TeamSink {
   TeamResultsOptions options_;
   std::mutex mutex_;  // Guards the list; each robot is answered by one thread at a time.
   std::map<std::string, std::unique_ptr<RobotResults>> robots_;
+  std::vector<team::ScanPlace> scans_;  // Where the maps have them in the end.
 };
 
 }  // namespace qwsm::pipeline
