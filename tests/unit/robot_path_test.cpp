@@ -44,6 +44,8 @@ class Drive {
     if (is_relevant) last_relevant_ = stamp_;
     stamp_ += 1s;
   }
+  /// The next answer is to a scan of the same time as the last one.
+  void StayInTime() { stamp_ -= 1s; }
   /// Another scan than those answered as relevant has extended the map.
   void Extend(Timestamp stamp) { last_relevant_ = stamp; }
   void BeginInAnotherMap() { last_relevant_.reset(); }
@@ -114,6 +116,18 @@ TEST(RobotPath, HangsOnScansThatExtendedTheMapLater) {
   ASSERT_EQ(path.size(), 3U);
   ExpectNear(path[1], Driven(1s));
   ExpectNear(path[2], aside * Driven(2s));
+}
+
+TEST(RobotPath, TellsScansOfSeveralLasersAtTheSameTimeApart) {
+  Drive drive;
+  drive.Answer(true, kJoined);
+  drive.StayInTime();
+  drive.Answer(true, kJoined);
+  const Pose2 aside{0.0, 0.2, 0.0};
+  const auto path = drive.PathIn({.map = 1, .map_robot = {{0s, {}}, {0s, {.T_a_b = aside}}}});
+  ASSERT_EQ(path.size(), 2U);
+  ExpectNear(path[0], {});
+  ExpectNear(path[1], aside);
 }
 
 TEST(RobotPath, IsThatOfTheAnswersInAMapThatTheRobotHasNotExtended) {

@@ -28,11 +28,12 @@ void RobotPath::Take(const team::RobotAnswer& answer) {
 }
 
 std::vector<std::optional<UncertainPose2>> RobotPath::In(const RobotInMap& end) const {
-  std::vector<std::optional<UncertainPose2>> map_node;
-  map_node.reserve(nodes_.size());
-  for (const Timestamp& stamp : nodes_) {
-    const auto node = end.map_robot.find(stamp);
-    map_node.push_back(node == end.map_robot.end() ? std::nullopt : std::optional(node->second));
+  std::vector<std::optional<UncertainPose2>> map_node(nodes_.size());
+  auto node = end.map_robot.end();
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const bool is_at_same_time = i > 0 && nodes_[i] == nodes_[i - 1] && node != end.map_robot.end();
+    node = is_at_same_time ? std::next(node) : end.map_robot.lower_bound(nodes_[i]);
+    if (node != end.map_robot.end() && node->first == nodes_[i]) map_node[i] = node->second;
   }
   std::vector<std::optional<UncertainPose2>> placed = path_.At(map_node);
   for (const auto& [i, map_robot] : unanchored_) {

@@ -15,10 +15,11 @@
 
 namespace qwsm::pipeline {
 
-/// A map as it is in the end, and where it has a robot's relevant scans, by their stamps.
+/// A map as it is in the end, and where it has a robot's relevant scans, by their stamps; those of
+/// several lasers at the same time as they came.
 struct RobotInMap {
   std::uint64_t map = 0;  ///< Number of the map, as in MapVersion.
-  std::map<Timestamp, UncertainPose2> map_robot;
+  std::multimap<Timestamp, UncertainPose2> map_robot;
 };
 
 /// The path of a robot of a team. Since it was answered the map was corrected, or the component

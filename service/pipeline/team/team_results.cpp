@@ -207,6 +207,9 @@ TeamResults::FinalMap TeamResults::FinishMap(team::TeamService& service,
                                              const fs::path& folder) const {
   FinalMap end{.folder = folder, .known = service.MapOf(robot)};
   const team::TeamMap::State::View known = end.known->Read();
+  for (const auto& [name, _] : robots_) {
+    end.robots_in[name].map = end.known->VersionOf(*known).map;
+  }
   if (known->map.empty()) return end;
   end.grid = service.DrawMapOf(robot);
   if (!end.grid) end.grid = RenderOrWarn(known->map, options_.rendering);
@@ -222,10 +225,7 @@ TeamResults::FinalMap TeamResults::FinishMap(team::TeamService& service,
   const ScanMap& map = end.corrected ? end.corrected->map : known->map;
   for (const RelevantScan& scan : map.scans()) {
     RobotInMap& in_map = end.robots_in[end.known->KeyOf(scan.id).robot];
-    in_map.map_robot[scan.scan.stamp] = scan.map_robot;
-  }
-  for (const auto& [name, _] : robots_) {
-    end.robots_in[name].map = end.known->VersionOf(*known).map;
+    in_map.map_robot.emplace(scan.scan.stamp, scan.map_robot);
   }
   return end;
 }

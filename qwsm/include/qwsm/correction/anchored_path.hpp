@@ -23,8 +23,6 @@ class AnchoredPath {
 
   /// Number of answers that were taken.
   std::size_t size() const { return answers_.size(); }
-  /// Number of nodes that were taken.
-  std::size_t nodes() const { return anchors_.size(); }
   /// Forgets the answers from one on, and the nodes from one on.
   void ForgetSince(std::size_t first_answer, NodeId first_node);
 
