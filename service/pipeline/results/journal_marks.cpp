@@ -66,10 +66,7 @@ std::vector<team::Mark> JournalMarks::Placed(std::span<const UncertainPose2> map
     places.push_back({.robot = scan->robot, .stamp = scan->stamp, .T_map_robot = pose});
     next = std::next(scan);
   }
-  team::MarkBook book;
-  for (const team::Mark& mark : kept_.marks) book.Take(mark);
-  book.Place(places);
-  return book.marks();
+  return team::PlacedOn(places, kept_.marks);
 }
 
 }  // namespace qwsm::pipeline

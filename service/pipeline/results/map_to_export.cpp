@@ -69,10 +69,7 @@ MapToExport LoadSavedMap(const fs::path& file, const OccupancyGridOptions& rende
 /// The marks of a journal where its scans are.
 std::vector<team::Mark> MarksOfJournal(const fs::path& file) {
   const MarksOnScans kept = ReadMarksOnScans(file);
-  team::MarkBook book;
-  for (const team::Mark& mark : kept.marks) book.Take(mark);
-  book.Place(kept.scans);
-  return book.marks();
+  return team::PlacedOn(kept.scans, kept.marks);
 }
 
 MapToExport LoadJournal(const fs::path& file, const OccupancyGridOptions& rendering) {

@@ -84,4 +84,11 @@ std::vector<Mark> MarkBook::marks() const {
   return marks;
 }
 
+std::vector<Mark> PlacedOn(std::span<const ScanPlace> places, std::span<const Mark> marks) {
+  MarkBook book;
+  for (const Mark& mark : marks) book.Take(mark);
+  book.Place(places);
+  return book.marks();
+}
+
 }  // namespace qwsm::team

@@ -50,4 +50,7 @@ class MarkBook {
   std::map<std::string, std::map<Timestamp, Pose2>> places_;  // T_map_robot of scans, by robot.
 };
 
+/// The marks, each of an id once, where the scans are that they stand on.
+std::vector<Mark> PlacedOn(std::span<const ScanPlace> places, std::span<const Mark> marks);
+
 }  // namespace qwsm::team
