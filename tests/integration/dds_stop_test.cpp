@@ -8,10 +8,12 @@
 #include <filesystem>
 #include <iostream>
 #include <string>
+#include <utility>
 
 #include "service/io/journal/journal_file.hpp"
 #include "service/io/journal/scan_codec.hpp"
 #include "tests/support/network.hpp"
+#include "tests/support/replay.hpp"
 
 namespace qwsm::test {
 namespace {
@@ -61,12 +63,17 @@ TEST_F(DdsStop, SavesAllInLessThanAThirdOfTheTimeThatMappingTook) {
   const Seconds stopping = std::chrono::steady_clock::now() - begun;
   ASSERT_EQ(served.exit_code, 0) << served.errors;
 
-  const Outcome mapped = RunProgram({"map", log, "--output", Path("mapped")});
+  ASSERT_EQ(RunProgram({"map", log, "--output", Path("corrected")}).exit_code, 0);
+  ExpectSamePath(Path("served"), Path("corrected"));
+  ExpectSameMap(Path("served"), Path("corrected"));
+  const Outcome mapped =
+      RunProgram({"map", log, "--output", Path("mapped"), "--set", "graph.enabled=false"});
   ASSERT_EQ(mapped.exit_code, 0) << mapped.errors;
-  for (const char* file : {"trajectory.tum", "map.pgm", "map.yaml", "map.png"}) {
-    const std::string expected = ReadFile(Path("mapped") / file);
-    ASSERT_FALSE(expected.empty()) << file;
-    EXPECT_TRUE(ReadFile(Path("served") / file) == expected) << file;
+  for (const auto& [served_file, mapped_file] :
+       {std::pair("trajectory_live.tum", "trajectory.tum"), std::pair("map_live.png", "map.png")}) {
+    const std::string expected = ReadFile(Path("mapped") / mapped_file);
+    ASSERT_FALSE(expected.empty()) << mapped_file;
+    EXPECT_TRUE(ReadFile(Path("served") / served_file) == expected) << served_file;
   }
   EXPECT_GT(fs::file_size(Path("served") / "trajectory.png"), 10'000U);
   const std::string relevant = std::to_string(StoredScans()) + " relevant scans";

@@ -8,7 +8,6 @@
 
 #include <chrono>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace qwsm::pipeline {

@@ -22,10 +22,10 @@ constexpr std::string_view kEpochHeader =
     "epoch,from_stamp_s,scan_stamp_s,x_m,y_m,theta_rad,"
     "cov_xx_m2,cov_xy_m2,cov_xtheta_m_rad,cov_yy_m2,cov_ytheta_m_rad,cov_thetatheta_rad2\n";
 
-std::string LineOf(const Loop& loop, const ScanMap& map) {
+std::string LineOf(const Loop& loop, std::span<const RelevantScan> scans) {
   io::CsvRow row;
-  row.Add(map.scans()[loop.edge.from].scan.stamp);
-  row.Add(map.scans()[loop.edge.to].scan.stamp);
+  row.Add(scans[loop.edge.from].scan.stamp);
+  row.Add(scans[loop.edge.to].scan.stamp);
   row.Add(MeasuredBy(loop.edge));
   row.Add(loop.overlap);
   row.Add(loop.reduced_chi2);
@@ -33,31 +33,12 @@ std::string LineOf(const Loop& loop, const ScanMap& map) {
   return row.Finish();
 }
 
-void WriteEpochs(const std::filesystem::path& folder, const CorrectedRun& run) {
-  io::AtomicFile table(folder / "epochs.csv");
-  table.stream() << kEpochHeader;
-  for (std::size_t i = 0; i < run.epochs.size(); ++i) {
-    const MapEpoch& epoch = run.epochs[i];
-    for (std::size_t node = 0; node < epoch.map_node.size(); ++node) {
-      io::CsvRow row;
-      row.Add(static_cast<double>(i + 1));
-      row.Add(epoch.stamp);
-      row.Add(run.map.scans()[node].scan.stamp);
-      row.Add(epoch.map_node[node]);
-      table.stream() << row.Finish();
-    }
-  }
-  table.Commit();
-}
-
 }  // namespace
 
-LoopCounts CountLoops(const CorrectedRun& run) {
-  const std::vector<Loop>& loops = run.correction.loops;
+LoopCounts CountLoops(const Correction& correction, std::size_t epochs) {
+  const std::vector<Loop>& loops = correction.loops;
   const auto accepted = std::ranges::count(loops, LoopVerdict::kAccepted, &Loop::verdict);
-  return {.accepted = static_cast<std::size_t>(accepted),
-          .found = loops.size(),
-          .epochs = run.epochs.size()};
+  return {.accepted = static_cast<std::size_t>(accepted), .found = loops.size(), .epochs = epochs};
 }
 
 std::vector<StampedAnswer> AnswersOf(std::span<const io::PathPose> path) {
@@ -78,14 +59,33 @@ CorrectedRun CorrectAtTheEnd(SelfCorrectingMapper& mapper) {
           .epochs = {mapper.epochs().begin(), mapper.epochs().end()}};
 }
 
-void WriteLoops(const std::filesystem::path& folder, const CorrectedRun& run) {
+void WriteLoops(const std::filesystem::path& folder,
+                const Correction& correction,
+                std::span<const RelevantScan> scans) {
   io::AtomicFile table(folder / "loops.csv");
   table.stream() << kLoopHeader;
-  for (const Loop& loop : run.correction.loops) table.stream() << LineOf(loop, run.map);
+  for (const Loop& loop : correction.loops) table.stream() << LineOf(loop, scans);
   table.Commit();
-  io::WriteG2oFile(folder / "graph.g2o", run.correction.graph);
-  io::WriteToroFile(folder / "graph.toro", run.correction.graph);
-  if (!run.epochs.empty()) WriteEpochs(folder, run);
+  io::WriteG2oFile(folder / "graph.g2o", correction.graph);
+  io::WriteToroFile(folder / "graph.toro", correction.graph);
+}
+
+void WriteEpochs(const std::filesystem::path& folder, const CorrectedRun& run) {
+  if (run.epochs.empty()) return;
+  io::AtomicFile table(folder / "epochs.csv");
+  table.stream() << kEpochHeader;
+  for (std::size_t i = 0; i < run.epochs.size(); ++i) {
+    const MapEpoch& epoch = run.epochs[i];
+    for (std::size_t node = 0; node < epoch.map_node.size(); ++node) {
+      io::CsvRow row;
+      row.Add(static_cast<double>(i + 1));
+      row.Add(epoch.stamp);
+      row.Add(run.map.scans()[node].scan.stamp);
+      row.Add(epoch.map_node[node]);
+      table.stream() << row.Finish();
+    }
+  }
+  table.Commit();
 }
 
 std::vector<io::LoopLine> LoopLines(const Correction& correction) {

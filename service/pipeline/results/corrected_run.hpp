@@ -26,7 +26,7 @@ struct LoopCounts {
   std::size_t found = 0;
   std::size_t epochs = 0;  ///< How often the map was corrected by them while the robot drove.
 };
-LoopCounts CountLoops(const CorrectedRun& run);
+LoopCounts CountLoops(const Correction& correction, std::size_t epochs);
 
 /// The answers of a drive, to be corrected together with those of others.
 std::vector<StampedAnswer> AnswersOf(std::span<const io::PathPose> path);
@@ -34,11 +34,15 @@ std::vector<StampedAnswer> AnswersOf(std::span<const io::PathPose> path);
 /// Corrects a run once more when it is over.
 CorrectedRun CorrectAtTheEnd(SelfCorrectingMapper& mapper);
 
+/// Writes loops.csv, a line per loop that was found, and the graph as graph.g2o and graph.toro.
+/// @param scans that are the nodes. @throws io::WriteError.
+void WriteLoops(const std::filesystem::path& folder,
+                const Correction& correction,
+                std::span<const RelevantScan> scans);
+
 /// Writes epochs.csv, a line per relevant scan in each correction while the robot drove, where
-/// there were any; loops.csv, a line per loop that was found, and the graph as graph.g2o and
-/// graph.toro.
-/// @throws io::WriteError.
-void WriteLoops(const std::filesystem::path& folder, const CorrectedRun& run);
+/// there were any. @throws io::WriteError.
+void WriteEpochs(const std::filesystem::path& folder, const CorrectedRun& run);
 
 /// The loops of a correction as lines between the places that they join.
 std::vector<io::LoopLine> LoopLines(const Correction& correction);

@@ -72,11 +72,12 @@ void ResultsWriter::Finish(const ScanMap& map_live,
   const Trajectory trajectory = io::TrajectoryOf(overlay.path);
   io::WriteTumFile(folder_ / "trajectory.tum", trajectory);
   io::WriteKittiFile(folder_ / kKittiFile, trajectory);
-  WriteLoops(folder_.path(), corrected);
+  WriteLoops(folder_.path(), correction, corrected.map.scans());
+  WriteEpochs(folder_.path(), corrected);
   WriteFigures({.map = corrected.map,
                 .matcher = matcher,
                 .path = overlay.path,
-                .loops = CountLoops(corrected)},
+                .loops = CountLoops(correction, corrected.epochs.size())},
                truth);
   if (has_pictures_) drawing.before = RenderOrWarn(map_live, rendering);
   Draw(std::move(drawing), rendering);

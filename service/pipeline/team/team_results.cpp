@@ -109,8 +109,8 @@ class TeamResults::RobotResults {
 struct TeamResults::FinalMap {
   fs::path folder;
   std::shared_ptr<const team::TeamMap> known;  ///< As the robots know it.
-  std::optional<CorrectedRun> corrected{};     ///< What it comes to where it is corrected.
-  std::optional<LoopCounts> loops{};
+  std::optional<Correction> correction{};
+  std::vector<RelevantScan> scans{};      ///< Where they are in the end.
   std::optional<OccupancyGrid> grid{};    ///< As it is in the end.
   std::optional<OccupancyGrid> before{};  ///< As the robots know it, where it is corrected.
   std::map<std::string, RobotInMap> robots_in{};
@@ -126,13 +126,14 @@ void TeamResults::RobotResults::Finish(const FinalMap& map) {
     io::WriteKittiFile(folder_ / "trajectory.kitti", trajectory);
   }
   const team::TeamMap::State::View known = map.known->Read();
-  const ScanMap& scans = map.corrected ? map.corrected->map : known->map;
+  std::optional<LoopCounts> loops;
+  if (map.correction) loops = CountLoops(*map.correction, known->epoch);
   io::WriteTextFile(
       folder_ / "metrics.json",
-      MetricsJson(statistics_, scans, MatcherKind::kQWsm, std::nullopt, map.loops).Text());
+      MetricsJson(statistics_, known->map, MatcherKind::kQWsm, std::nullopt, loops).Text());
   if (!map.grid) return;
   io::MapOverlay overlay = OverlayOf(std::move(placed_), map.known->VersionOf(*known).map);
-  if (map.corrected) overlay.loops = LoopLines(map.corrected->correction);
+  if (map.correction) overlay.loops = LoopLines(*map.correction);
   io::WriteTrajectoryPicture(folder_ / "trajectory.png", *map.grid, overlay);
 }
 
@@ -182,8 +183,8 @@ void TeamResults::Finish(team::TeamService& service) {
         scans_.push_back({.robot = robot, .stamp = stamp, .T_map_robot = map_robot.T_a_b});
       }
     }
-    if (map.corrected) {
-      tasks.push_back([&map] { WriteLoops(map.folder, *map.corrected); });
+    if (map.correction) {
+      tasks.push_back([&map] { WriteLoops(map.folder, *map.correction, map.scans); });
     }
     if (map.before) {
       tasks.push_back([&map] { io::WriteMapPicture(map.folder / "map_live.png", *map.before); });
@@ -196,10 +197,7 @@ void TeamResults::Finish(team::TeamService& service) {
 }
 
 std::vector<team::Mark> TeamResults::Placed(std::span<const team::Mark> marks) const {
-  team::MarkBook book;
-  for (const team::Mark& mark : marks) book.Take(mark);
-  book.Place(scans_);
-  return book.marks();
+  return team::PlacedOn(scans_, marks);
 }
 
 TeamResults::FinalMap TeamResults::FinishMap(team::TeamService& service,
@@ -213,17 +211,14 @@ TeamResults::FinalMap TeamResults::FinishMap(team::TeamService& service,
   if (known->map.empty()) return end;
   end.grid = service.DrawMapOf(robot);
   if (!end.grid) end.grid = RenderOrWarn(known->map, options_.rendering);
-  if (auto finished = service.FinishMapOf(robot)) {
-    end.corrected = {.correction = std::move(finished->correction),
-                     .map = std::move(finished->map),
-                     .epochs = {}};
-    end.loops = CountLoops(*end.corrected);
-    end.loops->epochs = known->epoch;
+  end.scans.assign(known->map.scans().begin(), known->map.scans().end());
+  end.correction = service.FinishMapOf(robot);
+  if (end.correction) {
+    for (RelevantScan& scan : end.scans) scan.map_robot = end.correction->map_node[scan.id];
     end.before = std::move(end.grid);
-    end.grid = RenderOrWarn(end.corrected->map, options_.rendering);
+    end.grid = RenderOrWarn(end.scans, options_.rendering);
   }
-  const ScanMap& map = end.corrected ? end.corrected->map : known->map;
-  for (const RelevantScan& scan : map.scans()) {
+  for (const RelevantScan& scan : end.scans) {
     RobotInMap& in_map = end.robots_in[end.known->KeyOf(scan.id).robot];
     in_map.map_robot.emplace(scan.scan.stamp, scan.map_robot);
   }

@@ -246,13 +246,13 @@ void TeamAtlas::NoteJoined(const std::string& component,
                         .T_into_from = wanted.map_robot.T_a_b * before.Inverse()};
 }
 
-std::optional<FinishedDrive> TeamAtlas::Finish(const std::string& component) {
+std::optional<Correction> TeamAtlas::Finish(const std::string& component) {
   const std::lock_guard lock(extension_);
   const MapComponent home = maps_.Named(component);
   const bool is_empty = home.map->Read()->map.empty();
   if (!options_.corrects || is_empty || IsKnownToOthers(*home.map)) return std::nullopt;
   CatchUp(home);
-  return std::move(CorrectorOf(component)).Finish();
+  return CorrectorOf(component).Finish();
 }
 
 bool TeamAtlas::IsKnownToOthers(const TeamMap& map) const {

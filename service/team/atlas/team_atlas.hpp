@@ -88,7 +88,7 @@ class TeamAtlas {
   /// @return nothing where it is empty, or maps are not corrected, or where other services know it,
   /// too: they have agreed on it as it is. @pre it changes no more, and this is the first call for
   /// it.
-  std::optional<FinishedDrive> Finish(const std::string& component);
+  std::optional<Correction> Finish(const std::string& component);
   /// Ends looks at components that are none any more, and frees maps that others have replaced and
   /// nobody reads any more. Takes as long as these; to be called beside.
   void Tidy();

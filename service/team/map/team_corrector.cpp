@@ -73,12 +73,6 @@ void TeamCorrector::Adopt(std::span<const UncertainPose2> map_node) {
   Follow(map_node);
 }
 
-FinishedDrive TeamCorrector::Finish() && {
-  Correction correction = corrector_.Correct();
-  ScanMap map = std::move(corrector_).MapAt(correction.map_node);
-  return {.correction = std::move(correction), .map = std::move(map)};
-}
-
 void TeamCorrector::Follow(std::span<const UncertainPose2> map_node) {
   for (auto& [robot, last] : last_) last.map_robot = map_node[last.node];
 }

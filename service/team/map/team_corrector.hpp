@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "qwsm/correction/background_corrector.hpp"
-#include "qwsm/correction/self_correcting_mapper.hpp"
 #include "qwsm/mapping/mapper_options.hpp"
 #include "service/team/scans/team_scan.hpp"
 
@@ -32,7 +31,7 @@ class TeamCorrector {
   void Adopt(std::span<const UncertainPose2> map_node);
 
   /// Corrects the map once more, in the end, when nothing follows any more.
-  FinishedDrive Finish() &&;
+  Correction Finish() { return corrector_.Correct(); }
 
   /// Number of scans that were taken.
   std::size_t size() const { return nodes_; }

@@ -92,11 +92,11 @@ class TeamService {
   std::shared_ptr<const TeamMap> MapOf(std::string_view robot) {
     return atlas_.maps().Of(robot).map;
   }
-  /// What the map a robot is matched against comes to when it is corrected once more; nothing where
-  /// it is empty, or maps are not corrected, or where services made it together. To be asked for
-  /// once.
+  /// Where the scans of the map that a robot is matched against belong, corrected once more;
+  /// nothing where it is empty, or maps are not corrected, or where services made it together. To
+  /// be asked for once.
   /// @pre the service has stopped.
-  std::optional<FinishedDrive> FinishMapOf(std::string_view robot) {
+  std::optional<Correction> FinishMapOf(std::string_view robot) {
     return atlas_.Finish(atlas_.maps().Of(robot).name);
   }
   /// The map a robot is matched against, drawn at the cost of what was not drawn while the service
