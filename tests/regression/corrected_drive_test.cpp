@@ -155,6 +155,26 @@ TEST(CorrectedDrive, IsNotTurnedIntoAnotherStreet) {
   }
 }
 
+// For half a kilometre odometry tells of turns that are nothing but noise. At the first corner next
+// to nothing is in view that the map knows, and the robot goes by what was learned of its wheels.
+TEST(CorrectedDrive, TurnsByAsMuchAsItsWheelsTellAfterALongStreet) {
+  for (const int seed : {2, 3}) {
+    SCOPED_TRACE(seed);
+    sim::ScenarioOptions street = CampusSeenTo(20.0, seed);
+    street.layout.campus = {.columns = 1,
+                            .rows = 1,
+                            .block_length_m = 500.0,
+                            .block_width_m = 200.0,
+                            .street_width_m = 8.0};
+    sim::LaserOptions& laser = street.robots.front().laser;
+    laser.beams = 181;
+    laser.field_of_view_rad = std::numbers::pi;
+    const std::vector<FoundPose> poses = Corrected(street);
+    EXPECT_LT(AteRmse_m(poses), 2.0);
+    EXPECT_LT(MeanNees(poses), 10.0);
+  }
+}
+
 // In a corridor whoever walks there is all that tells of the way along it, if the laser sees no
 // farther.
 TEST(CorrectedDrive, IsTakenAlongByNobodyWhoWalksInACorridor) {

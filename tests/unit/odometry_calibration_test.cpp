@@ -109,6 +109,24 @@ TEST(OdometryCalibration, NothingIsLearnedOfAWayThatWallsAloneDoNotTell) {
   EXPECT_NEAR(robot.calibration().turn_error(), kErrors.turn, 0.02);
 }
 
+TEST(OdometryCalibration, TurnsThatAreNoiseTellOfNoErrorOfTurns) {
+  OdometryCalibration calibration;
+  std::mt19937_64 random{1};
+  std::normal_distribution<double> noise_rad(0.0, kSigma);
+  const UncertainPose2 found = UncertainPose2::WithSigmas({.x_m = 0.3}, kSigma, 0.1 * kSigma);
+  Pose2 T_odom_robot = *calibration.Follow(Pose2{}, false);
+  Pose2 T_before = T_odom_robot;
+  for (int i = 0; i < kMotions; ++i) {
+    T_odom_robot = T_odom_robot * Pose2{.x_m = 0.3, .theta_rad = noise_rad(random)};
+    const Pose2 T_calibrated = *calibration.Follow(T_odom_robot, false);
+    const UncertainPose2 motion =
+        UncertainPose2::WithSigmas(T_before.Inverse() * T_calibrated, kSigma, kSigma);
+    calibration.Learn({}, motion, found);
+    T_before = T_calibrated;
+  }
+  EXPECT_NEAR(calibration.turn_error(), 0.0, 0.05);
+}
+
 TEST(OdometryCalibration, WhereNothingMovesNothingIsLearned) {
   OdometryCalibration calibration;
   const UncertainPose2 found = UncertainPose2::WithSigmas({.x_m = 0.1}, kSigma, kSigma);

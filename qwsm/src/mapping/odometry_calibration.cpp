@@ -17,12 +17,22 @@ namespace {
 const Eigen::Array3d kWalk(0.002, 0.002, 0.0005);
 constexpr double kFarthest_sigmas = 3.0;  // One slip of the wheels is not to move them far.
 constexpr double kMostShare = 0.5;        // Wheels that spin tell nothing of a way.
+constexpr double kNoiseOfTurn_sigmas = 3.0;
 // Along a corridor all that tells of the way may be somebody who walks in it.
 constexpr double kLeastToldRatio = 0.4;
 
 // The way, backwards less than zero.
 double WayAhead_m(const Pose2& motion) {
   return std::copysign(motion.translation_m().norm(), motion.x_m);
+}
+
+// What a turn tells of the wheels: what is left of it beside its noise (the positive part of James
+// and Stein 1961). Of a robot that drives straight on, odometry tells turns that are nothing else,
+// and by them it would seem to turn less than it is told to.
+double BesideNoise(double turn_rad, double variance_rad2) {
+  const double turn_rad2 = turn_rad * turn_rad;
+  const double noise_rad2 = kNoiseOfTurn_sigmas * kNoiseOfTurn_sigmas * variance_rad2;
+  return turn_rad2 > noise_rad2 ? (1.0 - noise_rad2 / turn_rad2) * turn_rad : 0.0;
 }
 
 }  // namespace
@@ -63,7 +73,9 @@ void OdometryCalibration::Learn(const UncertainPose2& before,
            onwards.dot(less.head<2>()),
            onwards.dot(noise.topLeftCorner<2, 2>() * onwards));
   }
-  if (!is_turn_by_gyro_) Update({0.0, turn_rad, ahead_m}, less.z(), noise(2, 2));
+  if (!is_turn_by_gyro_) {
+    Update({0.0, BesideNoise(turn_rad, noise(2, 2)), ahead_m}, less.z(), noise(2, 2));
+  }
 }
 
 void OdometryCalibration::Update(const Eigen::Vector3d& told, double less, double variance) {
