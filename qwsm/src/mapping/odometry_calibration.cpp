@@ -26,8 +26,8 @@ double WayAhead_m(const Pose2& motion) {
   return std::copysign(motion.translation_m().norm(), motion.x_m);
 }
 
-// What a turn tells of the wheels: what is left of it beside its noise (the positive part of James
-// and Stein 1961). Of a robot that drives straight on, odometry tells turns that are nothing else,
+// What a turn tells of the wheels: what is left of it beside its noise (the nonnegative garrote of
+// Breiman 1995). Of a robot that drives straight on, odometry tells turns that are nothing else,
 // and by them it would seem to turn less than it is told to.
 double BesideNoise(double turn_rad, double variance_rad2) {
   const double turn_rad2 = turn_rad * turn_rad;
