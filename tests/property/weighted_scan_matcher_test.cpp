@@ -224,6 +224,31 @@ TEST(WeightedScanMatcher, RoundTrunksDoNotPullAhead) {
   EXPECT_NEAR(ahead_m, 0.0, 0.002);
 }
 
+// From far away a beam or two hit a trunk, and have no mean of their own to compare. The map, from
+// nearer by, knows it well.
+TEST(WeightedScanMatcher, TrunksFarAwayDoNotPullAhead) {
+  World trunks;
+  for (double y_m = -8.0; y_m <= 8.0; y_m += 2.0) {
+    trunks.columns.push_back({.center_m = {16.0, y_m}, .radius_m = 0.25});
+  }
+  Random random(6);
+  ScanMap map;
+  for (int i = 0; i < 20; ++i) {
+    const Pose2 T_map_robot = Pose2{.x_m = 11.0} * AnyPose(random, 1.0, 0.1);
+    const LaserScan scan = Measure({}, trunks, T_map_robot, random);
+    map.Insert(scan, ToPoints(scan), {.T_a_b = T_map_robot});
+  }
+  constexpr int kScans = 200;
+  double ahead_m = 0.0;
+  for (int i = 0; i < kScans; ++i) {
+    const Pose2 truth = AnyPose(random, 0.5, 0.1);
+    const MatchResult result = Match(map, Measure({}, trunks, truth, random), WeakPriorAt(truth));
+    ASSERT_EQ(result.status, MatchStatus::kConverged);
+    ahead_m += (result.T_ref_cur.x_m - truth.x_m) / kScans;
+  }
+  EXPECT_NEAR(ahead_m, 0.0, 0.004);
+}
+
 // Points along a wall, as a laser at the origin sees them.
 std::vector<ScanPoint> WallPoints(const Wall& wall, const Eigen::Vector2d& normal) {
   constexpr double kSpacing_m = 0.01;

@@ -16,7 +16,8 @@ constexpr double kPairDistancePerError = 5.0;  // Pairs are sought as far as the
 constexpr double kAnnealed_m = 0.002;
 constexpr double kAnnealed_rad = 0.0002;
 constexpr double kInlierSigmas = 3.0;
-constexpr double kCosOfCrossing = 0.5;  // Lines at more than 60 degrees are not one surface.
+constexpr double kCosOfCrossing = 0.5;   // Lines at more than 60 degrees are not one surface.
+constexpr double kCosOfStraight = 0.95;  // Within 18 degrees, map and scan show the same line.
 
 // Weight of Geman & McClure (1987): falls from 1 to a quarter at the outlier limit, and on towards
 // 0.
@@ -164,9 +165,25 @@ void Pairing::AddLine(const Eigen::Matrix2d& R_map_cur,
   // Visser et al. (2009), Eq. (1): epsilon, of which a line tells the part along its normal.
   const double error_m = normal.dot(surface.mean_m - pair.p_map);
   Weigh(error_m * error_m / variance_m2, pair, equations);
-  // Where a surface curves, a mean lies behind the points: means are compared with means.
-  const double to_mean_m = surface.is_sample ? 0.0 : normal.dot(R_map_cur * point.to_mean_robot_m);
-  equations.AddLine(pair.weight / variance_m2, normal, error_m - to_mean_m, pair.arm);
+  equations.AddLine(
+      pair.weight / variance_m2, normal, ErrorOfLike(R_map_cur, point, pair), pair.arm);
+}
+
+// How far a point is from a line, by what is alike: where a surface curves, as a trunk does, the
+// mean of its points lies behind them. Means are compared with means, and a reading that is alone
+// with the single one stored beside it, but where the scan, too, shows that the surface is
+// straight.
+double Pairing::ErrorOfLike(const Eigen::Matrix2d& R_map_cur,
+                            const ScanPoint& point,
+                            const Pair& pair) {
+  const Surface& surface = pair.surface;
+  const Eigen::Vector2d& normal = surface.normal;
+  const bool is_alone = point.to_mean_robot_m.isZero();
+  const bool is_straight = std::abs(normal.dot(R_map_cur * point.normal_robot)) > kCosOfStraight;
+  if (surface.is_sample || (is_alone && !is_straight)) {
+    return normal.dot(pair.nearest->position_m - pair.p_map);
+  }
+  return normal.dot(surface.mean_m - (pair.p_map + R_map_cur * point.to_mean_robot_m));
 }
 
 void Pairing::AddObject(const Eigen::Matrix2d& R_map_cur,

@@ -104,6 +104,9 @@ class Pairing {
                const ScanPoint& point,
                Pair& pair,
                NormalEquations& equations) const;
+  static double ErrorOfLike(const Eigen::Matrix2d& R_map_cur,
+                            const ScanPoint& point,
+                            const Pair& pair);
   void AddObject(const Eigen::Matrix2d& R_map_cur,
                  const ScanPoint& point,
                  Pair& pair,
