@@ -28,6 +28,8 @@ constexpr double kOnePlace_rad = 0.2;
 constexpr std::size_t kMostCandidates = 20;
 // So far off along walls that lead on and on is another place.
 constexpr double kSlid_m = 1.5 * kOnePlace_m;
+// Fitted from there, what ends so near to where it was has been told by more than those walls.
+constexpr double kBack_m = 0.2;
 
 }  // namespace
 
@@ -99,7 +101,10 @@ void JointCandidates::Contest(const MapAgreement& agreement,
     UncertainPose2 slid = candidate.a_b;
     slid.T_a_b.x_m += slid_m * candidate.least_known.x();
     slid.T_a_b.y_m += slid_m * candidate.least_known.y();
-    if (candidate.nats - agreement.Judge(a, b, slid, stop).nats < kLeadNats) return;
+    const MapAgreement::Judgement judged = agreement.Judge(a, b, slid, stop);
+    const Pose2 back = candidate.a_b.T_a_b.Inverse() * judged.a_b.T_a_b;
+    const bool is_elsewhere = back.translation_m().norm() > kBack_m;
+    if (is_elsewhere && candidate.nats - judged.nats < kLeadNats) return;
   }
   candidate.nats_among_echoes = agreement.NatsAmongEchoes(a, b, candidate.a_b, stop);
 }
