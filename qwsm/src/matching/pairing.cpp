@@ -179,8 +179,10 @@ double Pairing::ErrorOfLike(const Eigen::Matrix2d& R_map_cur,
   const Surface& surface = pair.surface;
   const Eigen::Vector2d& normal = surface.normal;
   const bool is_alone = point.to_mean_robot_m.isZero();
-  const bool is_straight = std::abs(normal.dot(R_map_cur * point.normal_robot)) > kCosOfStraight;
-  if (surface.is_sample || (is_alone && !is_straight)) {
+  const auto is_straight = [&] {  // Of few readings it is asked.
+    return std::abs(normal.dot(R_map_cur * point.normal_robot)) > kCosOfStraight;
+  };
+  if (surface.is_sample || (is_alone && !is_straight())) {
     return normal.dot(pair.nearest->position_m - pair.p_map);
   }
   return normal.dot(surface.mean_m - (pair.p_map + R_map_cur * point.to_mean_robot_m));
