@@ -138,6 +138,23 @@ TEST(SurfaceMap, AWallIsALineAcrossItsNormal) {
   EXPECT_LT(surface.across_m2, 0.02 * 0.02);
 }
 
+// Of points of an arc, the mean lies behind them by a sixth of the square of the reach over the
+// radius: of half the reach, by a quarter of that.
+TEST(SurfaceMap, NearPointsHaveAMeanThatLiesLessBehindACurve) {
+  constexpr double kRadius_m = 0.4;
+  SurfaceMap map;
+  for (int i = -200; i <= 200; ++i) {
+    const double angle_rad = 0.005 * i;
+    map.Insert({.p_map_m = kRadius_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad))},
+               0);
+  }
+  const auto front = map.quadtree().Nearest({kRadius_m, 0.0}, 0.01);
+  ASSERT_TRUE(front);
+  const double depth_m = kSurfaceReach_m * kSurfaceReach_m / (6.0 * kRadius_m);
+  EXPECT_NEAR(front->position_m.x() - map.SurfaceAt(*front).mean_m.x(), depth_m, 0.1 * depth_m);
+  EXPECT_NEAR(front->position_m.x() - map.MeanNear(*front).x(), 0.25 * depth_m, 0.05 * depth_m);
+}
+
 TEST(SurfaceMap, TheSidesOfAThinWallAreTwoSurfaces) {
   SurfaceMap map;
   const Eigen::Vector2d left(0.0, 1.0);
@@ -148,6 +165,7 @@ TEST(SurfaceMap, TheSidesOfAThinWallAreTwoSurfaces) {
   const auto nearest = map.quadtree().Nearest({0.4, 0.05}, 0.01);
   ASSERT_TRUE(nearest);
   EXPECT_NEAR(map.SurfaceAt(*nearest).mean_m.y(), 0.05, 1e-5);
+  EXPECT_NEAR(map.MeanNear(*nearest).y(), 0.05, 1e-5);
   EXPECT_TRUE(map.IsOnOtherSide(nearest->id, -left));
   EXPECT_FALSE(map.IsOnOtherSide(nearest->id, left));
   EXPECT_FALSE(map.IsOnOtherSide(nearest->id, Eigen::Vector2d(1.0, 0.0)));  // Around the corner.

@@ -243,7 +243,7 @@ TEST(WeightedScanMatcher, TrunksFarAwayDoNotPullAhead) {
   for (int i = 0; i < kScans; ++i) {
     const Pose2 truth = AnyPose(random, 0.5, 0.1);
     const MatchResult result = Match(map, Measure({}, trunks, truth, random), WeakPriorAt(truth));
-    ASSERT_EQ(result.status, MatchStatus::kConverged);
+    ASSERT_TRUE(HasMatched(result));
     ahead_m += (result.T_ref_cur.x_m - truth.x_m) / kScans;
   }
   EXPECT_NEAR(ahead_m, 0.0, 0.004);

@@ -46,6 +46,11 @@ TEST(SimulatedCorridor, UncertaintyAlongItGrowsHonestlyAndIsRecoveredAtTheDoor) 
     EXPECT_GT(beyond_m, 1.2 * SigmaAlongAt_m(drive, 31.0, false));
     EXPECT_LT(at_door_m, 0.9 * beyond_m);
     EXPECT_LT(at_door_m, 1.2 * SigmaAlongAt_m(drive, 31.0, false));
+    for (const FoundPose& pose : drive.poses()) {
+      const double error_m = pose.map_robot.T_a_b.x_m - pose.T_map_true.x_m;
+      ASSERT_LE(std::abs(error_m), 0.02 + 4.0 * std::sqrt(pose.map_robot.covariance(0, 0)))
+          << "at " << pose.T_map_true.x_m << " m";
+    }
   }
 }
 

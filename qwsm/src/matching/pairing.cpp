@@ -144,7 +144,11 @@ bool Pairing::IsPaired(const Eigen::Matrix2d& R_map_cur, const ScanPoint& point,
     pair.id.reset();
     return false;
   }
-  if (pair.id != pair.nearest->id) pair.surface = map_.SurfaceAt(*pair.nearest);
+  if (pair.id != pair.nearest->id) {
+    pair.surface = map_.SurfaceAt(*pair.nearest);
+    const bool is_alone = point.to_mean_robot_m.isZero();
+    if (is_alone && pair.surface.is_line) pair.mean_near_m = map_.MeanNear(*pair.nearest);
+  }
   if (LinesCross(pair.surface, point, normal_map)) {
     pair.id.reset();
     return false;
@@ -170,21 +174,20 @@ void Pairing::AddLine(const Eigen::Matrix2d& R_map_cur,
 }
 
 // How far a point is from a line, by what is alike: where a surface curves, as a trunk does, the
-// mean of its points lies behind them. Means are compared with means, and a reading that is alone
-// with the single one stored beside it, but where the scan, too, shows that the surface is
-// straight.
+// mean of its points lies behind them. Means are compared with means. A reading that is alone has
+// none, and is compared with the mean of half the reach, which lies a quarter as deep, but where
+// the scan, too, shows that the surface is straight.
 double Pairing::ErrorOfLike(const Eigen::Matrix2d& R_map_cur,
                             const ScanPoint& point,
                             const Pair& pair) {
   const Surface& surface = pair.surface;
   const Eigen::Vector2d& normal = surface.normal;
+  if (surface.is_sample) return normal.dot(surface.mean_m - pair.p_map);
   const bool is_alone = point.to_mean_robot_m.isZero();
   const auto is_straight = [&] {  // Of few readings it is asked.
     return std::abs(normal.dot(R_map_cur * point.normal_robot)) > kCosOfStraight;
   };
-  if (surface.is_sample || (is_alone && !is_straight())) {
-    return normal.dot(pair.nearest->position_m - pair.p_map);
-  }
+  if (is_alone && !is_straight()) return normal.dot(pair.mean_near_m - pair.p_map);
   return normal.dot(surface.mean_m - (pair.p_map + R_map_cur * point.to_mean_robot_m));
 }
 

@@ -168,4 +168,18 @@ Surface SurfaceMap::SurfaceAt(const Neighbor& stored) const {
           .is_line = false};
 }
 
+Eigen::Vector2d SurfaceMap::MeanNear(const Neighbor& stored) const {
+  const Neighborhood& own = neighborhoods_[stored.id];
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  double count = 0.0;
+  quadtree_.ForEachInRadius(stored.position_m,
+                            0.5 * options_.neighborhood_radius_m,
+                            [&](PointId other, const Eigen::Vector2d& other_m) {
+                              if (own.IsOpposite(neighborhoods_[other])) return;
+                              sum += other_m;
+                              count += 1.0;
+                            });
+  return sum / count;  // Itself is among them.
+}
+
 }  // namespace qwsm

@@ -106,6 +106,9 @@ class SurfaceMap {
   /// Returns the surface around a stored point. Its id and position count.
   /// @pre quadtree().Contains(id), here and below.
   Surface SurfaceAt(const Neighbor& stored) const;
+  /// Returns the mean of the points of that surface within half the neighbourhood's radius, in the
+  /// map frame: where the surface curves, it lies a quarter as far behind it as the mean of all.
+  Eigen::Vector2d MeanNear(const Neighbor& stored) const;
   /// Has the memory fetched that SurfaceAt() and the calls below need.
   void Prefetch(PointId id) const { __builtin_prefetch(&neighborhoods_[id]); }
   /// Variance of the position of a stored point owing to the pose it was seen from, as a code of
