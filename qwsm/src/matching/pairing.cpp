@@ -26,6 +26,9 @@ double RobustWeight(double mahalanobis2, double outlier_sigmas) {
   return w * w;
 }
 
+// Whether no other reading of the scan is of the same surface nearby.
+bool IsAlone(const ScanPoint& point) { return point.to_mean_robot_m.isZero(); }
+
 // Whether both show a line, by several points within one reach, and these cross: the end face of a
 // wall beside one that is seen for the first time.
 bool LinesCross(const Surface& surface, const ScanPoint& point, const Eigen::Vector2d& normal_map) {
@@ -146,8 +149,8 @@ bool Pairing::IsPaired(const Eigen::Matrix2d& R_map_cur, const ScanPoint& point,
   }
   if (pair.id != pair.nearest->id) {
     pair.surface = map_.SurfaceAt(*pair.nearest);
-    const bool is_alone = point.to_mean_robot_m.isZero();
-    if (is_alone && pair.surface.is_line) pair.mean_near_m = map_.MeanNear(*pair.nearest);
+    const bool has_mean = pair.surface.is_line && !pair.surface.is_sample;
+    if (has_mean && IsAlone(point)) pair.mean_near_m = map_.MeanNear(*pair.nearest);
   }
   if (LinesCross(pair.surface, point, normal_map)) {
     pair.id.reset();
@@ -183,11 +186,10 @@ double Pairing::ErrorOfLike(const Eigen::Matrix2d& R_map_cur,
   const Surface& surface = pair.surface;
   const Eigen::Vector2d& normal = surface.normal;
   if (surface.is_sample) return normal.dot(surface.mean_m - pair.p_map);
-  const bool is_alone = point.to_mean_robot_m.isZero();
   const auto is_straight = [&] {  // Of few readings it is asked.
     return std::abs(normal.dot(R_map_cur * point.normal_robot)) > kCosOfStraight;
   };
-  if (is_alone && !is_straight()) return normal.dot(pair.mean_near_m - pair.p_map);
+  if (IsAlone(point) && !is_straight()) return normal.dot(pair.mean_near_m - pair.p_map);
   return normal.dot(surface.mean_m - (pair.p_map + R_map_cur * point.to_mean_robot_m));
 }
 

@@ -94,7 +94,7 @@ class Pairing {
     std::optional<Neighbor> nearest;
     std::optional<PointId> id;    // The stored point it is paired with.
     Surface surface;              // The surface at that point.
-    Eigen::Vector2d mean_near_m;  // Of a line's points near it, if the scan's point is alone.
+    Eigen::Vector2d mean_near_m;  // Of a line that is no sample, if the scan's point is alone.
     double weight = 1.0;          // Of the robust estimate.
     double news = 1.0;            // Of the scan's point beside the one before.
   };

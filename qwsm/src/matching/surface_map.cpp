@@ -62,13 +62,11 @@ inline void SurfaceMap::Neighborhood::Add(const Eigen::Vector2f& offset_m) {
 }
 
 template <class Visit>
-void SurfaceMap::ForEachNeighbor(PointId id, const Eigen::Vector2d& p_m, Visit visit) {
-  const Neighborhood own = neighborhoods_[id];
+void SurfaceMap::ForEachNeighbor(const Neighbor& stored, double radius_m, Visit visit) const {
+  const Neighborhood own = neighborhoods_[stored.id];
   quadtree_.ForEachInRadius(
-      p_m, options_.neighborhood_radius_m, [&](PointId other, const Eigen::Vector2d& other_m) {
-        if (other == id) return;
-        Neighborhood& of_other = neighborhoods_[other];
-        if (!own.IsOpposite(of_other)) visit(of_other, (other_m - p_m).cast<float>());
+      stored.position_m, radius_m, [&](PointId other, const Eigen::Vector2d& other_m) {
+        if (!own.IsOpposite(neighborhoods_[other])) visit(other, other_m);
       });
 }
 
@@ -83,11 +81,14 @@ bool SurfaceMap::Insert(const MapPoint& point, ScanId scan) {
       .own_normal_y = static_cast<std::int16_t>(std::lround(kNormalScale * point.normal_map.y())),
       .drift_code = LikelihoodPyramid::DriftCode(point.drift_m2)};
   Neighborhood own = neighborhoods_[insertion->id];
-  ForEachNeighbor(insertion->id,
-                  insertion->position_m,
-                  [&own](Neighborhood& other, const Eigen::Vector2f& offset_m) {
+  ForEachNeighbor({.id = insertion->id, .position_m = insertion->position_m},
+                  options_.neighborhood_radius_m,
+                  [&](PointId other, const Eigen::Vector2d& other_m) {
+                    if (other == insertion->id) return;
+                    const Eigen::Vector2f offset_m =
+                        (other_m - insertion->position_m).cast<float>();
                     own.Add(offset_m);
-                    other.Add(-offset_m);
+                    neighborhoods_[other].Add(-offset_m);
                   });
   neighborhoods_[insertion->id] = own;
   if (likelihood_) likelihood_->Insert(point.p_map_m, point.drift_m2);
@@ -102,9 +103,11 @@ void SurfaceMap::RemoveScan(ScanId scan) {
            .own_normal_x = own.own_normal_x,
            .own_normal_y = own.own_normal_y,
            .drift_code = own.drift_code};
-    ForEachNeighbor(id, p_m, [&own](const Neighborhood&, const Eigen::Vector2f& offset_m) {
-      own.Add(offset_m);
-    });
+    ForEachNeighbor({.id = id, .position_m = p_m},
+                    options_.neighborhood_radius_m,
+                    [&](PointId other, const Eigen::Vector2d& other_m) {
+                      if (other != id) own.Add((other_m - p_m).cast<float>());
+                    });
   });
   if (likelihood_) likelihood_ = MakeLikelihood();
 }
@@ -169,17 +172,14 @@ Surface SurfaceMap::SurfaceAt(const Neighbor& stored) const {
 }
 
 Eigen::Vector2d SurfaceMap::MeanNear(const Neighbor& stored) const {
-  const Neighborhood& own = neighborhoods_[stored.id];
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   double count = 0.0;
-  quadtree_.ForEachInRadius(stored.position_m,
-                            0.5 * options_.neighborhood_radius_m,
-                            [&](PointId other, const Eigen::Vector2d& other_m) {
-                              if (own.IsOpposite(neighborhoods_[other])) return;
-                              sum += other_m;
-                              count += 1.0;
-                            });
-  return sum / count;  // Itself is among them.
+  ForEachNeighbor(
+      stored, 0.5 * options_.neighborhood_radius_m, [&](PointId, const Eigen::Vector2d& other_m) {
+        sum += other_m;
+        count += 1.0;
+      });
+  return sum / count;
 }
 
 }  // namespace qwsm

@@ -155,9 +155,9 @@ class SurfaceMap {
 
   static_assert(sizeof(Neighborhood) == 32);
 
-  // Calls visit(Neighborhood&, offset_m) for the other points of the same neighbourhood.
+  // Calls visit(PointId, position_m) for the points of that surface within a radius, and itself.
   template <class Visit>
-  void ForEachNeighbor(PointId id, const Eigen::Vector2d& p_m, Visit visit);
+  void ForEachNeighbor(const Neighbor& stored, double radius_m, Visit visit) const;
   double Observations(const Neighborhood& n) const;
 
   SurfaceMapOptions options_;
