@@ -206,11 +206,8 @@ std::optional<FoundLoop> LoopFinder::Recognise(const Candidate& candidate,
   if (!IsRecognised(match, kMinOverlap)) return std::nullopt;
   const PlaceFit fit = FitOf(match, points, surfaces);
   if (fit.told < kMinTold) return std::nullopt;
-  Eigen::Matrix3d R_chain_reference = Eigen::Matrix3d::Identity();
-  R_chain_reference.topLeftCorner<2, 2>() = T_chain_reference.Rotation();
-  const Eigen::Matrix3d of_match = R_chain_reference.transpose() *
-                                   InformationOfPairs(match, matcher_.options()) *
-                                   R_chain_reference;
+  const Eigen::Matrix3d of_match =
+      AlongAxesOf(T_chain_reference, InformationOfPairs(match, matcher_.options()));
   return FoundLoop{.loop = {.edge = {.from = submap.reference(),
                                      .to = candidate.node,
                                      .T_from_to = T_chain_reference.Inverse() * match.T_ref_cur,
@@ -218,6 +215,7 @@ std::optional<FoundLoop> LoopFinder::Recognise(const Candidate& candidate,
                                      .trust = EdgeTrust::kLoop},
                             .overlap = match.overlap,
                             .reduced_chi2 = match.reduced_chi2},
+                   .of_match = of_match,
                    .submap = candidate.submap,
                    .sigma_m = candidate.reference_node.SigmaXY_m(),
                    .nats = fit.NatsInOwnMap()};

@@ -9,6 +9,7 @@
 #include "map_contradiction.hpp"
 #include "pose_estimate.hpp"
 #include "scan_chains.hpp"
+#include "tie_graph.hpp"
 
 namespace qwsm {
 namespace {
@@ -140,11 +141,12 @@ std::optional<SolvedGraph> MapCorrector::State::Solve(std::vector<FoundLoop>& fo
 // How uncertain they are, the ties tell.
 std::vector<UncertainPose2> MapCorrector::State::PosesIn(const SolvedGraph& solved,
                                                          std::span<const FoundLoop> found) const {
-  const PoseGraph ties{.T_map_node = solved.graph.T_map_node,
-                       .edges = WithAccepted(chains.ties(), found)};
+  const PoseGraph ties = TieGraph(chains, solved.graph.T_map_node, found);
   const GraphSolution there{.T_map_node = ties.T_map_node,
                             .weights = std::vector<double>(ties.edges.size(), 1.0)};
-  return SolvedPoses(ties, there).map_node();
+  std::vector<UncertainPose2> poses = SolvedPoses(ties, there).map_node();
+  poses.resize(nodes.size());  // Without those of surfaces.
+  return poses;
 }
 
 Correction MapCorrector::State::Unchanged(std::vector<FoundLoop> found) const {

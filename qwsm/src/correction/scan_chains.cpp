@@ -34,13 +34,6 @@ constexpr int kUnmatchedInARow = 2;
 // How far the answers may be off as a first guess.
 constexpr StartError kStartError{.translation_m = 0.1, .rotation_rad = 0.02};
 
-// What a match tells of the pose among surfaces that are themselves uncertain.
-Eigen::Matrix3d InformationAmong(const Eigen::Matrix3d& surfaces, const Eigen::Matrix3d& of_match) {
-  const Eigen::Matrix3d share = Eigen::Matrix3d::Identity() + surfaces * of_match;
-  const Eigen::Matrix3d information = of_match * share.inverse();
-  return 0.5 * (information + information.transpose());
-}
-
 UncertainPose2 AtLeast(const UncertainPose2& pose, double sigma_m, double sigma_rad) {
   UncertainPose2 wider = pose;
   wider.covariance += UncertainPose2::WithSigmas({}, sigma_m, sigma_rad).covariance;
@@ -73,13 +66,6 @@ PoseEdge EdgeTo(NodeId from, NodeId to, const Pose2& T_chain_from, const Uncerta
           .information = from_to.covariance.inverse()};
 }
 
-// Information along the axes of a frame that is seen from another.
-Eigen::Matrix3d AlongAxesOf(const Pose2& T_chain_from, const Eigen::Matrix3d& in_chain) {
-  Eigen::Matrix3d R_chain_from = Eigen::Matrix3d::Identity();
-  R_chain_from.topLeftCorner<2, 2>() = T_chain_from.Rotation();
-  return R_chain_from.transpose() * in_chain * R_chain_from;
-}
-
 // By how much the answer has become more uncertain since the node before, along the chain's axes.
 Eigen::Matrix3d Growth(const ScanNode& node,
                        const ScanNode& last,
@@ -103,6 +89,12 @@ FreeSpaceOptions OfAllScans(FreeSpaceOptions options) {
 
 }  // namespace
 
+Eigen::Matrix3d AlongAxesOf(const Pose2& T_a_b, const Eigen::Matrix3d& in_a) {
+  Eigen::Matrix3d R_a_b = Eigen::Matrix3d::Identity();
+  R_a_b.topLeftCorner<2, 2>() = T_a_b.Rotation();
+  return R_a_b.transpose() * in_a * R_a_b;
+}
+
 ScanChains::ScanChains(const MapperOptions& options)
     : map_options_(SubmapOptions(options.map)),
       free_space_(OfAllScans(options.free_space)),
@@ -124,8 +116,8 @@ void ScanChains::Add(std::span<const ScanNode> nodes) {
     const Attachment attached = hangs ? Hang(node, chain) : Attach(id, nodes, chain);
     edges_.push_back(EdgeTo(last, id, T_chain_node_[last], attached.chain_node));
     T_chain_node_.push_back(attached.chain_node.T_a_b);
-    covariance_.push_back(attached.chain_node.covariance);
-    Tie(id, attached, chain);
+    NoteMotion(id, attached, chain);
+    NoteMatch(id, attached, chain);
     if (!hangs) NoteHold(attached, chain);
   }
   chain.nodes.push_back(id);
@@ -138,7 +130,6 @@ void ScanChains::Begin(const ScanNode& node) {
   const auto id = static_cast<NodeId>(T_chain_node_.size());
   T_chain_node_.push_back(node.map_robot.T_a_b);
   const UncertainPose2 entered = AtLeast(node.map_robot, kLeastSigma_m, kLeastSigma_rad);
-  covariance_.push_back(entered.covariance);
   if (id == 0) {
     map_first_ = node.map_robot;
     return;
@@ -149,26 +140,33 @@ void ScanChains::Begin(const ScanNode& node) {
   } else {
     edges_.push_back(EdgeTo(0, id, map_first_.T_a_b, entered));
   }
-  ties_.push_back(edges_.back());
+  motions_.push_back(edges_.back());
 }
 
-// Seen from the first scan of the submap its surfaces are as wrong as that one is, and as the one
-// in the middle, which stands for those that drew them.
-void ScanChains::Tie(NodeId id, const Attachment& attached, const Chain& chain) {
-  const auto tie_to = [&](NodeId from, const Eigen::Matrix3d& information) {
-    const Pose2& T_chain_from = T_chain_node_[from];
-    ties_.push_back({.from = from,
-                     .to = id,
-                     .T_from_to = T_chain_from.Inverse() * T_chain_node_[id],
-                     .information = AlongAxesOf(T_chain_from, information)});
-  };
-  tie_to(chain.nodes.back(), attached.of_motion);
+void ScanChains::NoteMotion(NodeId id, const Attachment& attached, const Chain& chain) {
+  const NodeId last = chain.nodes.back();
+  const Pose2& T_chain_last = T_chain_node_[last];
+  motions_.push_back({.from = last,
+                      .to = id,
+                      .T_from_to = T_chain_last.Inverse() * T_chain_node_[id],
+                      .information = AlongAxesOf(T_chain_last, attached.of_motion)});
+}
+
+// It was matched with the last submap but one, and helps to draw the last two.
+void ScanChains::NoteMatch(NodeId id, const Attachment& attached, const Chain& chain) {
   if (attached.of_match.isZero()) return;
-  const std::size_t oldest = chain.submaps.size() - chain.last_surfaces.size();
-  const RigidSubmap& submap = submaps_[chain.submaps[oldest]];
-  const NodeId first = submap.nodes.front();
-  const Eigen::Matrix3d of_surfaces = covariance_[first] + covariance_[submap.reference()];
-  tie_to(first, InformationAmong(of_surfaces, attached.of_match));
+  const auto growing = std::span(chain.submaps).last(chain.last_surfaces.size());
+  const Pose2& T_chain_first = T_chain_node_[submaps_[growing.front()].nodes.front()];
+  matches_.push_back({.submap = growing.front(),
+                      .node = id,
+                      .T_first_node = T_chain_first.Inverse() * T_chain_node_[id],
+                      .information = AlongAxesOf(T_chain_first, attached.of_match)});
+  for (const std::size_t index : growing) {
+    RigidSubmap& submap = submaps_[index];
+    if (!submap.error_of_surfaces.isZero()) continue;
+    submap.error_of_surfaces =
+        AlongAxesOf(T_chain_node_[submap.nodes.front()], attached.chain_node.covariance);
+  }
 }
 
 ScanChains::Attachment ScanChains::Hang(const ScanNode& node, const Chain& chain) const {

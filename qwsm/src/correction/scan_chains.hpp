@@ -23,10 +23,25 @@ struct RigidSubmap {
   std::size_t robot = 0;      ///< Whose scans they are.
   std::size_t ordinal = 0;    ///< Among the submaps of that robot.
   std::vector<NodeId> nodes;  ///< In a row.
+  /// How wrong its surfaces lie, (x, y, theta) as its first scan sees them: as the next scan, which
+  /// sees the same and was matched. Nothing, where that first one has drawn them alone.
+  Eigen::Matrix3d error_of_surfaces = Eigen::Matrix3d::Zero();
 
   /// The scan in the middle, which stands for all.
   NodeId reference() const { return nodes[nodes.size() / 2]; }
 };
+
+/// A node that was matched with the surfaces of the submap before.
+struct SurfaceMatch {
+  std::size_t submap = 0;
+  NodeId node = 0;
+  Pose2 T_first_node;  ///< As the first scan of that submap sees it.
+  /// Of (x, y, theta) along that one's axes.
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+};
+
+/// Information about (x, y, theta) along the axes of frame b, of what is along those of frame a.
+Eigen::Matrix3d AlongAxesOf(const Pose2& T_a_b, const Eigen::Matrix3d& in_a);
 
 /// The relevant scans of each robot in a row, each matched with those just before it, in a frame of
 /// their own that no closed loop bends: the backbone of the pose graph. Where several lasers take
@@ -44,11 +59,10 @@ class ScanChains {
   /// Edges from each node to the next of its robot, and to the first one of each robot from that of
   /// all, or from one beside which it was found.
   std::span<const PoseEdge> edges() const { return edges_; }
-  /// The same poses by what they are known from: each node's motion from the one before, and its
-  /// match, which is with the first node of a submap. The edges above count what the matches with
-  /// one submap are wrong by at each step, and poses bend where they should; these count it once,
-  /// and tell how uncertain the poses are.
-  std::span<const PoseEdge> ties() const { return ties_; }
+  /// What the edges are made of: each node's motion from the one before, with where each robot came
+  /// in, and its match.
+  std::span<const PoseEdge> motions() const { return motions_; }
+  std::span<const SurfaceMatch> matches() const { return matches_; }
   /// Submaps of the chains, which overlap by half.
   std::span<const RigidSubmap> submaps() const { return submaps_; }
   /// How many robots there are.
@@ -100,7 +114,8 @@ class ScanChains {
   Attachment Matched(const MatchResult& match,
                      const UncertainPose2& predicted,
                      const Eigen::Matrix3d& growth) const;
-  void Tie(NodeId id, const Attachment& attached, const Chain& chain);
+  void NoteMotion(NodeId id, const Attachment& attached, const Chain& chain);
+  void NoteMatch(NodeId id, const Attachment& attached, const Chain& chain);
   std::vector<ScanPoint> PointsAround(NodeId node,
                                       const Pose2& T_chain_robot,
                                       std::span<const ScanNode> nodes) const;
@@ -119,10 +134,10 @@ class ScanChains {
   std::vector<std::size_t> robot_;      // By node.
   std::vector<ScanTurns::Part> parts_;  // By node.
   std::vector<PoseEdge> edges_;         // To each node but the first.
-  std::vector<PoseEdge> ties_;
-  std::vector<Eigen::Matrix3d> covariance_;  // By node: as the one before sees it.
-  std::vector<RigidSubmap> submaps_;         // In the order they were begun.
-  std::map<std::size_t, Chain> chains_;      // By robot.
+  std::vector<PoseEdge> motions_;       // To each node but the first.
+  std::vector<SurfaceMatch> matches_;
+  std::vector<RigidSubmap> submaps_;     // In the order they were begun.
+  std::map<std::size_t, Chain> chains_;  // By robot.
 };
 
 }  // namespace qwsm
