@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -36,6 +37,19 @@ TEST(MapCorrector, MendsThePathOnceTheRobotIsBack) {
   ASSERT_EQ(correction.map_node.size(), relevant.steps.size());
   EXPECT_GT(std::ranges::count(correction.loops, LoopVerdict::kAccepted, &Loop::verdict), 3);
   EXPECT_LT(WorstError_m(correction.map_node, relevant.T_map_true), 0.2 * before_m);
+}
+
+// The map begins with the first scan, and the next ones fit it.
+TEST(MapCorrector, KnowsTheNextScansAsWellAsTheyFitTheFirst) {
+  Answers answers = Drive(OfficeLoop());
+  Bend(answers.steps, 0.0003);
+  const Correction correction = Corrected(answers.steps);
+  ASSERT_GT(std::ranges::count(correction.loops, LoopVerdict::kAccepted, &Loop::verdict), 0);
+  EXPECT_TRUE(correction.map_node.front().covariance.isZero());
+  for (const UncertainPose2& next : std::span(correction.map_node).subspan(1, 3)) {
+    EXPECT_LT(next.SigmaXY_m(), 0.01);
+    EXPECT_LT(next.SigmaTheta_rad(), 0.003);
+  }
 }
 
 // Two halves of a drive, as if two robots had taken turns.

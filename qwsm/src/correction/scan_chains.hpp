@@ -40,7 +40,7 @@ struct SurfaceMatch {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
 };
 
-/// Information about (x, y, theta) along the axes of frame b, of what is along those of frame a.
+/// Covariance of (x, y, theta), or information, along the axes of frame b instead of frame a.
 Eigen::Matrix3d AlongAxesOf(const Pose2& T_a_b, const Eigen::Matrix3d& in_a);
 
 /// The relevant scans of each robot in a row, each matched with those just before it, in a frame of

@@ -36,8 +36,8 @@ class SurfaceNodes {
 
   PoseEdge Tie(const FoundLoop& found, std::span<const Pose2> T_chain_node) const {
     const RigidSubmap& submap = submaps_[found.submap];
-    const Pose2 T_reference_first = T_chain_node[submap.reference()].Inverse() *
-                                    T_chain_node[submap.nodes.front()];
+    const Pose2 T_reference_first =
+        T_chain_node[submap.reference()].Inverse() * T_chain_node[submap.nodes.front()];
     return {.from = NodeOf(found.submap),
             .to = found.loop.edge.to,
             .T_from_to = T_reference_first.Inverse() * found.loop.edge.T_from_to,
