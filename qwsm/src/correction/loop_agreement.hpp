@@ -38,7 +38,8 @@ class ReferencePoses {
 /// A loop, and the submap that it comes from.
 struct FoundLoop {
   Loop loop;
-  /// Information of the match with the submap's surfaces, without what those are wrong by.
+  /// Information of the match with the submap's surfaces, along the axes of their chain, without
+  /// what they are wrong by.
   Eigen::Matrix3d of_match = Eigen::Matrix3d::Zero();
   std::size_t submap = 0;
   double sigma_m = 0.0;  ///< How far off the scan was expected.

@@ -206,19 +206,20 @@ std::optional<FoundLoop> LoopFinder::Recognise(const Candidate& candidate,
   if (!IsRecognised(match, kMinOverlap)) return std::nullopt;
   const PlaceFit fit = FitOf(match, points, surfaces);
   if (fit.told < kMinTold) return std::nullopt;
-  const Eigen::Matrix3d of_match =
-      AlongAxesOf(T_chain_reference, InformationOfPairs(match, matcher_.options()));
-  return FoundLoop{.loop = {.edge = {.from = submap.reference(),
-                                     .to = candidate.node,
-                                     .T_from_to = T_chain_reference.Inverse() * match.T_ref_cur,
-                                     .information = InformationWith(of_match, ErrorWithin(submap)),
-                                     .trust = EdgeTrust::kLoop},
-                            .overlap = match.overlap,
-                            .reduced_chi2 = match.reduced_chi2},
-                   .of_match = of_match,
-                   .submap = candidate.submap,
-                   .sigma_m = candidate.reference_node.SigmaXY_m(),
-                   .nats = fit.NatsInOwnMap()};
+  const Eigen::Matrix3d of_match = InformationOfPairs(match, matcher_.options());
+  return FoundLoop{
+      .loop = {.edge = {.from = submap.reference(),
+                        .to = candidate.node,
+                        .T_from_to = T_chain_reference.Inverse() * match.T_ref_cur,
+                        .information = InformationWith(AlongAxesOf(T_chain_reference, of_match),
+                                                       ErrorWithin(submap)),
+                        .trust = EdgeTrust::kLoop},
+               .overlap = match.overlap,
+               .reduced_chi2 = match.reduced_chi2},
+      .of_match = of_match,
+      .submap = candidate.submap,
+      .sigma_m = candidate.reference_node.SigmaXY_m(),
+      .nats = fit.NatsInOwnMap()};
 }
 
 // How wrong the scans of a submap lie to its reference: that of one half way to its end.

@@ -116,7 +116,7 @@ void ScanChains::Add(std::span<const ScanNode> nodes) {
     const Attachment attached = hangs ? Hang(node, chain) : Attach(id, nodes, chain);
     edges_.push_back(EdgeTo(last, id, T_chain_node_[last], attached.chain_node));
     T_chain_node_.push_back(attached.chain_node.T_a_b);
-    NoteMotion(id, attached, chain);
+    NoteMotion(attached);
     NoteMatch(id, attached, chain);
     if (!hangs) NoteHold(attached, chain);
   }
@@ -129,7 +129,6 @@ void ScanChains::Add(std::span<const ScanNode> nodes) {
 void ScanChains::Begin(const ScanNode& node) {
   const auto id = static_cast<NodeId>(T_chain_node_.size());
   T_chain_node_.push_back(node.map_robot.T_a_b);
-  const UncertainPose2 entered = AtLeast(node.map_robot, kLeastSigma_m, kLeastSigma_rad);
   if (id == 0) {
     map_first_ = node.map_robot;
     return;
@@ -138,34 +137,27 @@ void ScanChains::Begin(const ScanNode& node) {
     const UncertainPose2 found = AtLeast(node.found->node_robot, kLeastSigma_m, kLeastSigma_rad);
     edges_.push_back(EdgeTo(node.found->node, id, {}, found));
   } else {
+    const UncertainPose2 entered = AtLeast(node.map_robot, kLeastSigma_m, kLeastSigma_rad);
     edges_.push_back(EdgeTo(0, id, map_first_.T_a_b, entered));
   }
   motions_.push_back(edges_.back());
 }
 
-void ScanChains::NoteMotion(NodeId id, const Attachment& attached, const Chain& chain) {
-  const NodeId last = chain.nodes.back();
-  const Pose2& T_chain_last = T_chain_node_[last];
-  motions_.push_back({.from = last,
-                      .to = id,
-                      .T_from_to = T_chain_last.Inverse() * T_chain_node_[id],
-                      .information = AlongAxesOf(T_chain_last, attached.of_motion)});
+// An edge without what the match tells.
+void ScanChains::NoteMotion(const Attachment& attached) {
+  PoseEdge motion = edges_.back();
+  motion.information = AlongAxesOf(T_chain_node_[motion.from], attached.of_motion);
+  motions_.push_back(motion);
 }
 
 // It was matched with the last submap but one, and helps to draw the last two.
 void ScanChains::NoteMatch(NodeId id, const Attachment& attached, const Chain& chain) {
   if (attached.of_match.isZero()) return;
   const auto growing = std::span(chain.submaps).last(chain.last_surfaces.size());
-  const Pose2& T_chain_first = T_chain_node_[submaps_[growing.front()].nodes.front()];
-  matches_.push_back({.submap = growing.front(),
-                      .node = id,
-                      .T_first_node = T_chain_first.Inverse() * T_chain_node_[id],
-                      .information = AlongAxesOf(T_chain_first, attached.of_match)});
+  matches_.push_back({.submap = growing.front(), .node = id, .information = attached.of_match});
   for (const std::size_t index : growing) {
-    RigidSubmap& submap = submaps_[index];
-    if (!submap.error_of_surfaces.isZero()) continue;
-    submap.error_of_surfaces =
-        AlongAxesOf(T_chain_node_[submap.nodes.front()], attached.chain_node.covariance);
+    Eigen::Matrix3d& error = submaps_[index].error_of_surfaces;
+    if (error.isZero()) error = attached.chain_node.covariance;
   }
 }
 

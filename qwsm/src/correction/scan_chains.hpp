@@ -23,8 +23,9 @@ struct RigidSubmap {
   std::size_t robot = 0;      ///< Whose scans they are.
   std::size_t ordinal = 0;    ///< Among the submaps of that robot.
   std::vector<NodeId> nodes;  ///< In a row.
-  /// How wrong its surfaces lie, (x, y, theta) as its first scan sees them: as the next scan, which
-  /// sees the same and was matched. Nothing, where that first one has drawn them alone.
+  /// How wrong its surfaces lie, (x, y, theta) along the chain's axes, as its first scan sees them:
+  /// as the next scan, which sees the same and was matched. Nothing, where that first one has drawn
+  /// them alone.
   Eigen::Matrix3d error_of_surfaces = Eigen::Matrix3d::Zero();
 
   /// The scan in the middle, which stands for all.
@@ -35,9 +36,7 @@ struct RigidSubmap {
 struct SurfaceMatch {
   std::size_t submap = 0;
   NodeId node = 0;
-  Pose2 T_first_node;  ///< As the first scan of that submap sees it.
-  /// Of (x, y, theta) along that one's axes.
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< Along the axes of its chain.
 };
 
 /// Covariance of (x, y, theta), or information, along the axes of frame b instead of frame a.
@@ -114,7 +113,7 @@ class ScanChains {
   Attachment Matched(const MatchResult& match,
                      const UncertainPose2& predicted,
                      const Eigen::Matrix3d& growth) const;
-  void NoteMotion(NodeId id, const Attachment& attached, const Chain& chain);
+  void NoteMotion(const Attachment& attached);
   void NoteMatch(NodeId id, const Attachment& attached, const Chain& chain);
   std::vector<ScanPoint> PointsAround(NodeId node,
                                       const Pose2& T_chain_robot,

@@ -14,40 +14,36 @@ constexpr double kAlone_rad = 0.0001;
 // The surfaces of each submap, which lie where its first scan is.
 class SurfaceNodes {
  public:
-  SurfaceNodes(std::span<const RigidSubmap> submaps, PoseGraph& graph)
-      : submaps_(submaps), begin_(static_cast<NodeId>(graph.T_map_node.size())) {
+  SurfaceNodes(const ScanChains& chains, PoseGraph& graph)
+      : chains_(chains), begin_(static_cast<NodeId>(graph.T_map_node.size())) {
     const Eigen::Matrix3d alone = UncertainPose2::WithSigmas({}, kAlone_m, kAlone_rad).covariance;
-    for (const RigidSubmap& submap : submaps_) {
+    for (const RigidSubmap& submap : chains_.submaps()) {
       const NodeId first = submap.nodes.front();
+      const Eigen::Matrix3d error =
+          AlongAxesOf(chains_.T_chain_node()[first], submap.error_of_surfaces) + alone;
       graph.edges.push_back({.from = first,
                              .to = static_cast<NodeId>(graph.T_map_node.size()),
                              .T_from_to = {},
-                             .information = (submap.error_of_surfaces + alone).inverse()});
+                             .information = error.inverse()});
       graph.T_map_node.push_back(graph.T_map_node[first]);
     }
   }
 
-  PoseEdge Tie(const SurfaceMatch& match) const {
-    return {.from = NodeOf(match.submap),
-            .to = match.node,
-            .T_from_to = match.T_first_node,
-            .information = match.information};
-  }
-
-  PoseEdge Tie(const FoundLoop& found, std::span<const Pose2> T_chain_node) const {
-    const RigidSubmap& submap = submaps_[found.submap];
-    const Pose2 T_reference_first =
-        T_chain_node[submap.reference()].Inverse() * T_chain_node[submap.nodes.front()];
-    return {.from = NodeOf(found.submap),
-            .to = found.loop.edge.to,
-            .T_from_to = T_reference_first.Inverse() * found.loop.edge.T_from_to,
-            .information = AlongAxesOf(T_reference_first, found.of_match)};
+  // A node that was matched with a submap. @param information along the axes of the chain.
+  PoseEdge Tie(std::size_t submap,
+               NodeId node,
+               const Pose2& T_chain_node,
+               const Eigen::Matrix3d& information) const {
+    const NodeId first = chains_.submaps()[submap].nodes.front();
+    const Pose2& T_chain_first = chains_.T_chain_node()[first];
+    return {.from = begin_ + static_cast<NodeId>(submap),
+            .to = node,
+            .T_from_to = T_chain_first.Inverse() * T_chain_node,
+            .information = AlongAxesOf(T_chain_first, information)};
   }
 
  private:
-  NodeId NodeOf(std::size_t submap) const { return begin_ + static_cast<NodeId>(submap); }
-
-  std::span<const RigidSubmap> submaps_;
+  const ScanChains& chains_;
   NodeId begin_;
 };
 
@@ -58,11 +54,17 @@ PoseGraph TieGraph(const ScanChains& chains,
                    std::span<const FoundLoop> loops) {
   PoseGraph graph{.T_map_node = {T_map_node.begin(), T_map_node.end()},
                   .edges = {chains.motions().begin(), chains.motions().end()}};
-  const SurfaceNodes surfaces(chains.submaps(), graph);
-  for (const SurfaceMatch& match : chains.matches()) graph.edges.push_back(surfaces.Tie(match));
+  const SurfaceNodes surfaces(chains, graph);
+  const std::span<const Pose2> T_chain_node = chains.T_chain_node();
+  for (const SurfaceMatch& match : chains.matches()) {
+    graph.edges.push_back(
+        surfaces.Tie(match.submap, match.node, T_chain_node[match.node], match.information));
+  }
   for (const FoundLoop& found : loops) {
     if (found.loop.verdict != LoopVerdict::kAccepted) continue;
-    graph.edges.push_back(surfaces.Tie(found, chains.T_chain_node()));
+    const PoseEdge& edge = found.loop.edge;
+    graph.edges.push_back(surfaces.Tie(
+        found.submap, edge.to, T_chain_node[edge.from] * edge.T_from_to, found.of_match));
   }
   return graph;
 }
