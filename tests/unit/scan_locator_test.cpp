@@ -137,5 +137,25 @@ TEST(ScanLocator, FindsAPoseFarBeyondTheFirstWindow) {
   EXPECT_NEAR(match.T_ref_cur.theta_rad, truth.theta_rad, 0.01);
 }
 
+TEST(ScanLocator, FindsOnlyWhatExplainsAsMuchAsIsAsked) {
+  const World world = CorridorWithSomeoneAt(3.0);
+  const World elsewhere{.walls = {{.from_m = {4.0, -9.0}, .to_m = {-5.0, 9.0}}}, .columns = {}};
+  const ScanMap map = MapOfScan(ScanOf(world, {}), {});
+  const Pose2 truth{0.1, 0.05, 0.05};
+  const UncertainPose2 expected = Expected({}, 0.1);
+  const ScanLocator locator;
+  const FreeSpace nothing_known;
+  const std::vector<ScanPoint> points = ToPoints(ScanOf(world, truth));
+  for (const auto& found : {locator.LocateExplaining(map, points, expected, 0.9, nothing_known),
+                            locator.LocateWithin(map, points, expected, 0.9, nothing_known)}) {
+    ASSERT_TRUE(found);
+    EXPECT_NEAR((found->T_ref_cur.translation_m() - truth.translation_m()).norm(), 0.0, 0.03);
+  }
+  const std::vector<ScanPoint> others = ToPoints(ScanOf(elsewhere, truth));
+  EXPECT_FALSE(locator.LocateExplaining(map, others, expected, 0.9, nothing_known));
+  EXPECT_FALSE(locator.LocateWithin(map, others, expected, 0.9, nothing_known));
+  EXPECT_LT(locator.Locate(map, others, expected).overlap, 0.5) << "matched nevertheless";
+}
+
 }  // namespace
 }  // namespace qwsm::test

@@ -17,6 +17,7 @@ constexpr double kNatsAgainstOdometry = kConvincingNats + kSlipNats;
 // Where nearly all of the scan is explained no pose is convincingly better. Where the map has
 // called the robot farther off than odometry can be wrong, it has to explain much more of it there.
 bool OdometryFailure::IsPossible(bool is_surprising) const {
+  if (is_suspect_) return true;
   if (HasMatched(by_odometry_)) {
     return is_surprising && IsConvincinglyBetter(points_, 1.0, by_odometry_.overlap);
   }
@@ -26,8 +27,14 @@ bool OdometryFailure::IsPossible(bool is_surprising) const {
   return LeadInNats(told, by_odometry_.overlap, expected) >= kNatsAgainstOdometry;
 }
 
+double OdometryFailure::LeastToShow() const {
+  if (is_suspect_) return by_odometry_.overlap;
+  return HasMatched(by_odometry_) ? LeastConvincing(points_, by_odometry_.overlap) : 0.0;
+}
+
 // The map calls the robot to the same place, wherever it is expected.
 bool OdometryFailure::IsShownBy(const MatchResult& other) const {
+  if (is_suspect_) return other.overlap >= by_odometry_.overlap;
   if (HasMatched(by_odometry_)) {
     return IsConvincinglyBetter(points_, other.overlap, by_odometry_.overlap);
   }

@@ -244,4 +244,8 @@ bool IsConvincinglyBetter(std::span<const ScanPoint> points, double explained, d
   return nats >= kConvincingNats && LeadInNats(told, explained, other) >= kConvincingNats;
 }
 
+double LeastConvincing(std::span<const ScanPoint> points, double other) {
+  return other + kConvincingNats / LeadInNats(PlaceEvidence::Told(points), 1.0, 0.0);
+}
+
 }  // namespace qwsm

@@ -191,15 +191,15 @@ bool RobotTracker::DropFailedOdometry(const ScanMap& map,
   if (!observation.T_odom_robot) return true;
   const double share = lasers_.ShareOfPeriod(observation.scan);
   const bool is_surprising = motion_.IsSurprising(observation.T_odom_robot, share);
-  const OdometryFailure failure(map, points, step.match);
-  if (!is_odometry_suspect_ && !failure.IsPossible(is_surprising)) return false;
+  const OdometryFailure failure(map, points, step.match, is_odometry_suspect_);
+  if (!failure.IsPossible(is_surprising)) return false;
   const PosePrediction without_odometry = motion_.Predict(std::nullopt, share);
-  const MatchResult other =
-      locator_.Locate(map, points, local_last_ * without_odometry.conservative, seen_free_);
-  const bool is_better = other.overlap >= step.match.overlap;
-  if (!(is_odometry_suspect_ ? is_better : failure.IsShownBy(other))) return false;
+  const UncertainPose2 predicted = local_last_ * without_odometry.conservative;
+  const auto other =
+      locator_.LocateExplaining(map, points, predicted, failure.LeastToShow(), seen_free_);
+  if (!other || !failure.IsShownBy(*other)) return false;
   last_robot = without_odometry;
-  step.match = other;
+  step.match = *other;
   return true;
 }
 
@@ -229,9 +229,9 @@ std::optional<PathsApart> RobotTracker::ComparePaths(const ScanMap& map,
       apart_ ? apart_->by_odometry() * last_robot : dead_reckoning_.Predict(last_robot);
   if (!reckoned || !IsFarFrom(*reckoned, match.pose())) return std::nullopt;
   const double max_moving_share = options_.free_space.max_moving_share;
-  const MatchResult there = locator_.LocateWithin(
+  const auto there = locator_.LocateWithin(
       map, points, *reckoned, LeastToDoubt(points, match, max_moving_share), seen_free_);
-  if (IsFarFrom(*reckoned, there.pose()) || !IsFarFrom(there.pose(), match.pose())) {
+  if (!there || IsFarFrom(*reckoned, there->pose()) || !IsFarFrom(there->pose(), match.pose())) {
     return std::nullopt;
   }
   const auto before = static_cast<ScanId>(dead_reckoning_.scans_before());
@@ -240,10 +240,10 @@ std::optional<PathsApart> RobotTracker::ComparePaths(const ScanMap& map,
   };
   const UncertainPose2 expected = PathOfMatches() * last_robot;
   auto apart =
-      PathsApart::Weigh(points, apart_, expected, end_at(match), end_at(there), max_moving_share);
+      PathsApart::Weigh(points, apart_, expected, end_at(match), end_at(*there), max_moving_share);
   const bool stays =
-      apart ? apart->is_by_odometry() : !apart_ && !IsSlipTold(points, expected, match, there);
-  if (stays) match = there;
+      apart ? apart->is_by_odometry() : !apart_ && !IsSlipTold(points, expected, match, *there);
+  if (stays) match = *there;
   return apart;
 }
 

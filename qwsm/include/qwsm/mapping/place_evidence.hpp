@@ -132,5 +132,7 @@ inline constexpr double kLookalike_m = 15.0;
 /// at a place that is like it, but for a chance of 1 in 100.
 /// @param other share that is explained at the other pose.
 bool IsConvincinglyBetter(std::span<const ScanPoint> points, double explained, double other);
+/// Returns the least share that has to be explained at a pose for that.
+double LeastConvincing(std::span<const ScanPoint> points, double other);
 
 }  // namespace qwsm

@@ -116,14 +116,20 @@ class ScanLocator {
                      const UncertainPose2& predicted,
                      const FreeSpace& seen_free = FreeSpace{}) const;
 
+  /// The same, if some pose explains so much of the scan: what explains less may not be found,
+  /// which spares most of the search, and none is matched.
+  std::optional<MatchResult> LocateExplaining(const ScanMap& map,
+                                              std::span<const ScanPoint> points,
+                                              const UncertainPose2& predicted,
+                                              double least_explained,
+                                              const FreeSpace& seen_free) const;
+
   /// The same, but never farther off than the prediction is uncertain.
-  /// @param least_explained share of the scan: poses that explain less may not be found. It spares
-  ///   most of the search of a wide window.
-  MatchResult LocateWithin(const ScanMap& map,
-                           std::span<const ScanPoint> points,
-                           const UncertainPose2& predicted,
-                           double least_explained,
-                           const FreeSpace& seen_free) const;
+  std::optional<MatchResult> LocateWithin(const ScanMap& map,
+                                          std::span<const ScanPoint> points,
+                                          const UncertainPose2& predicted,
+                                          double least_explained,
+                                          const FreeSpace& seen_free) const;
 
   /// Locates where odometry tells the prediction: it is as good as it has proved, or the wheels
   /// have slipped. That they have, once in a hundred scans, the scan has to tell: by where it is
