@@ -149,8 +149,7 @@ bool Pairing::IsPaired(const Eigen::Matrix2d& R_map_cur, const ScanPoint& point,
   }
   if (pair.id != pair.nearest->id) {
     pair.surface = map_.SurfaceAt(*pair.nearest);
-    const bool has_mean = pair.surface.is_line && !pair.surface.is_sample;
-    if (has_mean && IsAlone(point)) pair.mean_near_m = map_.MeanNear(*pair.nearest);
+    pair.mean_near_m.reset();
   }
   if (LinesCross(pair.surface, point, normal_map)) {
     pair.id.reset();
@@ -182,14 +181,17 @@ void Pairing::AddLine(const Eigen::Matrix2d& R_map_cur,
 // the scan, too, shows that the surface is straight.
 double Pairing::ErrorOfLike(const Eigen::Matrix2d& R_map_cur,
                             const ScanPoint& point,
-                            const Pair& pair) {
+                            Pair& pair) const {
   const Surface& surface = pair.surface;
   const Eigen::Vector2d& normal = surface.normal;
   if (surface.is_sample) return normal.dot(surface.mean_m - pair.p_map);
   const auto is_straight = [&] {  // Of few readings it is asked.
     return std::abs(normal.dot(R_map_cur * point.normal_robot)) > kCosOfStraight;
   };
-  if (IsAlone(point) && !is_straight()) return normal.dot(pair.mean_near_m - pair.p_map);
+  if (IsAlone(point) && !is_straight()) {
+    if (!pair.mean_near_m) pair.mean_near_m = map_.MeanNear(*pair.nearest);
+    return normal.dot(*pair.mean_near_m - pair.p_map);
+  }
   return normal.dot(surface.mean_m - (pair.p_map + R_map_cur * point.to_mean_robot_m));
 }
 

@@ -92,11 +92,11 @@ class Pairing {
     double inflation_m2 = 0.0;  // Of the pair's error, while annealing.
     SearchCursor cursor;
     std::optional<Neighbor> nearest;
-    std::optional<PointId> id;    // The stored point it is paired with.
-    Surface surface;              // The surface at that point.
-    Eigen::Vector2d mean_near_m;  // Of a line that is no sample, if the scan's point is alone.
-    double weight = 1.0;          // Of the robust estimate.
-    double news = 1.0;            // Of the scan's point beside the one before.
+    std::optional<PointId> id;                   // The stored point it is paired with.
+    Surface surface;                             // The surface at that point.
+    std::optional<Eigen::Vector2d> mean_near_m;  // There, once it was asked for.
+    double weight = 1.0;                         // Of the robust estimate.
+    double news = 1.0;                           // Of the scan's point beside the one before.
   };
 
   void FindNearest(const Pose2& T_map_cur, const AnnealedError& start_error);
@@ -105,9 +105,7 @@ class Pairing {
                const ScanPoint& point,
                Pair& pair,
                NormalEquations& equations) const;
-  static double ErrorOfLike(const Eigen::Matrix2d& R_map_cur,
-                            const ScanPoint& point,
-                            const Pair& pair);
+  double ErrorOfLike(const Eigen::Matrix2d& R_map_cur, const ScanPoint& point, Pair& pair) const;
   void AddObject(const Eigen::Matrix2d& R_map_cur,
                  const ScanPoint& point,
                  Pair& pair,
