@@ -66,8 +66,8 @@ bool PathsApart::is_decided() const { return std::abs(nats_for_match_) > kConvin
 double LeastToDoubt(std::span<const ScanPoint> points,
                     const MatchResult& match,
                     double max_moving_share) {
-  const double nats_of_all = LeadInNats(PlaceEvidence::ToldBySurfaces(points), 1.0, 0.0);
-  const double slip_untold = match.overlap - kSlipNats / nats_of_all;
+  const double told = PlaceEvidence::ToldBySurfaces(points);
+  const double slip_untold = match.overlap - ShareForLead(told, kSlipNats);
   return std::max(0.0, std::min(LeastStill(match, max_moving_share), slip_untold));
 }
 

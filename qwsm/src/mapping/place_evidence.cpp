@@ -234,6 +234,8 @@ double LeadInNats(double told, double explained, double other) {
          PlaceFit{.told = told, .explained = other}.Nats();
 }
 
+double ShareForLead(double told, double nats) { return nats / LeadInNats(told, 1.0, 0.0); }
+
 double NatsAskedOfPlace(double sigma_m) {
   return kConvincingNats + 2.0 * std::log(std::min(1.0, sigma_m / kLookalike_m));
 }
@@ -245,7 +247,7 @@ bool IsConvincinglyBetter(std::span<const ScanPoint> points, double explained, d
 }
 
 double LeastConvincing(std::span<const ScanPoint> points, double other) {
-  return other + kConvincingNats / LeadInNats(PlaceEvidence::Told(points), 1.0, 0.0);
+  return other + ShareForLead(PlaceEvidence::Told(points), kConvincingNats);
 }
 
 }  // namespace qwsm

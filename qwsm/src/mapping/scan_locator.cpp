@@ -164,7 +164,7 @@ std::optional<BegunMatch> LocateSlipped(const Task& task,
                                         const UncertainPose2& predicted,
                                         const BegunMatch& as_proved,
                                         double told) {
-  const double gain = kSlipNats / LeadInNats(told, 1.0, 0.0);
+  const double gain = ShareForLead(told, kSlipNats);
   const auto slipped = LocateBetter(task, predicted, as_proved, gain, 0.0);
   const BegunMatch& best = slipped ? *slipped : as_proved;
   if (task.Fits(best.match, task.options.widen_below_overlap)) return slipped;

@@ -117,6 +117,8 @@ class PlaceEvidence {
 /// By how many nats a scan that tells so much speaks for a pose, where that share of it is
 /// explained, rather than for another one.
 double LeadInNats(double told, double explained, double other);
+/// How much more of it has to be explained for such a lead: the inverse of that.
+double ShareForLead(double told, double nats);
 
 /// Evidence that leaves a chance of 1 in 100.
 inline constexpr double kConvincingNats = 4.6;
