@@ -13,18 +13,15 @@ namespace {
 constexpr double kOpenShare = 1e-9;
 
 /// A motion is observable where the pairs tell so many times as much of it as the errors of the
-/// normals would by themselves.
+/// normals would by themselves, or more where these may tell more by chance.
 constexpr double kObservableShare = 3.0;
+
+/// So many deviations of a normal distribution only one in a thousand exceeds.
+constexpr double kSurelyDeviations = 3.09;
 
 /// The residuals of a few pairs may agree by chance: no less of the scatter that their weights
 /// promise is taken for granted.
 constexpr double kLeastScatter = 0.25;
-
-/// What scatters is known only as well as it is observed often: to the n observations of a motion
-/// come so many that scatter as all motions do on average over what their weights promise (the mean
-/// of an inverse gamma distribution). A motion that two trees hold is not known to millimetres
-/// because these agree.
-constexpr double kUsualObservations = 2.0;
 
 /// How many clusters tell of a motion, as if they all told the same of it.
 double ObservationsOf(std::span<const ClusterEquations> clusters, const Vector6d& motion) {
@@ -36,6 +33,13 @@ double ObservationsOf(std::span<const ClusterEquations> clusters, const Vector6d
     sum2 += told * told;
   }
   return sum2 > 0.0 ? sum * sum / sum2 : std::numeric_limits<double>::infinity();
+}
+
+/// Noise of so many observations surely tells of a motion no more than this multiple of what it
+/// tells on average: chi2 over its degrees of freedom (Wilson & Hilferty 1931).
+double MostByNoise(double observations) {
+  const double variance = 2.0 / (9.0 * observations);
+  return std::pow(1.0 - variance + kSurelyDeviations * std::sqrt(variance), 3);
 }
 
 }  // namespace
@@ -54,16 +58,22 @@ bool LeavesMotionOpen(const Matrix6d& A) {
 ObservableMotions::ObservableMotions(const Matrix6d& A,
                                      const Matrix6d& A_noise,
                                      const Matrix6d& scatter,
-                                     std::span<const ClusterEquations> clusters)
+                                     std::span<const ClusterEquations> clusters,
+                                     double usual_observations)
     : eigen_(GeneralizedEigenOf(A, A_noise)), to_gradient_(A_noise * eigen_.vectors) {
-  const Eigen::Array<bool, 6, 1> is_observable = eigen_.values.array() > kObservableShare;
+  Vector6d observations;
+  Eigen::Array<bool, 6, 1> is_observable;
+  for (int k = 0; k < 6; ++k) {
+    observations(k) = ObservationsOf(clusters, eigen_.vectors.col(k));
+    is_observable(k) = eigen_.values(k) > std::max(kObservableShare, MostByNoise(observations(k)));
+  }
   told_ = is_observable.select(eigen_.values.array() - 1.0, 0.0);
   Matrix6d S = eigen_.vectors.transpose() * scatter * eigen_.vectors;
   const Vector6d ratios = S.diagonal().cwiseQuotient(eigen_.values);
   const double usual_ratio = is_observable.select(ratios.array(), 0.0).sum() /
                              std::max(1.0, static_cast<double>(is_observable.count()));
   for (int k = 0; k < 6; ++k) {
-    const double drawn = kUsualObservations / ObservationsOf(clusters, eigen_.vectors.col(k));
+    const double drawn = usual_observations / observations(k);
     S(k, k) += (kLeastScatter + drawn * usual_ratio) * eigen_.values(k);
     if (is_observable(k)) continue;
     S.row(k).setZero();

@@ -32,12 +32,16 @@ class ObservableMotions {
   /// @param A of the normal equations.
   /// @param A_noise what the errors of the normals add to A on average; positive definite.
   /// @param scatter covariance of the gradient, from the residuals.
-  /// @param clusters whose scatter that is. Where they are given, it is larger for motions that few
-  /// of them tell of.
+  /// @param clusters whose scatter that is. Noise tells more by chance of a motion that few of them
+  /// tell of.
+  /// @param usual_observations What scatters is known only as well as it is observed often: to the
+  /// clusters that tell of a motion come so many that scatter as all motions do on average over
+  /// what their weights promise (the mean of an inverse gamma distribution).
   ObservableMotions(const Matrix6d& A,
                     const Matrix6d& A_noise,
                     const Matrix6d& scatter,
-                    std::span<const ClusterEquations> clusters = {});
+                    std::span<const ClusterEquations> clusters,
+                    double usual_observations);
 
   /// What the pairs tell of the motions: A S^-1 A with S the scatter of the gradient (the sandwich
   /// of Huber 1967), without noise, and without the motions that are not observable. It is A where

@@ -47,6 +47,12 @@ constexpr double kScaleShare = 0.04;
 /// Normals better known than this do not exist: keeps their noise regular.
 constexpr double kLeastNormalVariance = 1e-8;
 
+/// A motion that two trees hold is not known to millimetres because these agree: when it is asked
+/// how well it is known, so many observations that scatter as usual join those that there are. Yet
+/// the pose may hang on few things and be right: where they say it is, it is sought.
+constexpr double kUsualObservations = 2.0;
+constexpr double kNoUsualObservations = 0.0;
+
 constexpr double kUnpaired = std::numeric_limits<double>::quiet_NaN();
 
 /// The covariance of the gradient b, from how far the clusters scatter about the common pose: each
@@ -278,7 +284,8 @@ IcpStep SurfelPairs::Step(const Sums& sums, const PoseAndGuess& T_map, const Icp
   if (sums.pairs < 6 || LeavesMotionOpen(sums.A)) return step;
   const Vector6d to_guess = Difference(T_map.guess.T_a_b, T_map.now);
   const Matrix6d prior = ToldByGuess(T_map.guess);
-  const ObservableMotions observable(sums.A, sums.A_noise, ScatterOf(sums, prior));
+  const ObservableMotions observable(
+      sums.A, sums.A_noise, ScatterOf(sums, prior), sums.clusters, kNoUsualObservations);
   const Matrix6d information = observable.Information() + prior;
   const Vector6d x =
       SolvePositive(information, observable.Weigh(sums.b - sums.b_noise) + prior * to_guess);
@@ -294,9 +301,9 @@ IcpStep SurfelPairs::Step(const Sums& sums, const PoseAndGuess& T_map, const Icp
 Matrix6d SurfelPairs::Told(const Sums& sums,
                            const Matrix6d& curvature,
                            const UncertainPose3& guess) {
-  // The pose may hang on few things and be right; that it is cannot be known.
   const Matrix6d scatter = ScatterOf(sums, ToldByGuess(guess));
-  return ObservableMotions(curvature, sums.A_noise, scatter, sums.clusters).Information();
+  return ObservableMotions(curvature, sums.A_noise, scatter, sums.clusters, kUsualObservations)
+      .Information();
 }
 
 Matrix6d SurfelPairs::ToldByGuess(const UncertainPose3& guess) {
