@@ -45,9 +45,10 @@ TEST(Covariance3, PredictsTheErrorOfScansThatOverlapLittle) {
 
 // What the pairs leave open moves the scan in other directions, too, and a few trees that agree are
 // no proof: these were 28, 53 and 70, and six degrees of freedom ask for 6. Trees still agree more
-// than they should. In the third street and the office two clusters hold the way along a wall as
-// much as noise may, by chance: 10 and 10. In the two corridors, 8 and 7, the way leads 1.3 and 1.5 m up or down, of which
-// odometry in the plane knows nothing, and hardly the same ground is seen from both ends.
+// than they should. In the third street and the office, 10 and 10, two clusters hold the way along
+// a wall as much as noise may by chance. In the two corridors, 8 and 7, the way leads 1.3 and 1.5 m
+// up or down, of which odometry in the plane knows nothing, and hardly the same ground is seen from
+// both ends.
 TEST(Covariance3, KnowsWhatOpenMotionsAndFewThingsLeaveUnknown) {
   struct Drawn {
     PlaceKind kind;
