@@ -7,7 +7,9 @@
 #include <cstdlib>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace qwsm {
 namespace {
@@ -55,24 +57,40 @@ bool IsLostEcho(const LaserScan& scan, std::size_t beam) {
   return is_miss(beam) && !is_miss(beam + 1) && !(beam > 0 && is_miss(beam - 1));
 }
 
-// Calls `visit(end_map_m, hit)` for every beam that says something.
-template <class Visit>
-void ForEachSight(const RelevantScan& scan, const OccupancyGridOptions& options, Visit visit) {
+// Where a beam ends, and whether on a surface.
+struct BeamEnd {
+  Eigen::Vector2d end_map_m;
+  bool hit = false;
+};
+
+// Those of all beams that say something.
+std::vector<BeamEnd> EndsOf(const RelevantScan& scan, const OccupancyGridOptions& options) {
   const LaserGeometry& geometry = scan.scan.geometry;
   const Pose2 T_map_laser = scan.map_robot.T_a_b * geometry.T_robot_laser;
-  if (!IsFinite(T_map_laser)) return;
+  std::vector<BeamEnd> ends;
+  if (!IsFinite(T_map_laser)) return ends;
+  ends.reserve(scan.scan.size());
   for (std::size_t beam = 0; beam < scan.scan.size(); ++beam) {
     const std::optional<Sight> sight = SightOf(scan.scan.ranges_m[beam], geometry, options);
     if (!sight || IsLostEcho(scan.scan, beam)) continue;
     const double heading_rad = T_map_laser.theta_rad + geometry.Bearing(beam);
     const Eigen::Vector2d direction_map(std::cos(heading_rad), std::sin(heading_rad));
-    visit(Eigen::Vector2d(T_map_laser.translation_m() + sight->range_m * direction_map),
-          sight->hit);
+    ends.push_back({.end_map_m = T_map_laser.translation_m() + sight->range_m * direction_map,
+                    .hit = sight->hit});
   }
+  return ends;
 }
 
 Eigen::Vector2d LaserPosition(const RelevantScan& scan) {
   return scan.map_robot.T_a_b * scan.scan.geometry.T_robot_laser.translation_m();
+}
+
+// Of what a scan measured, the laser included; empty if nothing.
+Eigen::AlignedBox2d ExtentOfEnds(const RelevantScan& scan, std::span<const BeamEnd> ends) {
+  Eigen::AlignedBox2d extent;
+  for (const BeamEnd& beam : ends) extent.extend(beam.end_map_m);
+  if (!extent.isEmpty()) extent.extend(LaserPosition(scan));
+  return extent;
 }
 
 // Cells along one side at most, with the margin. A double, as it may be too many for an integer.
@@ -84,28 +102,22 @@ double CellsAlong(double size_m, double cell_m) {
 
 Eigen::AlignedBox2d OccupancyPainter::ExtentOf(const RelevantScan& scan,
                                                const OccupancyGridOptions& options) {
-  Eigen::AlignedBox2d extent;
-  ForEachSight(scan, options, [&](const Eigen::Vector2d& end_map_m, bool) {
-    extent.extend(end_map_m);
-    extent.extend(LaserPosition(scan));
-  });
-  return extent;
+  return ExtentOfEnds(scan, EndsOf(scan, options));
 }
 
 void OccupancyPainter::Add(const RelevantScan& scan) {
-  const Eigen::AlignedBox2d extent_m = ExtentOf(scan, options_);
+  const std::vector<BeamEnd> ends = EndsOf(scan, options_);
+  const Eigen::AlignedBox2d extent_m = ExtentOfEnds(scan, ends);
   if (extent_m.isEmpty()) return;
   MakeRoom(extent_m);
   if (!Fits(extent_m_, options_.cell_m)) return;
   ++scan_;
   // Hits first: what a scan hit it does not also count as free.
-  ForEachSight(scan, options_, [&](const Eigen::Vector2d& end_map_m, bool hit) {
-    if (hit) CountHit(CellOf(end_map_m));
-  });
+  for (const BeamEnd& beam : ends) {
+    if (beam.hit) CountHit(CellOf(beam.end_map_m));
+  }
   const CellIndex laser = CellOf(LaserPosition(scan));
-  ForEachSight(scan, options_, [&](const Eigen::Vector2d& end_map_m, bool) {
-    CountFreeLine(laser, CellOf(end_map_m));
-  });
+  for (const BeamEnd& beam : ends) CountFreeLine(laser, CellOf(beam.end_map_m));
 }
 
 void OccupancyPainter::MakeRoom(const Eigen::AlignedBox2d& box_map_m) {
