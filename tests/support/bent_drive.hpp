@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "qwsm/mapping/mapper.hpp"
@@ -44,12 +45,15 @@ inline void Bend(std::vector<MappingStep>& steps, double turn_rad) {
   }
 }
 
-/// Of the steps that are relevant.
+/// Of the steps that are relevant, each with the motion since the last one.
 inline Answers Relevant(const Answers& all) {
   Answers relevant;
+  UncertainPose2 last_robot;
   for (std::size_t i = 0; i < all.steps.size(); ++i) {
+    last_robot = last_robot * all.steps[i].odometry_motion;
     if (!all.steps[i].relevant) continue;
     relevant.steps.push_back(all.steps[i]);
+    relevant.steps.back().odometry_motion = std::exchange(last_robot, {});
     relevant.T_map_true.push_back(all.T_map_true[i]);
   }
   return relevant;

@@ -30,17 +30,27 @@ std::optional<CorrectedMap> FirstCorrection(std::span<const MappingStep> steps) 
   return std::nullopt;
 }
 
-/// As if the answers had slid from where the map has drifted to where it has not.
-void Slide(std::span<MappingStep> steps, const Pose2& T_map_true_last) {
-  const Eigen::Vector3d slide = Difference(T_map_true_last, steps.back().map_robot.T_a_b);
+/// The share of the way back after so many of `steps` answers.
+using Course = double (*)(std::size_t step, std::size_t steps);
+double Slide(std::size_t step, std::size_t steps) {
+  return static_cast<double>(step) / static_cast<double>(steps);
+}
+double Leap(std::size_t, std::size_t) { return 1.0; }
+
+/// As if the answers had come from where the map has drifted to where it has not.
+void CallBack(std::span<MappingStep> steps, const Pose2& T_map_true_last, Course course) {
+  const Eigen::Vector3d way = Difference(T_map_true_last, steps.back().map_robot.T_a_b);
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    const double share = static_cast<double>(i + 1) / static_cast<double>(steps.size());
-    steps[i].map_robot.T_a_b = Shifted(steps[i].map_robot.T_a_b, share * slide);
+    const double share = course(i + 1, steps.size());
+    steps[i].map_robot.T_a_b = Shifted(steps[i].map_robot.T_a_b, share * way);
     steps[i].map_relevant = steps[i].map_robot;
   }
 }
 
-TEST(BackgroundCorrector, PlacesAnewWhatSlidMeanwhile) {
+class BackgroundCorrectorCalledBack : public testing::TestWithParam<Course> {};
+
+// The robot has not driven there.
+TEST_P(BackgroundCorrectorCalledBack, PlacesAnewWhatCameMeanwhile) {
   Answers answers = BentOfficeLoop();
   const std::optional<CorrectedMap> before = FirstCorrection(answers.steps);
   ASSERT_TRUE(before);
@@ -50,12 +60,14 @@ TEST(BackgroundCorrector, PlacesAnewWhatSlidMeanwhile) {
   const double drift_m = WorstError_m(PathOf(answers.steps), answers.T_map_true);
   ASSERT_GT(drift_m, 0.5);
 
-  Slide(std::span(answers.steps).last(kSinceLook), answers.T_map_true.back());
+  CallBack(std::span(answers.steps).last(kSinceLook), answers.T_map_true.back(), GetParam());
   const std::optional<CorrectedMap> corrected = FirstCorrection(answers.steps);
   ASSERT_TRUE(corrected);
   ASSERT_EQ(corrected->map_node.size(), nodes);
   EXPECT_LT(WorstError_m(corrected->map_node, answers.T_map_true), 0.1 * drift_m);
 }
+
+INSTANTIATE_TEST_SUITE_P(, BackgroundCorrectorCalledBack, testing::Values(Slide, Leap));
 
 }  // namespace
 }  // namespace qwsm::test
