@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -30,24 +31,18 @@ std::optional<CorrectedMap> FirstCorrection(std::span<const MappingStep> steps) 
   return std::nullopt;
 }
 
-/// The share of the way back after so many of `steps` answers.
-using Course = double (*)(std::size_t step, std::size_t steps);
-double Slide(std::size_t step, std::size_t steps) {
-  return static_cast<double>(step) / static_cast<double>(steps);
-}
-double Leap(std::size_t, std::size_t) { return 1.0; }
-
-/// As if the answers had come from where the map has drifted to where it has not.
-void CallBack(std::span<MappingStep> steps, const Pose2& T_map_true_last, Course course) {
+/// As if the answers had come from where the map has drifted to where it has not, within so many:
+/// they slide there, or leap.
+void CallBack(std::span<MappingStep> steps, const Pose2& T_map_true_last, std::size_t within) {
   const Eigen::Vector3d way = Difference(T_map_true_last, steps.back().map_robot.T_a_b);
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    const double share = course(i + 1, steps.size());
+    const double share = static_cast<double>(std::min(i + 1, within)) / static_cast<double>(within);
     steps[i].map_robot.T_a_b = Shifted(steps[i].map_robot.T_a_b, share * way);
     steps[i].map_relevant = steps[i].map_robot;
   }
 }
 
-class BackgroundCorrectorCalledBack : public testing::TestWithParam<Course> {};
+class BackgroundCorrectorCalledBack : public testing::TestWithParam<std::size_t> {};
 
 // The robot has not driven there.
 TEST_P(BackgroundCorrectorCalledBack, PlacesAnewWhatCameMeanwhile) {
@@ -67,7 +62,7 @@ TEST_P(BackgroundCorrectorCalledBack, PlacesAnewWhatCameMeanwhile) {
   EXPECT_LT(WorstError_m(corrected->map_node, answers.T_map_true), 0.1 * drift_m);
 }
 
-INSTANTIATE_TEST_SUITE_P(, BackgroundCorrectorCalledBack, testing::Values(Slide, Leap));
+INSTANTIATE_TEST_SUITE_P(, BackgroundCorrectorCalledBack, testing::Values(kSinceLook, 1));
 
 }  // namespace
 }  // namespace qwsm::test
