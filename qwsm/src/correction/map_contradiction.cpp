@@ -74,7 +74,7 @@ Contradiction ContradictionAt(std::span<const ScanNode> nodes,
   const std::vector<Witness> witnesses = WitnessesAmong(nodes, T_map_node, options);
   Contradiction contradiction;
   for (const Witness& at : witnesses) {
-    const PointColumns points(ThinOut(ToPoints(*at.scan), kPointSpacing_m));
+    const PointColumns points(ThinOut(HitsOf(*at.scan), kPointSpacing_m));
     const RigidTransform2 map_robot(at.T_map_robot);
     std::vector<std::uint8_t> marks(points.size());
     for (const Witness& from : witnesses) {

@@ -173,7 +173,21 @@ Eigen::Vector2d TowardsLaser(const Eigen::Vector2d& normal, const Eigen::Vector2
   return normal.dot(beam) > 0.0 ? Eigen::Vector2d(-normal) : normal;
 }
 
-// All hits, as far as they tell without their neighbours.
+}  // namespace
+
+double NewsOf(std::span<const ScanPoint> points, std::size_t i) {
+  if (i == 0) return 1.0;
+  const double apart_m2 = (points[i].p_robot_m - points[i - 1].p_robot_m).squaredNorm();
+  if (apart_m2 >= Squared(kAllNews_m)) return 1.0;
+  return std::max(kLeastNews, std::sqrt(apart_m2) / kAllNews_m);
+}
+
+double CountNews(std::span<const ScanPoint> points) {
+  double count = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) count += NewsOf(points, i);
+  return count;
+}
+
 std::vector<ScanPoint> HitsOf(const LaserScan& scan) {
   const Pose2& T_robot_laser = scan.geometry.T_robot_laser;
   const double step_rad = static_cast<double>(scan.geometry.bearing_step_rad);
@@ -195,21 +209,6 @@ std::vector<ScanPoint> HitsOf(const LaserScan& scan) {
                       .beam = beam});
   }
   return points;
-}
-
-}  // namespace
-
-double NewsOf(std::span<const ScanPoint> points, std::size_t i) {
-  if (i == 0) return 1.0;
-  const double apart_m2 = (points[i].p_robot_m - points[i - 1].p_robot_m).squaredNorm();
-  if (apart_m2 >= Squared(kAllNews_m)) return 1.0;
-  return std::max(kLeastNews, std::sqrt(apart_m2) / kAllNews_m);
-}
-
-double CountNews(std::span<const ScanPoint> points) {
-  double count = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i) count += NewsOf(points, i);
-  return count;
 }
 
 std::vector<ScanPoint> ToPoints(const LaserScan& scan) {

@@ -43,7 +43,7 @@ std::vector<FoundPose> PlacesElsewhere(const RelevantScan& scan,
                                        const ScanMap& map,
                                        const ModeSearchArea& area) {
   const Eigen::Vector2d here_m = scan.map_robot.T_a_b.translation_m();
-  const std::vector<ScanPoint> points = ThinOut(ToPoints(scan.scan), kPointSpacing_m, kMostPoints);
+  const std::vector<ScanPoint> points = ThinOut(HitsOf(scan.scan), kPointSpacing_m, kMostPoints);
   std::vector<FoundPose> places = SearchModes(map.surfaces().likelihood(),
                                               area.Without(here_m, kElsewhere_m + kAroundPath_m),
                                               PositionsOf(points),

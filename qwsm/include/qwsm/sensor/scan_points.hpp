@@ -33,6 +33,10 @@ struct ScanPoint {
 /// Returns the points of all beams that hit something.
 std::vector<ScanPoint> ToPoints(const LaserScan& scan);
 
+/// Returns the same points for whoever asks where they lie, and not what their neighbours tell of
+/// them: without normal, mean and spacing, which are most of the work.
+std::vector<ScanPoint> HitsOf(const LaserScan& scan);
+
 /// Returns the point as another robot pose sees it.
 ScanPoint operator*(const RigidTransform2& T_other_robot, const ScanPoint& point);
 
