@@ -7,6 +7,7 @@
 
 #include "loop_finder.hpp"
 #include "map_contradiction.hpp"
+#include "path_refinement.hpp"
 #include "pose_estimate.hpp"
 #include "scan_chains.hpp"
 #include "tie_graph.hpp"
@@ -88,6 +89,7 @@ struct MapCorrector::State {
 
   void Look();
   std::optional<SolvedGraph> Solve(std::vector<FoundLoop>& found);
+  void Refine(SolvedGraph& solved) const;
   std::vector<UncertainPose2> PosesIn(const SolvedGraph& solved,
                                       std::span<const FoundLoop> found) const;
   bool HasManyMoreLoops() const;
@@ -136,6 +138,13 @@ std::optional<SolvedGraph> MapCorrector::State::Solve(std::vector<FoundLoop>& fo
   ContradictLoops(std::span(solution.weights).subspan(chains.edges().size()), found);
   graph.T_map_node = solution.T_map_node;
   return SolvedGraph{.graph = std::move(graph), .solution = std::move(solution)};
+}
+
+// From where loops have the nodes, by all that was seen.
+void MapCorrector::State::Refine(SolvedGraph& solved) const {
+  const WeightedScanMatcher matcher(options.locator.matcher);
+  std::vector<Pose2>& T_map_node = solved.graph.T_map_node;
+  T_map_node = RefinedPath(nodes, chains, matcher, std::move(T_map_node));
 }
 
 // How uncertain they are, the ties tell.
@@ -248,6 +257,7 @@ Correction MapCorrector::Correct() {
     solved = state.Solve(found);
     if (!solved) return state.Refused(std::move(found));
   }
+  state.Refine(*solved);
   // The map is the judge: poses that are right explain at least what the answers explain.
   if (IsWorse(state.ContradictionAt(solved->graph.T_map_node),
               state.ContradictionAt(PosesOf(state.nodes)))) {

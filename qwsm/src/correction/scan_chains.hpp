@@ -68,6 +68,8 @@ class ScanChains {
   std::size_t robots() const { return chains_.size(); }
   /// Whose chain a node belongs to.
   std::size_t RobotOf(NodeId node) const { return robot_[node]; }
+  /// Which turn of its robot's lasers a node was taken in.
+  std::size_t TurnOf(NodeId node) const { return parts_[node].turn; }
   /// How many turns of its robot's lasers a node is behind an earlier one; none if they are two
   /// robots'.
   std::optional<std::size_t> TurnsBetween(NodeId from, NodeId to) const {
@@ -82,6 +84,8 @@ class ScanChains {
     return PointsAround(node, T_chain_node_[node], nodes);
   }
 
+  /// How points are stored of scans that serve others like them.
+  const ScanMapOptions& map_options() const { return map_options_; }
   /// The surfaces that the scans of a submap show, in the frame of the chain.
   /// @param nodes all that were added
   SubmapSurfaces SurfacesOf(const RigidSubmap& submap, std::span<const ScanNode> nodes) const;

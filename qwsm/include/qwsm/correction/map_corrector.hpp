@@ -50,8 +50,9 @@ class MapCorrector {
   /// @param map_node of all nodes.
   ScanMap MapAt(std::span<const UncertainPose2> map_node) &&;
 
-  /// Finds the loops among what was taken so far, and the poses that agree best with them. Where
-  /// the map would contradict the scans more than before, poses stay as they are.
+  /// Finds the loops among what was taken so far, the poses that agree best with them, and from
+  /// there those on which every scan agrees best with all others. Where the map would contradict the
+  /// scans more than before, poses stay as they are.
   Correction Correct();
 
  private:
