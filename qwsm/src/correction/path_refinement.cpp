@@ -3,7 +3,6 @@
 #include "path_refinement.hpp"
 
 #include <Eigen/LU>
-#include <utility>
 
 #include "qwsm/mapping/scan_map.hpp"
 

@@ -27,7 +27,7 @@ constexpr double kWitnesses_m = 10.0;
 constexpr double kLeastTold = 2.3;
 
 bool TellsOfAPlace(const LaserScan& scan) {
-  const double told = PlaceEvidence::ToldBySurfaces(ToPoints(scan));
+  const double told = PlaceEvidence::ToldBySurfaces(HitsOf(scan));
   return PlaceFit{.told = told, .explained = 1.0}.Nats() >= kLeastTold;
 }
 

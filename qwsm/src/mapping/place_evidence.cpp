@@ -152,7 +152,7 @@ PlaceFit PlaceEvidence::Weigh(const ScanMap& map,
 double PlaceEvidence::ExplainedBefore(const ScanMap& map,
                                       const ScanAtPlace& placed,
                                       ScanId before) {
-  const std::vector<ScanPoint> thinned = OneOfEachSurface(ToPoints(placed.scan));
+  const std::vector<ScanPoint> thinned = OneOfEachSurface(HitsOf(placed.scan));
   return ShareStored(map.surfaces(), thinned, placed.T_map_robot, before, kOneSurface_m);
 }
 

@@ -171,7 +171,7 @@ Json DoubtfulJson(const MapReport& report) {
   for (const DoubtfulScan& doubtful : report.doubtful) {
     const io::PathPose& pose = report.overlay.path[doubtful.number];
     std::vector<float> points_m;
-    for (const ScanPoint& point : ToPoints(doubtful.scan)) {
+    for (const ScanPoint& point : HitsOf(doubtful.scan)) {
       points_m.push_back(static_cast<float>(point.p_robot_m.x()));
       points_m.push_back(static_cast<float>(point.p_robot_m.y()));
     }
