@@ -85,8 +85,9 @@ TEST(CorrectedDrive, IsAsWrongAsItsCovariancesTell) {
 }
 
 // A loop is told by one submap, and an answer by all that was seen before: a path that is right
-// must not be bent by loops. All others that saw the same, later too, make up for it (RefinedPath).
-TEST(CorrectedDrive, IsAsGoodAsItWasAnsweredWhereThatIsRight) {
+// must not be bent by loops. All others that saw the same, later too, make up for most of it: 1.23
+// instead of 1.47 times the error of the answers is left by them (RefinedPath).
+TEST(CorrectedDrive, IsHardlyBentWhereTheAnswersAreRight) {
   double answered_m = 0.0;
   double corrected_m = 0.0;
   for (int seed = 1; seed <= 6; ++seed) {
