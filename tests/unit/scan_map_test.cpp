@@ -70,5 +70,19 @@ TEST_F(MapOfARoom, IsAsUncertainAsItsLastScanWhereNothingIsNear) {
   EXPECT_TRUE(covariance.isApprox(Variance(0.05)));
 }
 
+// As in the coordinates of a country's survey.
+TEST_F(MapOfARoom, KnowsItsErrorsFarFromTheOrigin) {
+  const Pose2 far_off{5e5, 5.4e6, 0.0};
+  for (const double sigma_rad : {0.05, 0.051, 0.052}) {
+    const LaserScan scan = NextScan();
+    map_.Insert(scan, ToPoints(scan), UncertainPose2::WithSigmas(far_off, 0.1, sigma_rad));
+  }
+  const FrameCovariance under = map_.CovarianceUnder(ToPoints(NextScan()), far_off);
+  const Eigen::Matrix3d there = under.At(far_off.translation_m());
+  EXPECT_NEAR(there(0, 0), 0.1 * 0.1, 1e-3);
+  EXPECT_NEAR(there(1, 1), 0.1 * 0.1, 1e-3);
+  EXPECT_NEAR(there(2, 2), 0.05 * 0.05, 1e-4);
+}
+
 }  // namespace
 }  // namespace qwsm::test

@@ -14,12 +14,12 @@ constexpr double kReferenceSpacing_m = 0.3;  // Enough to tell which scans they 
 // shapes. Measured by the NEES of many simulated drives (evaluate_covariance).
 constexpr double kIndependentShare = 0.55;
 
-// What is left of a pose's covariance beside that of its reference; nothing is negative.
-FrameCovariance OwnError(const UncertainPose2& map_robot, const FrameCovariance& reference) {
-  UncertainPose2 own = map_robot;
-  own.covariance =
-      PositivePart(map_robot.covariance - reference.At(map_robot.T_a_b.translation_m()));
-  return FrameCovariance::Of(own);
+// What is left of a pose's covariance beside a part of it; nothing is negative. Seen from where the
+// robot is: about an origin that is far away, the rounding errors of the difference are larger.
+FrameCovariance Without(const FrameCovariance& part, UncertainPose2 map_robot) {
+  map_robot.covariance =
+      PositivePart(map_robot.covariance - part.At(map_robot.T_a_b.translation_m()));
+  return FrameCovariance::Of(map_robot);
 }
 
 bool IsNewSurface(const SurfaceMap& surfaces,
@@ -67,7 +67,7 @@ MapAddition ScanMap::Prepare(LaserScan scan,
                              const UncertainPose2& map_robot) const {
   MapAddition addition{
       .scan = std::move(scan), .map_robot = map_robot, .points = {}, .own_error = {}};
-  if (!empty()) addition.own_error = OwnError(map_robot, CovarianceUnder(points, map_robot.T_a_b));
+  if (!empty()) addition.own_error = Without(CovarianceUnder(points, map_robot.T_a_b), map_robot);
   addition.points = PointsToStore(surfaces_, points, map_robot, options_);
   return addition;
 }
@@ -76,9 +76,8 @@ ScanId ScanMap::Add(MapAddition addition) {
   const auto id = static_cast<ScanId>(scans_.size());
   // Only now: the density that keeps points out is that of older scans.
   for (const MapPoint& point : addition.points) surfaces_.Insert(point, id);
-  const Eigen::Matrix3d own = kIndependentShare * addition.own_error.about_origin;
-  const Eigen::Matrix3d whole = FrameCovariance::Of(addition.map_robot).about_origin;
-  errors_.push_back({.shared = {PositivePart(whole - own)}, .own = {own}});
+  const FrameCovariance own{kIndependentShare * addition.own_error.about_origin};
+  errors_.push_back({.shared = Without(own, addition.map_robot), .own = own});
   scans_.push_back({.id = id, .scan = std::move(addition.scan), .map_robot = addition.map_robot});
   return id;
 }
