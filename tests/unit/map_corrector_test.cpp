@@ -74,6 +74,28 @@ TEST(MapCorrector, KeepsTheScansOfEachRobotInAChainOfItsOwn) {
   EXPECT_LT(WorstError_m(correction.map_node, T_map_true), 0.2 * before_m);
 }
 
+// Where nothing lies between a submap's reference and its last scan, its frame is certain.
+TEST(MapCorrector, RecognisesARobotByWhatAnotherSawOfItsFirstScans) {
+  Answers answers = Drive(OfficeLoop());
+  const Answers relevant = Relevant(answers);
+  for (std::size_t seen = 1; seen <= 2; ++seen) {
+    MapCorrector corrector;
+    std::array<NodeMaker, 2> nodes;
+    for (std::size_t i = 0; i < seen; ++i) corrector.Add(*nodes[0].Take(relevant.steps[i]));
+    for (const MappingStep& step : relevant.steps) {
+      ScanNode node = *nodes[1].Take(step);
+      node.robot = 1;
+      corrector.Add(std::move(node));
+    }
+    std::size_t by_the_other = 0;
+    for (const Loop& loop : corrector.Correct().loops) {
+      EXPECT_TRUE(loop.edge.information.allFinite());
+      if (loop.edge.from < seen && loop.verdict == LoopVerdict::kAccepted) ++by_the_other;
+    }
+    EXPECT_GT(by_the_other, 2U) << seen;
+  }
+}
+
 // The part of the map where it is may be metres off: that says nothing of where the robot is there.
 TEST(MapCorrector, HangsARobotThatWasFoundOnTheNodeBesideIt) {
   const Answers relevant = Relevant(Drive(OfficeLoop()));

@@ -34,10 +34,12 @@ double ReachOf(double sigma_m) {
   return kReach_m + std::min(kMaxWindow_m, kWindowSigmas * sigma_m);
 }
 
-// What a match tells of the pose in a frame that is itself uncertain.
+// What a match tells of the pose in a frame that is itself uncertain: the inverse of both
+// covariances' sum, also where the match leaves a motion open or the frame is certain.
 Eigen::Matrix3d InformationWith(const Eigen::Matrix3d& of_match, const Eigen::Matrix3d& frame) {
-  const Eigen::Matrix3d of_frame = frame.inverse();
-  return of_frame - of_frame * (of_match + of_frame).inverse() * of_frame;
+  const Eigen::Matrix3d information =
+      of_match * (Eigen::Matrix3d::Identity() + frame * of_match).inverse();
+  return 0.5 * (information + information.transpose());
 }
 
 // How the points of a scan fare where they were matched with a submap.
