@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <random>
 
 #include "qwsm/graph/graph_covariance.hpp"
@@ -179,7 +180,9 @@ TEST(GraphCovariance, IsTheInverseOfTheInformation) {
   const GraphCovariance covariance(rounds.graph, solution);
   const auto marginals = covariance.Marginals();
   constexpr NodeId kFrom = 17;
-  const auto relative = covariance.RelativeTo(kFrom, marginals);
+  std::vector<NodeId> nodes(marginals.size());
+  std::iota(nodes.begin(), nodes.end(), NodeId{0});
+  const auto relative = covariance.RelativeTo(kFrom, nodes, marginals);
   for (NodeId node = 1; node < marginals.size(); ++node) {
     SCOPED_TRACE(node);
     const Eigen::Index row = 3 * (node - 1);

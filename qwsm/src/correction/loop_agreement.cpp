@@ -2,6 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "loop_agreement.hpp"
 
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <vector>
+
 #include "qwsm/geometry/frame_covariance.hpp"
 #include "qwsm/mapping/place_evidence.hpp"
 
@@ -11,11 +16,47 @@ namespace {
 constexpr int kMinAgreeing = 2;
 constexpr double kMaxChi2 = 7.815;  // 95 % of right ones are below, for three degrees of freedom.
 
+// Two loops of scans near by, by their places among all.
+struct LoopPair {
+  std::size_t a = 0;
+  std::size_t b = 0;
+};
+
+// The poses of submaps' references as seen from each other.
+class ReferencePoses {
+ public:
+  // Those between the submaps of each pair: of all submaps they would take the square of a long
+  // drive's room.
+  ReferencePoses(std::span<const FoundLoop> loops,
+                 std::span<const LoopPair> pairs,
+                 const PoseEstimate& estimate,
+                 const ScanChains& chains) {
+    for (const auto& [a, b] : pairs) {
+      const auto [first, other] = std::minmax(loops[a].submap, loops[b].submap);
+      seen_[first].try_emplace(other);
+    }
+    for (auto& [first, others] : seen_) {
+      std::vector<NodeId> nodes;
+      for (const auto& [other, pose] : others) nodes.push_back(chains.submaps()[other].reference());
+      const auto seen = estimate.SeenFrom(chains.submaps()[first].reference(), nodes);
+      for (auto next = seen.begin(); auto& [other, pose] : others) pose = *next++;
+    }
+  }
+
+  // @pre submap <= other, and a pair is of them
+  const UncertainPose2& Between(std::size_t submap, std::size_t other) const {
+    return seen_.at(submap).at(other);
+  }
+
+ private:
+  std::map<std::size_t, std::map<std::size_t, UncertainPose2>> seen_;
+};
+
 // Both ways around, from the submap that was made first to the scan that was taken last, lead to
 // the same place.
 bool Agree(const FoundLoop& a,
            const FoundLoop& b,
-           ReferencePoses& references,
+           const ReferencePoses& references,
            const ScanChains& chains) {
   const UncertainPose2 to_last = chains.Relative(a.loop.edge.to, b.loop.edge.to);
   const UncertainPose2 by_a = MeasuredBy(a.loop.edge) * to_last;
@@ -30,6 +71,19 @@ bool Agree(const FoundLoop& a,
 // Whether the submaps that two loops come from are the same robot's.
 bool IsOfOneRobot(const FoundLoop& a, const FoundLoop& b, const ScanChains& chains) {
   return chains.submaps()[a.submap].robot == chains.submaps()[b.submap].robot;
+}
+
+std::vector<LoopPair> PairsOfOnePass(std::span<const FoundLoop> loops, const ScanChains& chains) {
+  std::vector<LoopPair> pairs;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    for (std::size_t j = i + 1; j < loops.size(); ++j) {
+      const std::optional<std::size_t> apart =
+          chains.TurnsBetween(loops[i].loop.edge.to, loops[j].loop.edge.to);
+      if (!apart || *apart > kSamePass) break;
+      if (*apart > 0 && IsOfOneRobot(loops[i], loops[j], chains)) pairs.push_back({i, j});
+    }
+  }
+  return pairs;
 }
 
 // What speaks for a loop: the others of scans near by, and what it tells with those that agree.
@@ -51,37 +105,16 @@ bool IsConfirmedBy(const Support& support, const FoundLoop& found) {
 
 }  // namespace
 
-std::vector<NodeId> ReferencePoses::From(std::size_t submap) const {
-  std::vector<NodeId> references;
-  for (const RigidSubmap& later : chains_.submaps().subspan(submap)) {
-    references.push_back(later.reference());
-  }
-  return references;
-}
-
-const UncertainPose2& ReferencePoses::Between(std::size_t submap, std::size_t other) {
-  std::vector<UncertainPose2>& seen = seen_[submap];
-  if (seen.empty()) {
-    const std::vector<NodeId> references = From(submap);
-    seen = estimate_.SeenFrom(references.front(), references);
-  }
-  return seen[other - submap];
-}
-
 void ConfirmByOthers(std::span<FoundLoop> loops,
-                     ReferencePoses& references,
+                     const PoseEstimate& estimate,
                      const ScanChains& chains) {
+  const std::vector<LoopPair> pairs = PairsOfOnePass(loops, chains);
+  const ReferencePoses references(loops, pairs, estimate, chains);
   std::vector<Support> support(loops.size());
-  for (std::size_t i = 0; i < loops.size(); ++i) {
-    for (std::size_t j = i + 1; j < loops.size(); ++j) {
-      const std::optional<std::size_t> apart =
-          chains.TurnsBetween(loops[i].loop.edge.to, loops[j].loop.edge.to);
-      if (!apart || *apart > kSamePass) break;
-      if (*apart == 0 || !IsOfOneRobot(loops[i], loops[j], chains)) continue;
-      const bool agree = Agree(loops[i], loops[j], references, chains);
-      support[i].Add(loops[j], agree);
-      support[j].Add(loops[i], agree);
-    }
+  for (const auto& [a, b] : pairs) {
+    const bool agree = Agree(loops[a], loops[b], references, chains);
+    support[a].Add(loops[b], agree);
+    support[b].Add(loops[a], agree);
   }
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (IsConfirmedBy(support[i], loops[i])) loops[i].loop.verdict = LoopVerdict::kAccepted;

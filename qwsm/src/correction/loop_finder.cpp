@@ -57,8 +57,7 @@ PlaceFit FitOf(const MatchResult& match,
 std::vector<FoundLoop> LoopFinder::Find(NodeId first,
                                         const PoseEstimate& estimate,
                                         const LastSearch& last) const {
-  ReferencePoses references(estimate, chains_);
-  std::vector<Candidate> candidates = NearPasses(first, estimate, references);
+  std::vector<Candidate> candidates = NearPasses(first, estimate);
   std::vector<FoundLoop> found = RecogniseAll(candidates, last);
   const std::size_t unsettled = AddOlder(first, last.found, found);
   const auto order = [this](const FoundLoop& f) {
@@ -66,7 +65,7 @@ std::vector<FoundLoop> LoopFinder::Find(NodeId first,
   };
   const auto to_confirm = std::span(found).first(unsettled);
   std::ranges::sort(to_confirm, {}, order);
-  ConfirmByOthers(to_confirm, references, chains_);
+  ConfirmByOthers(to_confirm, estimate, chains_);
   std::ranges::sort(found, {}, order);
   return found;
 }
@@ -159,19 +158,14 @@ class LoopFinder::NearestOfPasses {
 };
 
 std::vector<LoopFinder::Candidate> LoopFinder::NearPasses(NodeId first,
-                                                          const PoseEstimate& estimate,
-                                                          ReferencePoses& references) const {
+                                                          const PoseEstimate& estimate) const {
   NearestOfPasses nearest;
   const std::span<const RigidSubmap> submaps = chains_.submaps();
   for (std::size_t i = 0; i < submaps.size(); ++i) {
-    const std::vector<NodeId> in_reach = NodesInReach(first, submaps[i], estimate);
-    if (in_reach.empty()) continue;
-    std::vector<NodeId> nodes = references.From(i);
-    const auto later_submaps = std::ssize(nodes);
-    nodes.insert(nodes.end(), in_reach.begin(), in_reach.end());
+    const std::vector<NodeId> nodes = NodesInReach(first, submaps[i], estimate);
+    if (nodes.empty()) continue;
     const auto seen = estimate.SeenFrom(submaps[i].reference(), nodes);
-    references.Keep(i, {seen.begin(), seen.begin() + later_submaps});
-    for (auto k = static_cast<std::size_t>(later_submaps); k < seen.size(); ++k) {
+    for (std::size_t k = 0; k < seen.size(); ++k) {
       const double distance_m = seen[k].T_a_b.translation_m().norm();
       const double sigma_m = seen[k].SigmaXY_m();
       if (sigma_m > kMaxWindow_m || distance_m > ReachOf(sigma_m)) continue;

@@ -53,9 +53,7 @@ class LoopFinder {
   };
   class NearestOfPasses;
 
-  std::vector<Candidate> NearPasses(NodeId first,
-                                    const PoseEstimate& estimate,
-                                    ReferencePoses& references) const;
+  std::vector<Candidate> NearPasses(NodeId first, const PoseEstimate& estimate) const;
   std::vector<NodeId> NodesInReach(NodeId first,
                                    const RigidSubmap& submap,
                                    const PoseEstimate& estimate) const;

@@ -56,12 +56,12 @@ std::vector<UncertainPose2> SolvedPoses::map_node() const {
 
 std::vector<UncertainPose2> SolvedPoses::SeenFrom(NodeId from,
                                                   std::span<const NodeId> nodes) const {
-  const std::vector<Eigen::Matrix3d> covariances = covariance_.RelativeTo(from, marginals_);
+  const auto covariances = covariance_.RelativeTo(from, nodes, marginals_);
   const Pose2 T_from_map = T_map_node_[from].Inverse();
   std::vector<UncertainPose2> seen;
   seen.reserve(nodes.size());
-  for (const NodeId node : nodes) {
-    seen.push_back({.T_a_b = T_from_map * T_map_node_[node], .covariance = covariances[node]});
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    seen.push_back({.T_a_b = T_from_map * T_map_node_[nodes[i]], .covariance = covariances[i]});
   }
   return seen;
 }

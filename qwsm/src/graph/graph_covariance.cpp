@@ -95,10 +95,13 @@ std::vector<Eigen::Matrix3d> GraphCovariance::Marginals() const {
 }
 
 std::vector<Eigen::Matrix3d> GraphCovariance::RelativeTo(
-    NodeId from, const std::vector<Eigen::Matrix3d>& marginals) const {
+    NodeId from,
+    std::span<const NodeId> nodes,
+    const std::vector<Eigen::Matrix3d>& marginals) const {
   const Eigen::MatrixXd columns = factor_->ColumnsOf(from);
-  std::vector<Eigen::Matrix3d> relative(T_map_node_.size(), Eigen::Matrix3d::Zero());
-  for (NodeId node = 0; node < T_map_node_.size(); ++node) {
+  std::vector<Eigen::Matrix3d> relative(nodes.size(), Eigen::Matrix3d::Zero());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const NodeId node = nodes[i];
     if (node == from) continue;
     const EdgeLinearization linear =
         Linearize({.from = from, .to = node, .T_from_to = {}}, T_map_node_);
@@ -106,9 +109,9 @@ std::vector<Eigen::Matrix3d> GraphCovariance::RelativeTo(
                                       ? columns.middleRows<3>(factor_->equations.RowOf(node)).eval()
                                       : Eigen::Matrix3d::Zero();
     const Eigen::Matrix3d mixed = linear.J_to * cross * linear.J_from.transpose();
-    relative[node] = linear.J_from * marginals[from] * linear.J_from.transpose() +
-                     linear.J_to * marginals[node] * linear.J_to.transpose() + mixed +
-                     mixed.transpose();
+    relative[i] = linear.J_from * marginals[from] * linear.J_from.transpose() +
+                  linear.J_to * marginals[node] * linear.J_to.transpose() + mixed +
+                  mixed.transpose();
   }
   return relative;
 }

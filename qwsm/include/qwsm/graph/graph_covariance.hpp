@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "qwsm/graph/graph_solver.hpp"
@@ -24,10 +25,11 @@ class GraphCovariance {
   /// Takahashi et al. (1973) on the pattern of the factor.
   std::vector<Eigen::Matrix3d> Marginals() const;
 
-  /// Covariances of T_from_node for all nodes, the translation along the axes of `from`: how
+  /// Covariances of T_from_node for the nodes, the translation along the axes of `from`: how
   /// uncertain each is as seen from one. Complexity: three solves beside the marginals.
   /// @param marginals as Marginals() returns them.
   std::vector<Eigen::Matrix3d> RelativeTo(NodeId from,
+                                          std::span<const NodeId> nodes,
                                           const std::vector<Eigen::Matrix3d>& marginals) const;
 
  private:
