@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 namespace qwsm {
 namespace {
@@ -35,6 +36,18 @@ TEST(GyroTrack, TellsNothingOfGapsAndTakesNothingTwice) {
   EXPECT_TRUE(track.Add(Turning(1500ms, 1.0)));
   EXPECT_FALSE(track.At(1200ms));
   EXPECT_EQ(track.At(1500ms), 0.5);
+}
+
+TEST(ImuReading, IsRefusedWithOneComponentThatIsNoNumber) {
+  for (int axis = 0; axis < 3; ++axis) {
+    ImuReading turning{.acceleration_mps2 = Eigen::Vector3d{0.0, 0.0, 9.8}};
+    EXPECT_EQ(ObjectionTo(turning), "");
+    turning.turn_rate_rad_s[axis] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_NE(ObjectionTo(turning), "") << axis;
+    ImuReading accelerating{.acceleration_mps2 = Eigen::Vector3d::Zero()};
+    (*accelerating.acceleration_mps2)[axis] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_NE(ObjectionTo(accelerating), "") << axis;
+  }
 }
 
 TEST(GyroTrack, GoesOnWhereItsClockIsSetBack) {

@@ -22,6 +22,9 @@ Eigen::Matrix3d MatrixOf(const Quaternion& q) {
   return R;
 }
 
+// In every component; one that is no number is not.
+bool IsWithin(const Eigen::Vector3d& v, double most) { return (v.array().abs() <= most).all(); }
+
 }  // namespace
 
 ImuReading OnRobot(const ImuReading& reading, const Quaternion& robot_imu) {
@@ -37,11 +40,8 @@ ImuReading OnRobot(const ImuReading& reading, const Quaternion& robot_imu) {
 }
 
 std::string_view ObjectionTo(const ImuReading& reading) {
-  if (!(reading.turn_rate_rad_s.cwiseAbs().maxCoeff() <= kFastestTurn_rad_s)) {
-    return "it turns at no rate";
-  }
-  if (reading.acceleration_mps2 &&
-      !(reading.acceleration_mps2->cwiseAbs().maxCoeff() <= kMostAcceleration_mps2)) {
+  if (!IsWithin(reading.turn_rate_rad_s, kFastestTurn_rad_s)) return "it turns at no rate";
+  if (reading.acceleration_mps2 && !IsWithin(*reading.acceleration_mps2, kMostAcceleration_mps2)) {
     return "its acceleration is none";
   }
   if (reading.orientation && !std::isfinite(UprightnessOf(*reading.orientation))) {
