@@ -22,16 +22,17 @@ namespace {
 namespace fs = std::filesystem;
 
 // From each of these scans on the robot seems to have been turned, and moved in its own frame.
-std::vector<Observation> WithJumps(std::vector<Observation> observations, unsigned seed) {
+std::vector<Observation> WithJumps(std::vector<Observation> observations,
+                                   unsigned seed,
+                                   const Pose2& jump = {.x_m = 2.0, .theta_rad = 1.2}) {
   constexpr std::size_t kJumps = 20;
-  constexpr Pose2 kJump{.x_m = 2.0, .theta_rad = 1.2};
   std::mt19937 random(seed);
   std::set<std::size_t> jumps;
   while (jumps.size() < kJumps) jumps.insert(1 + random() % (observations.size() - 1));
   Pose2 T_new_odom;
   for (std::size_t i = 0; i < observations.size(); ++i) {
     Pose2& T_odom_robot = *observations[i].T_odom_robot;
-    if (jumps.contains(i)) T_new_odom = T_new_odom * T_odom_robot * kJump * T_odom_robot.Inverse();
+    if (jumps.contains(i)) T_new_odom = T_new_odom * T_odom_robot * jump * T_odom_robot.Inverse();
     T_odom_robot = T_new_odom * T_odom_robot;
   }
   return observations;
@@ -70,6 +71,8 @@ TEST(JumpingOdometry, LeavesTheMapAsItWouldHaveBeen) {
   for (const unsigned seed : {1U, 2U}) {
     EXPECT_LT(MeanError_m(WithJumps(unbroken, seed), relations), 1.3 * error_m) << seed;
   }
+  const Pose2 far_off{.x_m = 40.0, .theta_rad = 1.2};  // As to where odometry began: nothing fits.
+  EXPECT_LT(MeanError_m(WithJumps(unbroken, 1, far_off), relations), 1.3 * error_m);
   EXPECT_LT(MeanErrorCorrected_m(WithJumps(unbroken, 3), relations),
             1.05 * MeanErrorCorrected_m(unbroken, relations));
 }

@@ -17,9 +17,7 @@ namespace {
 
 ScanLocatorOptions LocatorOptions(const MapperOptions& options) {
   ScanLocatorOptions locator = options.locator;
-  if (options.matcher == MatcherKind::kIcp) {
-    locator.matcher.weighting = PairWeighting::kIdentity;
-  }
+  if (options.matcher == MatcherKind::kIcp) locator.matcher.weighting = PairWeighting::kIdentity;
   return locator;
 }
 
@@ -122,9 +120,9 @@ RobotTracker::Sighting RobotTracker::Look(const ScanMap& map,
 void RobotTracker::Begin(Sighting& sighting) const {
   MappingStep& step = sighting.step;
   // Without an initial pose the first one is the odometry's, so that both frames begin together.
-  const Pose2 T_odom_robot = sighting.observation.T_odom_robot.value_or(Pose2{});
+  const UncertainPose2 odom_robot{.T_a_b = sighting.observation.T_odom_robot.value_or(Pose2{})};
   step.reason = "first scan";
-  step.map_robot = has_initial_pose_ ? map_last_ : UncertainPose2{.T_a_b = T_odom_robot};
+  step.map_robot = has_initial_pose_ ? map_last_ : odom_robot;
   step.match.T_ref_cur = step.map_robot.T_a_b;
   if (sighting.points.empty()) step.local_covariance = step.map_robot.covariance;
 }
@@ -180,8 +178,7 @@ void RobotTracker::LearnMotion(const Sighting& sighting, std::size_t scans) {
   apart_.reset();
 }
 
-// Where the robot would be if it had moved as before, whatever odometry tells, the scan may agree
-// with the map much better.
+// Where the robot would be if it had moved as before the scan may agree with the map much better.
 // @return whether it does, and odometry is not believed.
 bool RobotTracker::DropFailedOdometry(const ScanMap& map,
                                       const Observation& observation,
@@ -190,9 +187,12 @@ bool RobotTracker::DropFailedOdometry(const ScanMap& map,
                                       MappingStep& step) const {
   if (!observation.T_odom_robot) return true;
   const double share = lasers_.ShareOfPeriod(observation.scan);
-  const bool is_surprising = motion_.IsSurprising(observation.T_odom_robot, share);
-  const OdometryFailure failure(map, points, step.match, is_odometry_suspect_);
-  if (!failure.IsPossible(is_surprising)) return false;
+  const OdometryDoubt doubt{.may_have_begun_anew = is_odometry_suspect_,
+                            .is_surprising = motion_.IsSurprising(observation.T_odom_robot, share),
+                            .is_impossible = IsTooFast(last_robot.conservative.T_a_b,
+                                                       lasers_.SinceLast(observation.scan))};
+  const OdometryFailure failure(map, points, step.match, doubt);
+  if (!failure.IsPossible()) return false;
   const PosePrediction without_odometry = motion_.Predict(std::nullopt, share);
   const UncertainPose2 predicted = local_last_ * without_odometry.conservative;
   const auto other =

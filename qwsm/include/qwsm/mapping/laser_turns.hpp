@@ -36,6 +36,11 @@ class LaserTurns {
   /// this one; 1 for an only laser.
   double ShareOfPeriod(const LaserScan& scan) const;
 
+  /// The time since the last scan of any; very long where there is none.
+  std::chrono::duration<double> SinceLast(const LaserScan& scan) const {
+    return empty() ? Duration::max() : scan.stamp - lasers_.back().stamp;
+  }
+
   /// Where the robot is as the others' last scans tell; nothing where there are none.
   std::optional<UncertainPose2> ToldByOthers(const Observation& observation) const;
 
