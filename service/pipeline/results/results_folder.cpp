@@ -4,12 +4,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <ctime>
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "service/io/files/atomic_file.hpp"
 
@@ -29,26 +31,92 @@ void ThrowIf(const std::error_code& error, const fs::path& path, std::string_vie
   if (error) throw Refused(path, fmt::format("cannot {}: {}", what, error.message()));
 }
 
-/// Ours are regular files and links to them; folders in a folder of results are somebody else's.
-void RemoveFiles(const fs::path& folder) {
+// What programs leave in a folder of results, but for maps that --save-map was asked for and logs
+// of simulated robots: these are kept until others of the same name are written.
+constexpr std::array<std::string_view, 35> kNames = {
+    "answers.mcap",
+    "comparison.csv",
+    "config.yaml",
+    "epochs.csv",
+    "figure-3-q-wsm.png",
+    "figure-3-wsm.png",
+    "figure-4.png",
+    "graph.g2o",
+    "graph.toro",
+    "iterations.png",
+    "loops.csv",
+    "map.pgm",
+    "map.png",
+    "map.yaml",
+    "map_live.png",
+    "marks.csv",
+    "metrics.json",
+    "model.ply",
+    "report.html",
+    "residual.png",
+    "run.log",
+    "scans.csv",
+    "scenario.yaml",
+    "side_after.png",
+    "side_before.png",
+    "speed_up.png",
+    "table.csv",
+    "table.md",
+    "top_after.png",
+    "top_before.png",
+    "trajectory.kitti",
+    "trajectory.png",
+    "trajectory.tum",
+    "trajectory_live.tum",
+    "truth.tum",
+};
+
+/// Whether a file is one of a series of scans in 3D: scan007.3d, its pose or its frames.
+bool IsNumberedScan(const fs::path& name) {
+  const std::string stem = name.stem().string();
+  const fs::path ending = name.extension();
+  return stem.starts_with("scan") && stem.size() > 4 &&
+         stem.find_first_not_of("0123456789", 4) == std::string::npos &&
+         (ending == ".3d" || ending == ".pose" || ending == ".frames");
+}
+
+/// Whether programs give files of results that name, when they are complete or before.
+bool IsOfResults(fs::path name) {
+  if (name.extension() == ".part") name = name.stem();
+  return std::ranges::find(kNames, name.string()) != kNames.end() || IsNumberedScan(name);
+}
+
+/// Whatever else is in the folder is somebody else's.
+void RemoveEarlierResults(const fs::path& folder) {
   std::error_code error;
+  std::vector<fs::path> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    if (entry.is_directory() && !entry.is_symlink()) continue;
-    fs::remove(entry.path(), error);
-    ThrowIf(error, entry.path(), "be removed");
+    const bool is_file = entry.symlink_status().type() == fs::file_type::regular;
+    if (is_file && IsOfResults(entry.path().filename())) files.push_back(entry.path());
   }
   ThrowIf(error, folder, "be read");
+  for (const fs::path& file : files) {
+    fs::remove(file, error);
+    ThrowIf(error, file, "be removed");
+  }
+}
+
+/// Whether a file is in a folder, or the folder itself, by its name or by what that links to.
+bool IsIn(const fs::path& folder, const fs::path& input) {
+  std::error_code error;
+  for (const fs::path& file :
+       {fs::absolute(input, error).lexically_normal(), fs::weakly_canonical(input, error)}) {
+    const fs::path parent = file.has_filename() ? file.parent_path() : file;
+    if (fs::equivalent(file, folder, error) || fs::equivalent(parent, folder, error)) return true;
+  }
+  return false;
 }
 
 /// Results among the inputs would be taken for inputs, and inputs among the results be removed with
 /// them.
 void RefuseInputsIn(const fs::path& folder, std::span<const fs::path> inputs) {
   for (const fs::path& input : inputs) {
-    std::error_code error;
-    if (input.empty() || input == "-") continue;
-    const fs::path file = fs::absolute(input, error).lexically_normal();
-    const fs::path parent = file.has_filename() ? file.parent_path() : file;
-    if (!fs::equivalent(file, folder, error) && !fs::equivalent(parent, folder, error)) continue;
+    if (input.empty() || input == "-" || !IsIn(folder, input)) continue;
     throw Refused(folder,
                   fmt::format("holds {}, which is an input; name another folder for the results",
                               input.string()));
@@ -81,7 +149,7 @@ ResultsFolder::ResultsFolder(fs::path folder, bool force, std::span<const fs::pa
   std::error_code error;
   fs::create_directories(folder_, error);
   ThrowIf(error, folder_, "be created");
-  if (fs::exists(folder_ / kMarker) && !force) RemoveFiles(folder_);
+  RemoveEarlierResults(folder_);
   io::WriteTextFile(folder_ / kMarker, "Results of a run; the next run may replace them.\n");
 }
 

@@ -11,9 +11,9 @@ namespace qwsm::pipeline {
 /// A folder that takes the results of one run.
 class ResultsFolder {
  public:
-  /// Creates the folder. One that exists must be empty or hold results of an earlier run, whose
-  /// files are removed first so that nothing of it is mistaken for this one's; with `force`, any
-  /// folder will do and what is not overwritten stays.
+  /// Creates the folder. One that exists must be empty or hold results of an earlier run; with
+  /// `force`, any folder will do. Files that have the names of results are removed first, so that
+  /// nothing of an earlier run is mistaken for this one's; whatever else is there stays.
   /// @param inputs files, or folders of files, that the run reads or goes on with; "-" is none.
   /// @throws io::WriteError where that is not so, where the folder holds an input, or where it
   ///         cannot be written to.

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/results/results_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+
+#include "service/io/files/atomic_file.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace qwsm::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ResultsFolderTest : public ::testing::Test {
+ protected:
+  void Put(const char* name) const { std::ofstream(folder_.path() / name) << "text"; }
+  bool Has(const char* name) const { return fs::exists(fs::symlink_status(results_ / name)); }
+
+  test::TemporaryFolder folder_;
+  fs::path results_ = folder_.path();
+};
+
+TEST_F(ResultsFolderTest, RemovesWhatAnEarlierRunWroteAndNothingElse) {
+  for (const bool force : {false, true}) {
+    const ResultsFolder first(results_, true);
+    for (const char* ours : {"report.html", "trajectory.tum.part", "scan000.frames"}) Put(ours);
+    for (const char* other : {"notes.txt", "site.qwsm", "rec.log", "scan.3d", "a.part"}) Put(other);
+    if (!Has("link.log")) fs::create_symlink("/nowhere", results_ / "link.log");
+    const ResultsFolder second(results_, force);
+    for (const char* ours : {"report.html", "trajectory.tum.part", "scan000.frames"}) {
+      EXPECT_FALSE(Has(ours)) << ours;
+    }
+    for (const char* other :
+         {"notes.txt", "site.qwsm", "rec.log", "scan.3d", "a.part", "link.log"}) {
+      EXPECT_TRUE(Has(other)) << other;
+    }
+  }
+}
+
+TEST_F(ResultsFolderTest, RefusesAnInputThatIsInItByALink) {
+  const fs::path results = results_ / "results";
+  fs::create_directory(results);
+  std::ofstream(results / "rec.log") << "text";
+  fs::create_symlink(results / "rec.log", results_ / "link.log");
+  const std::array inputs{results_ / "link.log"};
+  EXPECT_THROW(ResultsFolder::Check(results, true, inputs), io::WriteError);
+}
+
+}  // namespace
+}  // namespace qwsm::pipeline
