@@ -13,6 +13,7 @@
 
 #include "service/apps/command.hpp"
 #include "service/apps/messages.hpp"
+#include "service/apps/output_check.hpp"
 #include "service/io/bags/writing/log_bag_writer.hpp"
 #include "service/io/files/atomic_file.hpp"
 #include "service/io/files/standard_output.hpp"
@@ -126,6 +127,7 @@ std::string FormatOf(const ConvertArguments& arguments) {
 ExitCode RunConvert(const ConvertArguments& arguments) {
   StartMessages(arguments.verbosity);
   const std::string format = FormatOf(arguments);
+  RefuseToReplace(arguments.output, arguments.logs);
   if (format == "mcap") {
     ConvertToBag(arguments, io::BagFormat::kMcap);
   } else if (format == "db3") {

@@ -13,6 +13,7 @@
 
 #include "service/apps/command.hpp"
 #include "service/apps/messages.hpp"
+#include "service/apps/output_check.hpp"
 #include "service/apps/page.hpp"
 #include "service/apps/run_session.hpp"
 #include "service/apps/saved_map.hpp"
@@ -260,6 +261,10 @@ ExitCode RunMap(MapArguments arguments) {
     arguments.run.scenario = arguments.simulated.scenario;
   }
   options::ProgramOptions options = LoadOptions(arguments);
+  if (arguments.save_map) {
+    CheckMapToSave(
+        *arguments.save_map, arguments.run.logs, arguments.run.output.value_or("results/latest"));
+  }
   std::optional<KnownMap> known;
   if (arguments.continued) {
     arguments.run.other_inputs = {*arguments.continued};

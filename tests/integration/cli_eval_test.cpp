@@ -116,6 +116,29 @@ TEST(ConvertCommand, TakesOdometryOut) {
   EXPECT_TRUE(outcome.output.starts_with("1000.000000000 0 0 0 0 0 0 1\n1000.1")) << outcome.output;
 }
 
+TEST(ConvertCommand, ReplacesNoInput) {
+  const TemporaryFolder folder;
+  const fs::path log = folder.path() / "room.log";
+  WriteRoomLog(log, 3);
+  const fs::path bag = folder.path() / "bag";
+  ASSERT_EQ(RunProgram({"convert", log, "-o", bag}).exit_code, 0);
+  const std::string in_bag = ReadFile(bag / "bag_0.mcap");
+  const auto expect_refusal = [](const fs::path& input, const fs::path& output) {
+    for (const char* form : {"mcap", "odometry"}) {
+      const Outcome outcome = RunProgram({"convert", input, "-o", output, "--to", form});
+      EXPECT_EQ(outcome.exit_code, 3) << input << " to " << output;
+      EXPECT_NE(outcome.errors.find("which is an input"), std::string::npos) << outcome.errors;
+    }
+  };
+  fs::create_symlink(log, folder.path() / "link.log");
+  expect_refusal(log, log);
+  expect_refusal(folder.path() / "link.log", log);
+  expect_refusal(bag, bag);
+  expect_refusal(bag, bag / "bag_0.mcap");
+  expect_refusal(bag / "bag_0.mcap", bag);
+  EXPECT_EQ(ReadFile(bag / "bag_0.mcap"), in_bag);
+}
+
 TEST(ConfigCommand, DumpsWhatItAccepts) {
   const TemporaryFolder folder;
   const Outcome dump = RunProgram({"config", "dump", "--set", "mapper.relevant_rotation_deg=7.3"});

@@ -6,10 +6,12 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "service/io/trajectories/trajectory_file.hpp"
 #include "tests/support/program.hpp"
@@ -138,6 +140,36 @@ TEST_F(MapCommand, DoesNotPutResultsBesideItsInput) {
   }
   EXPECT_EQ(ReadFile(log), ReadFile(log_));
   EXPECT_EQ(RunProgram({"map", log, "--output", results_ / "again"}).exit_code, 0);
+}
+
+TEST_F(MapCommand, SavesNoMapOverAnythingElse) {
+  const std::string log = ReadFile(log_);
+  const fs::path link = folder_.path() / "link.qwsm";
+  fs::create_symlink(log_, link);
+  const fs::path notes = folder_.path() / "notes.txt";
+  std::ofstream(notes) << "Monday";
+  const std::array<std::pair<fs::path, const char*>, 5> refusals{{
+      {log_, "would replace"},
+      {link, "would replace"},
+      {notes, "is no map of qwsm"},
+      {folder_.path(), "is a folder"},
+      {folder_.path() / "missing" / "a.qwsm", "No such file or directory"},
+  }};
+  for (const auto& [map, why] : refusals) {
+    for (const char* option : {"--dry-run", "--quiet"}) {
+      const Outcome outcome = RunProgram({"map", log_, "-o", results_, "--save-map", map, option});
+      EXPECT_EQ(outcome.exit_code, 3) << map;
+      EXPECT_NE(outcome.errors.find(why), std::string::npos) << outcome.errors;
+    }
+  }
+  EXPECT_FALSE(fs::exists(results_));
+  EXPECT_EQ(ReadFile(log_), log);
+  EXPECT_EQ(ReadFile(notes), "Monday");
+  const fs::path map = results_ / "room.qwsm";
+  for (int i = 0; i < 2; ++i) {  // In a folder to be created, and over itself.
+    EXPECT_EQ(RunProgram({"map", log_, "-o", results_, "--save-map", map}).exit_code, 0);
+  }
+  EXPECT_TRUE(fs::exists(map));
 }
 
 TEST_F(MapCommand, DoesNothingWhenDry) {

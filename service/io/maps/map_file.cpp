@@ -183,6 +183,13 @@ void SaveMap(const std::filesystem::path& path,
   WriteTextFile(path, EncodeMap(map, marks));
 }
 
+bool IsMap(const std::filesystem::path& path) {
+  std::string first_bytes(kMapMagic.size(), '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(first_bytes.data(), static_cast<std::streamsize>(first_bytes.size()));
+  return file && first_bytes == kMapMagic;
+}
+
 ScanMap LoadMap(const std::filesystem::path& path) {
   return DecodeMap(ReadBytes(path), path.string());
 }

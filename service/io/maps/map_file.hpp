@@ -36,6 +36,9 @@ void SaveMap(const std::filesystem::path& path,
              const ScanMap& map,
              std::span<const std::string> marks = {});
 
+/// Whether a file begins as that of a saved map does.
+bool IsMap(const std::filesystem::path& path);
+
 /// Rebuilds the map scan by scan, as it was built first, and checks that the points are the saved
 /// ones. O(points log points). @throws MapFileError
 ScanMap LoadMap(const std::filesystem::path& path);
