@@ -11,6 +11,12 @@ namespace {
 
 using namespace std::chrono_literals;
 
+MadeMessage StaticTransform(const std::string& frame,
+                            const std::string& child,
+                            const Transform3& transform) {
+  return test::TransformMessageOf(Ros::k1, "/tf_static", 0s, frame, child, transform);
+}
+
 TEST_F(Bag, ReadsAllLasersOrThoseThatAreAskedFor) {
   std::vector<MadeMessage> drive = Drive(Ros::k2);
   drive.push_back(test::ScanMessage(Ros::k2, "/scan_filtered", At(1), "laser", RangesAt(1)));
@@ -106,6 +112,63 @@ TEST_F(Bag, TellsRobotsApartThatShareOneTf) {
   const LogContent log = ReadMcap(team, "zstd", options);
   ASSERT_EQ(log.scans.size(), 4U);
   EXPECT_EQ(log.scans[3].T_odom_robot, (Pose2{0.2 * 3, 0.0, 0.0}));
+}
+
+TEST_F(Bag, OfOneRobotIsRefusedWhereAnotherIsAskedFor) {
+  LogOptions options;
+  options.robot = "robot2";
+  ExpectDrive(ReadRos1(Drive(Ros::k1), "none", options));  // Any, where it has no name.
+  std::vector<MadeMessage> drive = Drive(Ros::k1);
+  for (MadeMessage& message : drive) message.topic = "/robot1" + message.topic;
+  const std::string refusal = FailureOf([&] { ReadRos1(drive, "none", options); });
+  EXPECT_NE(refusal.find("no scans of a robot 'robot2'; it has those of /robot1"),
+            std::string::npos)
+      << refusal;
+  options.robot = "robot1";
+  ExpectDrive(ReadRos1(drive, "none", options));
+  // Of a part of a recording in which but one of them tells odometry.
+  drive.push_back(test::ScanMessage(Ros::k1, "/robot2/scan", At(9), "laser2", RangesAt(0)));
+  EXPECT_EQ(ReadRos1(drive, "none", options).scans.size(), 4U);
+}
+
+TEST_F(Bag, FindsTheMountingWhereOdometryDoesNotNameTheRobot) {
+  const Quaternion rolled{1.0, 0.0, 0.0, 0.0};
+  for (const bool has_odometry : {true, false}) {
+    std::vector<MadeMessage> drive{
+        StaticTransform("base_link", "mast", Spatial({0.2, 0.0, 0.0})),
+        StaticTransform("mast", "laser", {.rotation = rolled}),
+    };
+    for (int i = 0; i < 4; ++i) {
+      if (has_odometry) {
+        drive.push_back(test::OdometryMessageOf(Ros::k1, "/odom", At(i), "", OdometryAt(i)));
+      }
+      drive.push_back(test::ScanMessage(Ros::k1, "/scan", At(i), "laser", RangesAt(i)));
+    }
+    const LogContent log = ReadRos1(drive);
+    ASSERT_EQ(log.scans.size(), 4U);
+    EXPECT_EQ(log.scans[0].scan.geometry.first_bearing_rad, 1.0F) << "it is upside down";
+    EXPECT_NEAR(log.scans[0].scan.geometry.T_robot_laser.x_m, 0.2, 1e-12);
+  }
+}
+
+TEST_F(Bag, PrefersOdometryOfTheFrameThatTheLaserSitsOnThenThatOfTheRobot) {
+  std::vector<MadeMessage> drive = Drive(Ros::k1);
+  for (int i = 0; i < 8; ++i) {  // Both are told more often.
+    drive.push_back(test::OdometryMessageOf(Ros::k1, "/gps/odom", At(i), "antenna", {9, 9, 9}));
+    drive.push_back(test::OdometryMessageOf(Ros::k1, "/eye/odom", At(i), "base_link", {9, 9, 9}));
+  }
+  EXPECT_EQ(ReadRos1(drive).scans.at(1).T_odom_robot, OdometryAt(1));
+  std::erase_if(drive, [](const MadeMessage& message) { return message.topic == "/eye/odom"; });
+  for (MadeMessage& message : drive) {
+    if (message.topic == "/odom") message.topic = "/wheels";
+  }
+  EXPECT_EQ(ReadRos1(drive).scans.at(1).T_odom_robot, OdometryAt(1));
+}
+
+TEST_F(Bag, TakesTheLastOfFixedTransformsThatAreSentAnew) {
+  std::vector<MadeMessage> drive = Drive(Ros::k1);
+  drive.insert(drive.begin(), StaticTransform("base_link", "laser", Spatial({5.0, 0.0, 0.0})));
+  EXPECT_EQ(ReadRos1(drive).scans.at(0).scan.geometry.T_robot_laser, kMounting);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 
 namespace qwsm::io {
@@ -139,9 +140,26 @@ class Chooser {
       }
     } else if (!by_robot.empty()) {
       robot_ = by_robot.begin()->first;
+      if (!options_.robot.empty()) KeepScansOfWanted(by_robot[robot_]);
     }
     topics = by_robot[robot_];
     return options_.scan_topics.empty() ? OneTopicPerLaser(topics) : topics;
+  }
+
+  /// Of the topics of the only robot, keeps those of the one that is asked for; all of a robot that
+  /// has no namespace.
+  void KeepScansOfWanted(std::vector<std::string>& topics) const {
+    std::vector<std::string> wanted;
+    for (const std::string& topic : topics) {
+      if (IsWithin(topic, AsTopic(options_.robot))) wanted.push_back(topic);
+    }
+    const bool has_namespace = robots_.size() == 1 && !robots_.begin()->empty();
+    if (wanted.empty() && !has_namespace) return;
+    if (wanted.empty()) {
+      Refuse("has no scans of a robot '" + options_.robot + "'; it has those of " +
+             ListOf({robots_.begin(), robots_.end()}));
+    }
+    topics = std::move(wanted);
   }
 
   std::vector<std::string> WantedScans() const {
@@ -179,30 +197,39 @@ class Chooser {
 
   /// The transforms of the robot: its own, or those that all share.
   TransformTree& Transforms() {
-    TransformTree& own = contents_.transforms[robot_];
+    const bool is_only_one = robots_.size() == 1;
+    TransformTree& own = contents_.transforms[is_only_one ? *robots_.begin() : robot_];
     return own.empty() ? contents_.transforms[""] : own;
   }
 
   /// Chooses where odometry comes from. @return the frame whose pose it is; empty if unknown.
   std::string ChooseOdometry(const std::string& scan_topic, OdometryTrack& track) {
     const std::string topic = OdometryTopicOf(scan_topic);
+    TransformTree& tree = Transforms();
+    const std::string& laser_frame = contents_.scans[scan_topic].frame;
+    const std::optional<std::string> robot_frame = tree.RobotFrameOf(laser_frame);
     if (!topic.empty()) {
       report_.notes.push_back("odometry from " + topic);
-      track = std::move(contents_.odometry[topic].track);
-      return contents_.odometry[topic].child_frame;
+      OdometryTopic& odometry = contents_.odometry[topic];
+      track = std::move(odometry.track);
+      if (!odometry.child_frame.empty()) return odometry.child_frame;
+      return robot_frame ? *robot_frame : TopmostFrameOf(laser_frame);
     }
-    TransformTree& tree = Transforms();
-    const std::optional<std::string> robot_frame =
-        tree.RobotFrameOf(contents_.scans[scan_topic].frame);
     if (!robot_frame) {
       faults_.Doubt("has neither odometry nor /tf of a robot that moves: scans are matched alone");
-      return "";
+      return TopmostFrameOf(laser_frame);
     }
     const TransformTree::Link* link = tree.LinkOf(*robot_frame);
     report_.notes.push_back("odometry from /tf, of " + *robot_frame + " in " + link->parent);
     track = link->track;
     track.Sort();
     return *robot_frame;
+  }
+
+  /// The frame that all others of a laser sit on; empty where nothing says where it sits.
+  std::string TopmostFrameOf(const std::string& laser_frame) {
+    const std::vector<std::string> ancestry = Transforms().AncestryOf(laser_frame);
+    return ancestry.size() > 1 ? ancestry.back() : "";
   }
 
   /// The topic of odometry; empty where it has to come from /tf.
@@ -220,8 +247,13 @@ class Chooser {
       if (RobotOf(topic) == RobotOf(scan_topic)) topics.push_back(topic);
     }
     if (topics.empty()) return "";
-    const auto rank = [this](const std::string& topic) {
-      return std::pair(topic.ends_with("/odom"), contents_.odometry[topic].track.size());
+    const auto rank = [&](const std::string& topic) {
+      const OdometryTopic& odometry = contents_.odometry[topic];
+      const bool is_of_laser =
+          Transforms().Find(odometry.child_frame, contents_.scans[scan_topic].frame).has_value();
+      const bool is_robots =
+          topic == robot_ + "/odom" || topic == NamespaceOf(scan_topic) + "/odom";
+      return std::tuple(is_of_laser, is_robots, topic.ends_with("/odom"), odometry.track.size());
     };
     const std::string best = *std::ranges::max_element(topics, {}, rank);
     if (topics.size() > 1) {

@@ -42,7 +42,10 @@ bool TransformTree::Take(const TransformMessage& transform,
   } else if (link.parent != FrameName(transform.header.frame)) {
     return false;
   }
-  if (is_static) return true;
+  if (is_static) {
+    link.T_parent_child = transform.T_frame_child;  // Of several, ROS takes the last.
+    return true;
+  }
   link.moves = link.moves || !IsSamePlace(link.T_parent_child, transform.T_frame_child);
   link.track.Add({.stamp = transform.header.stamp, .T_odom_robot = Planar(transform.T_frame_child)},
                  sequence);

@@ -24,7 +24,7 @@ class TransformTree {
  public:
   struct Link {
     std::string parent;
-    Transform3 T_parent_child;  ///< As it was said first.
+    Transform3 T_parent_child;  ///< As it was said first, or last on /tf_static.
     bool moves = false;
     OdometryTrack track;  ///< All that was said of it but by /tf_static.
   };
