@@ -63,6 +63,31 @@ TEST(StampCheck, SaysNothingWhereTheyFit) {
   EXPECT_FALSE(OffsetFoundWith(0.02));
 }
 
+TEST(StampCheck, SaysNothingOfOneJumpOfOdometry) {
+  for (const double time_of_jump_s : {4.0, 5.0, 8.0, 20.0}) {
+    StampCheck check;
+    for (int i = 0; i < 600; ++i) {
+      const double time_s = 0.1 * i;
+      LaserScan scan = ScanAt(HeadingAt(time_s));
+      scan.stamp = std::chrono::milliseconds(100) * i;
+      const double jump_rad = time_s > time_of_jump_s ? 1.5 : 0.0;
+      check.Add(scan, Pose2{.theta_rad = HeadingAt(time_s) + jump_rad});
+    }
+    EXPECT_FALSE(check.offset_s()) << time_of_jump_s;
+  }
+}
+
+TEST(StampCheck, LooksNoFurtherThanAScanHasBeams) {
+  StampCheck check;
+  for (int i = 0; i < 20; ++i) {
+    LaserScan scan = ScanAt(0.0);
+    scan.geometry.bearing_step_rad = 1e-9F;  // 800 million beams to either side.
+    scan.stamp = std::chrono::milliseconds(100) * i;
+    check.Add(scan, Pose2{});
+  }
+  EXPECT_FALSE(check.offset_s());
+}
+
 TEST(StampCheck, SaysNothingOfARobotThatGoesStraight) {
   StampCheck check;
   for (int i = 0; i < 600; ++i) {

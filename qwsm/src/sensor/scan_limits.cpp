@@ -17,9 +17,12 @@ std::string_view ObjectionTo(const LaserScan& scan) {
   if (scan.ranges_m.empty()) return "the scan has no beams";
   if (scan.size() > kMostBeams) return "the scan has more than 100000 beams";
   const double turn_rad = scan.size() > 1 ? std::abs(geometry.Bearing(1) - geometry.Bearing(0)) : 0;
-  if (!std::isfinite(geometry.first_bearing_rad) ||
+  if (!std::isfinite(geometry.first_bearing_rad) || !std::isfinite(geometry.bearing_step_rad) ||
       !(turn_rad * static_cast<double>(scan.size() - 1) <= 4.0 * std::numbers::pi)) {
     return "the scan's bearings are not finite, or go round more than twice";
+  }
+  if (scan.size() > 1 && std::abs(geometry.bearing_step_rad) < kLeastBearingStep_rad) {
+    return "the scan's beams look all in one direction: there is no angle between them";
   }
   if (!(geometry.range_min_m >= 0.0F && geometry.range_min_m < geometry.range_max_m)) {
     return "the scan's range limits are not 0 <= minimum < maximum";

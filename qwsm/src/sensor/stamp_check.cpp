@@ -18,7 +18,7 @@ constexpr double kLongestPause_s = 0.5;
 constexpr double kMostOffset_s = 1.0;
 constexpr double kStep_s = 0.01;
 constexpr double kLeastOffset_s = 0.04;   // Less is within what scans take, and hardly matters.
-constexpr double kMuchBetter = 0.5;       // The squared errors are so much less with the offset.
+constexpr double kMuchBetter = 0.7;       // The errors are so much less with the offset.
 constexpr double kLeastTurned_rad = 6.0;  // By odometry, in all: to and fro or around.
 constexpr std::size_t kMostScans = 2000;
 
@@ -47,7 +47,8 @@ std::optional<double> TurnBetween(const LaserScan& before, const LaserScan& now)
   const double step_rad =
       static_cast<double>(before.geometry.bearing_step_rad) * static_cast<double>(stride);
   if (before.size() != now.size() || step_rad == 0.0) return std::nullopt;
-  const long widest = std::lround(kWidestTurn_rad / std::abs(step_rad)) + 1;
+  const long beams = static_cast<long>(now.size()) / stride;
+  const long widest = std::min(beams, std::lround(kWidestTurn_rad / std::abs(step_rad)) + 1);
   std::vector<double> differences_m;
   for (long shift = -widest; shift <= widest; ++shift) {
     differences_m.push_back(MeanDifference(before, now, shift, stride));
@@ -102,9 +103,10 @@ std::optional<double> StampCheck::OdometryAt(double time_s) const {
   return before.by_odometry_rad + share * (after->by_odometry_rad - before.by_odometry_rad);
 }
 
-// Mean squared difference of the turns by scans and by odometry, were the scans so much later.
+// Mean difference of the turns by scans and by odometry, were the scans so much later. Not squared:
+// one jump of odometry, which some offset divides between two scans, is not to outweigh the drive.
 double StampCheck::ErrorAt(double offset_s) const {
-  double sum_rad2 = 0.0;
+  double sum_rad = 0.0;
   std::size_t turns = 0;
   for (std::size_t i = 1; i < headings_.size(); ++i) {
     const Heading& now = headings_[i];
@@ -115,10 +117,10 @@ double StampCheck::ErrorAt(double offset_s) const {
     const auto from_rad = OdometryAt(headings_[i - 1].time_s + offset_s);
     const auto to_rad = OdometryAt(now.time_s + offset_s);
     if (!from_rad || !to_rad) continue;
-    sum_rad2 += std::pow(*now.turn_by_scan_rad - (*to_rad - *from_rad), 2);
+    sum_rad += std::abs(*now.turn_by_scan_rad - (*to_rad - *from_rad));
     ++turns;
   }
-  return turns == 0 ? 0.0 : sum_rad2 / static_cast<double>(turns);
+  return turns == 0 ? 0.0 : sum_rad / static_cast<double>(turns);
 }
 
 void StampCheck::Judge() {
@@ -129,15 +131,15 @@ void StampCheck::Judge() {
   if (turned_rad < kLeastTurned_rad) return;
   const int steps = static_cast<int>(std::lround(kMostOffset_s / kStep_s));
   double best_s = 0.0;
-  double least_rad2 = std::numeric_limits<double>::infinity();
+  double least_rad = std::numeric_limits<double>::infinity();
   for (int step = -steps; step <= steps; ++step) {
-    const double error_rad2 = ErrorAt(step * kStep_s);
-    if (error_rad2 >= least_rad2) continue;
-    least_rad2 = error_rad2;
+    const double error_rad = ErrorAt(step * kStep_s);
+    if (error_rad >= least_rad) continue;
+    least_rad = error_rad;
     best_s = step * kStep_s;
   }
   const bool is_inside = std::abs(best_s) < kMostOffset_s - 0.5 * kStep_s;
-  if (is_inside && std::abs(best_s) >= kLeastOffset_s && least_rad2 < kMuchBetter * ErrorAt(0.0)) {
+  if (is_inside && std::abs(best_s) >= kLeastOffset_s && least_rad < kMuchBetter * ErrorAt(0.0)) {
     offset_s_ = best_s;
   }
 }

@@ -53,7 +53,8 @@ void TurnCheck::Add(const LaserScan& scan, const std::optional<Pose2>& T_odom_ro
   const bool is_near = motion.translation_m().norm() <= kMostDrive_m;
   if (is_near && std::abs(beams) < kLeastTurnBeams) return;  // Let it turn on.
   const bool is_comparable = is_near && std::abs(motion.theta_rad) <= kMostTurn_rad &&
-                             same_laser->scan.size() == scan.size();
+                             same_laser->scan.size() == scan.size() &&
+                             std::abs(beams) < static_cast<double>(scan.size());
   // What stands still is seen further to the right by a robot that turned to the left.
   if (is_comparable) Vote(same_laser->scan, scan, -std::lround(beams));
   *same_laser = std::move(now);

@@ -14,6 +14,9 @@ inline constexpr float kLongestRange_m = 1'000.0F;
 /// More beams in one scan are a mistake or an attack.
 inline constexpr std::size_t kMostBeams = 100'000;
 
+/// No laser looks more finely from beam to beam: a smaller step is a mistake.
+inline constexpr float kLeastBearingStep_rad = 1e-6F;
+
 /// Whether a laser may sit there on its robot.
 bool IsMounting(const Pose2& T_robot_laser);
 
