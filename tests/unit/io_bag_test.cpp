@@ -357,6 +357,19 @@ TEST_F(Bag, TellsADatabaseWhosePagesGoInACircle) {
   EXPECT_NE(told_.find("its pages go round in a circle"), std::string::npos) << told_;
 }
 
+TEST_F(Bag, OfSqliteThatIsCutOffIsReadUpToThere) {
+  std::vector<MadeMessage> drive = Drive(Ros::k2);
+  const std::vector<float> ranges(100, 2.0F);
+  for (int i = 4; i < 200; ++i) {
+    drive.push_back(test::ScanMessage(Ros::k2, "/scan", At(i), "laser", ranges));
+  }
+  const std::filesystem::path file = folder_.path() / "t.db3";
+  test::WriteDb3(file, drive, 4);
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) / 10 * 7);
+  EXPECT_GT(Read("t.db3").scans.size(), 80U);
+  EXPECT_NE(told_.find("the database is damaged"), std::string::npos) << told_;
+}
+
 TEST(ChunkCache, KeepsFewerOfLargeChunks) {
   for (const std::size_t size : {std::size_t{1} << 10, std::size_t{40} << 20}) {
     int loads = 0;

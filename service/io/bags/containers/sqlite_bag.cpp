@@ -11,11 +11,19 @@ constexpr std::int64_t kLongestStride = std::int64_t{1} << 40;
 // which takes longer than to read a scan.
 constexpr std::size_t kAheadBytes = std::size_t{1} << 16;
 
+/// Opens a database for what can be read of it: with that pragma a file that is cut off, which has
+/// pages that its schema says it has not, is not refused as a whole.
+SqliteDatabase OpenEvenIfCut(const std::filesystem::path& path) {
+  SqliteDatabase database(path, SqliteDatabase::Access::kReadOnly);
+  database.Execute("PRAGMA writable_schema=ON");
+  return database;
+}
+
 }  // namespace
 
 bool SqliteBag::Recognizes(const std::filesystem::path& path) {
   try {
-    SqliteDatabase database(path, SqliteDatabase::Access::kReadOnly);
+    SqliteDatabase database = OpenEvenIfCut(path);
     return database.Number(
                "SELECT count(*) FROM sqlite_master WHERE name IN ('topics','messages')") == 2;
   } catch (const SqliteError&) {
@@ -24,7 +32,7 @@ bool SqliteBag::Recognizes(const std::filesystem::path& path) {
 }
 
 SqliteBag::SqliteBag(const std::filesystem::path& path, TellDamage tell)
-    : database_(path, SqliteDatabase::Access::kReadOnly),
+    : database_(OpenEvenIfCut(path)),
       tell_(std::move(tell)),
       rows_(database_.Prepare("SELECT id, topic_id, data FROM messages WHERE id > ? ORDER BY id")),
       messages_(database_.Prepare(
