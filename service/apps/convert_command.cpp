@@ -74,8 +74,8 @@ void Convert(const ConvertArguments& arguments,
   const auto options = config::LoadOptions<options::ProgramOptions>(arguments.sources);
   io::LogOptions log_options = LogOptionsOf(options.log);
   log_options.as_measured = as_measured;
-  for (const fs::path& log : arguments.logs) {
-    const std::unique_ptr<io::LogReader> reader = io::OpenLog(log, log_options);
+  for (const auto& reader : io::OpenLogs(arguments.logs, log_options)) {
+    const std::string& log = reader->report().name;
     bool is_empty = true;
     while (const std::optional<io::LogRecord> record = reader->Next()) {
       is_empty = false;
@@ -83,9 +83,9 @@ void Convert(const ConvertArguments& arguments,
       check();
     }
     for (const std::string& note : reader->report().notes) {
-      messages::Info("{}: {}", log.string(), note);
+      messages::Info("{}: {}", log, note);
     }
-    if (is_empty) messages::Warn("{}: holds neither scans nor odometry", log.string());
+    if (is_empty) messages::Warn("{}: holds neither scans nor odometry", log);
   }
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "qwsm/logs/log_reader.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <iostream>
 #include <utility>
@@ -21,8 +22,8 @@ std::unique_ptr<LogReader> OpenLog(std::istream& stream,
 }
 
 std::unique_ptr<LogReader> OpenLog(const std::filesystem::path& path, const LogOptions& options) {
-  if (path == "-") return OpenLog(std::cin, "standard input", options);
-  if (IsBag(path)) return std::make_unique<BagReader>(path, options);
+  if (path == "-") return OpenLog(std::cin, kStandardInput, options);
+  if (IsBag(path)) return std::make_unique<BagReader>(std::span(&path, 1), options);
   if (IsSqliteDatabase(path)) return std::make_unique<JournalReader>(path);
   std::unique_ptr<std::ifstream> file;
   try {
@@ -35,6 +36,22 @@ std::unique_ptr<LogReader> OpenLog(const std::filesystem::path& path, const LogO
   const std::uintmax_t size = std::filesystem::file_size(path, error);  // Not that of a pipe.
   reader->Own(std::move(file), error ? std::nullopt : std::optional<std::uint64_t>(size));
   return reader;
+}
+
+std::vector<std::unique_ptr<LogReader>> OpenLogs(std::span<const std::filesystem::path> paths,
+                                                 const LogOptions& options) {
+  std::vector<std::unique_ptr<LogReader>> readers;
+  for (auto first = paths.begin(); first != paths.end();) {
+    const auto end = std::find_if(
+        first, paths.end(), [](const auto& path) { return path == "-" || !IsBag(path); });
+    if (end - first > 1) {
+      readers.push_back(std::make_unique<BagReader>(std::span(first, end), options));
+      first = end;
+    } else {
+      readers.push_back(OpenLog(*first++, options));
+    }
+  }
+  return readers;
 }
 
 }  // namespace qwsm::io

@@ -65,6 +65,11 @@ void TextLogReader::Recognize() {
     Throw(" " + std::string(error.what()));
   }
   if (report_.lines == 0) Throw(" the file is empty");
+  if (report_.name == kStandardInput) {
+    Throw(
+        " this is no text of CARMEN (FLASER, ODOM, ...), Player or DP-SLAM, which alone can be "
+        "read from a pipe; name the file of a bag");
+  }
   Throw(" this is no robot log: none of its first " + std::to_string(report_.lines) +
         " lines is a message of CARMEN (FLASER, ODOM, ...), Player or DP-SLAM, and it is no bag of "
         "ROS (.bag, .mcap, .db3 or a folder)");

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <utility>
 #include <variant>
@@ -29,9 +30,8 @@ LogSource::LogSource(const std::vector<std::filesystem::path>& logs,
     : warn_(options.on_fault),
       mirrored_(mirrored),
       stamp_offset_s_(options.stamp_offset_s),
-      gyro_(kGyroReadingsKept) {
-  for (const std::filesystem::path& log : logs) readers_.push_back(io::OpenLog(log, options));
-}
+      readers_(io::OpenLogs(logs, options)),
+      gyro_(kGyroReadingsKept) {}
 
 std::optional<Observation> LogSource::Next() {
   std::optional<Observation> observation = ahead_ ? std::exchange(ahead_, std::nullopt) : Read();
@@ -84,6 +84,7 @@ bool LogSource::ReadRecord() {
   if (!record) {
     ++current_;
   } else if (auto* reading = std::get_if<io::ScanReading>(&*record)) {
+    CheckOrder(reading->scan.stamp);
     held_.push_back(std::move(*reading));
   } else if (const auto* pose = std::get_if<io::TruePoseReading>(&*record)) {
     truth_.push_back({.stamp = pose->stamp, .T_map_robot = pose->T_world_robot});
@@ -91,6 +92,22 @@ bool LogSource::ReadRecord() {
     if (gyro_.Add(*imu)) imu_read_.push_back(*imu);
   }
   return true;
+}
+
+/// Warns where a log begins before the one before it ended.
+void LogSource::CheckOrder(Timestamp stamp) {
+  constexpr std::chrono::seconds kLeastFall(1);
+  const bool is_first = current_ != last_log_;
+  if (is_first && last_stamp_ && *last_stamp_ - stamp > kLeastFall && warn_) {
+    warn_(
+        fmt::format("{}: begins {:.1f} s before {} ends: give parts of one recording in the order "
+                    "they were recorded in, and map others one by one, with --continue",
+                    readers_[current_]->report().name,
+                    std::chrono::duration<double>(*last_stamp_ - stamp).count(),
+                    readers_[last_log_]->report().name));
+  }
+  last_log_ = current_;
+  last_stamp_ = stamp;
 }
 
 void LogSource::Check(const Observation& observation) {

@@ -53,6 +53,7 @@ class LogSource final : public ScanSource {
   std::optional<Observation> Read();
   std::optional<io::ScanReading> ReadScan();
   bool ReadRecord();
+  void CheckOrder(Timestamp stamp);
   void Check(const Observation& observation);
   void CheckStamps(const Observation& observation);
 
@@ -65,6 +66,8 @@ class LogSource final : public ScanSource {
   double stamp_offset_s_;
   std::vector<std::unique_ptr<io::LogReader>> readers_;
   std::size_t current_ = 0;
+  std::size_t last_log_ = 0;             // Which the last scan is of.
+  std::optional<Timestamp> last_stamp_;  // Of that scan.
   std::size_t scans_ = 0;
   std::optional<Observation> ahead_;  // Observation that was peeked at.
   Trajectory truth_;

@@ -10,7 +10,9 @@
 #include "qwsm/sensor/deskew.hpp"
 #include "qwsm/sensor/floor.hpp"
 #include "qwsm/sensor/scan_limits.hpp"
+#include "service/io/bags/assembly/stamp_doubts.hpp"
 #include "service/io/bags/messages/message_reader.hpp"
+#include "service/io/files/number_text.hpp"
 
 namespace qwsm::io {
 namespace {
@@ -20,7 +22,7 @@ LaserScan ScanOf(LaserScanMessage message, const LaserChoice& laser) {
   const float side = laser.is_upside_down ? -1.0F : 1.0F;
   return {.stamp = message.header.stamp,
           .geometry = {.first_bearing_rad = side * message.first_bearing_rad,
-                       .bearing_step_rad = side * message.bearing_step_rad,
+                       .bearing_step_rad = side * BearingStepOf(message),
                        .range_min_m = message.range_min_m,
                        .range_max_m = message.range_max_m,
                        .T_robot_laser = laser.T_robot_laser},
@@ -39,6 +41,19 @@ std::chrono::nanoseconds SweepOf(const LaserScanMessage& message, const LogOptio
   return std::chrono::round<std::chrono::nanoseconds>(std::chrono::duration<double>(sweep_s));
 }
 
+/// What mends range limits that no laser has; nothing where they are right.
+std::string AdviceOnRanges(const LaserGeometry& geometry) {
+  const bool are_limits = geometry.range_min_m >= 0.0F &&
+                          geometry.range_min_m < geometry.range_max_m &&
+                          geometry.range_max_m <= kLongestRange_m;
+  if (are_limits) return "";
+  std::string advice = ": they are ";
+  AppendNumber(advice, geometry.range_min_m);
+  advice += " and ";
+  AppendNumber(advice, geometry.range_max_m);
+  return advice + "; --set log.range_max_m=30, or what the laser reaches, mends the maximum";
+}
+
 std::chrono::nanoseconds OffsetOf(const LogOptions& options) {
   return std::chrono::round<std::chrono::nanoseconds>(
       std::chrono::duration<double>(options.stamp_offset_s));
@@ -46,26 +61,25 @@ std::chrono::nanoseconds OffsetOf(const LogOptions& options) {
 
 }  // namespace
 
-BagReader::BagReader(const std::filesystem::path& path, const LogOptions& options)
+BagReader::BagReader(std::span<const std::filesystem::path> paths, const LogOptions& options)
     : options_(options), faults_(report_, options_) {
-  report_.name = path.string();
+  report_.name = paths.front().string();
+  if (paths.size() > 1) report_.name += " and " + std::to_string(paths.size() - 1) + " more";
   report_.line_name = "messages";
-  try {
-    contents_ = Survey(path, report_, faults_);
-  } catch (const LogError&) {
-    throw;
-  } catch (const std::runtime_error& error) {
-    const std::string what = error.what();
-    throw LogError(what.starts_with(report_.name) ? what : report_.name + ": " + what);
-  }
+  contents_ = Survey(paths, report_, faults_);
   report_.format = contents_.files.front().messages().format();
   report_.compression = contents_.files.front().compression();
+  if (options_.field_of_view_rad) {
+    faults_.Doubt(
+        "log.field_of_view_deg is left out: scans of a bag say themselves how far they go");
+  }
   choice_ = ChooseRobot(contents_, options_, report_, faults_);
   for (const ImuReading& reading : choice_.imu) {
     gyro_.Add(reading);
     tilt_.Add(reading);
   }
   TakePlaces();
+  TellOfOdometry();
   contents_.transforms.clear();
   contents_.odometry.clear();
   contents_.imus.clear();
@@ -91,6 +105,7 @@ void BagReader::TakePlaces() {
       report_.other_scans += scans.places.size();
       continue;
     }
+    DoubtStampsThatFallBack(topic, scans.places, faults_);
     const auto number = static_cast<std::size_t>(laser - choice_.lasers.begin());
     for (MessagePlace place : scans.places) {
       place.stamp += OffsetOf(options_);
@@ -101,6 +116,23 @@ void BagReader::TakePlaces() {
   std::ranges::sort(places_, {}, [](const Place& place) {
     return std::tuple(place.scan.stamp, place.scan.sequence);
   });
+}
+
+void BagReader::TellOfOdometry() {
+  std::vector<MessagePlace> scans;
+  for (const Place& place : places_) scans.push_back(place.scan);
+  DoubtScansWithoutOdometry(scans, choice_.odometry, faults_);
+}
+
+void BagReader::TellOfBearings(const LaserScanMessage& message, const std::string& topic) {
+  if (told_of_bearings_ || !ContradictsItself(message)) return;
+  told_of_bearings_ = true;
+  faults_.Doubt("the bearings of " + topic +
+                " contradict each other: " + std::to_string(message.ranges_m.size()) +
+                " beams from " + std::to_string(message.first_bearing_rad) + " to " +
+                std::to_string(message.last_bearing_rad) + " rad, " +
+                std::to_string(message.bearing_step_rad) +
+                " rad from one to the next: the last is what counts");
 }
 
 /// The next reading of a track, if it is not later than `until`.
@@ -147,7 +179,9 @@ std::optional<LogRecord> BagReader::NextScan() {
     try {
       ScanReading reading = ReadScan(place);
       const std::string_view objection = ObjectionTo(reading.scan);
-      if (!objection.empty()) throw MessageError(std::string(objection));
+      if (!objection.empty()) {
+        throw MessageError(std::string(objection) + AdviceOnRanges(reading.scan.geometry));
+      }
       BringToOnePlace(reading);
       ++report_.scans;
       return reading;
@@ -208,6 +242,7 @@ ScanReading BagReader::ReadScan(const Place& place) {
   const std::string_view bytes = PlainMessage(messages.Read(place.scan.address), buffer_);
   const LaserChoice& laser = choice_.lasers[place.laser];
   LaserScanMessage message = DecodeLaserScan(bytes, encoding);
+  TellOfBearings(message, laser.topic);
   const std::chrono::nanoseconds sweep = SweepOf(message, options_);
   ScanReading reading{.scan = ScanOf(std::move(message), laser),
                       .T_odom_robot = choice_.odometry.At(place.scan.stamp, place.scan.sequence),

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,10 @@ namespace qwsm::io {
 /// scan that follows, so that what it felt until then is known.
 class BagReader final : public LogReader {
  public:
-  /// Surveys a bag. @throws LogError where it is none, or the options do not fit it.
-  BagReader(const std::filesystem::path& path, const LogOptions& options);
+  /// Surveys bags that are parts of one recording: what one says once, as where a laser sits,
+  /// counts for all. @throws LogError where one is none, or the options do not fit them.
+  /// @pre there is one.
+  BagReader(std::span<const std::filesystem::path> paths, const LogOptions& options);
 
   std::optional<LogRecord> Next() override;
   const LogReport& report() const override { return report_; }
@@ -38,6 +41,8 @@ class BagReader final : public LogReader {
 
   void TellOfOthers();
   void TakePlaces();
+  void TellOfOdometry();
+  void TellOfBearings(const LaserScanMessage& message, const std::string& topic);
   bool IsImuDue(Timestamp until) const;
   std::optional<LogRecord> NextScan();
   ScanReading ReadScan(const Place& place);
@@ -62,6 +67,7 @@ class BagReader final : public LogReader {
   TiltTrack tilt_;
   std::size_t leaning_scans_ = 0;
   std::size_t floor_beams_ = 0;
+  bool told_of_bearings_ = false;
   std::string buffer_;
 };
 

@@ -160,15 +160,24 @@ void ForEachMessage(
   }
 }
 
-BagContents Survey(const std::filesystem::path& path, LogReport& report, BagFaults& faults) {
+BagContents Survey(std::span<const std::filesystem::path> paths,
+                   LogReport& report,
+                   BagFaults& faults) {
   BagContents contents;
   Surveyor surveyor(contents, report, faults);
-  ForEachMessage(path,
-                 faults,
-                 contents.files,
-                 [&](const BagTopic& topic, const BagMessage& message, std::uint32_t file) {
-                   surveyor.Take(topic, message, file);
-                 });
+  const auto take = [&](const BagTopic& topic, const BagMessage& message, std::uint32_t file) {
+    surveyor.Take(topic, message, file);
+  };
+  for (const std::filesystem::path& path : paths) {
+    try {
+      ForEachMessage(path, faults, contents.files, take);
+    } catch (const LogError&) {
+      throw;
+    } catch (const std::runtime_error& error) {
+      const std::string what = error.what();
+      throw LogError(what.starts_with(path.string()) ? what : path.string() + ": " + what);
+    }
+  }
   for (auto& [name, odometry] : contents.odometry) odometry.track.Sort();
   for (auto& [name, track] : contents.truth) track.Sort();
   return contents;

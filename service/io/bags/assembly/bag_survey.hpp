@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -72,9 +73,11 @@ void ForEachMessage(
     std::vector<OpenBagFile>& files,
     const std::function<void(const BagTopic&, const BagMessage&, std::uint32_t)>& take);
 
-/// Reads all messages of a bag. What they are is counted in the report.
-/// @throws std::runtime_error naming the file where one cannot be opened or is no bag.
-BagContents Survey(const std::filesystem::path& path, LogReport& report, BagFaults& faults);
+/// Reads all messages of bags that are parts of one recording. What they are is counted in the
+/// report. @throws LogError naming the file where one cannot be opened or is no bag.
+BagContents Survey(std::span<const std::filesystem::path> paths,
+                   LogReport& report,
+                   BagFaults& faults);
 
 /// The bytes of a message behind the compression that rosbag2 may give each.
 /// @throws MessageError where it is damaged.

@@ -38,6 +38,12 @@ struct LaserScanMessage {
   std::vector<float> ranges_m;
 };
 
+/// The angle between beams: as it is stated, or, where that is none, by the first and last bearing.
+float BearingStepOf(const LaserScanMessage& scan);
+/// Whether the stated angle between beams ends elsewhere than at the stated last bearing, by more
+/// than the beam that some writers count too many.
+bool ContradictsItself(const LaserScanMessage& scan);
+
 struct OdometryMessage {
   RosHeader header;
   std::string child_frame;

@@ -8,6 +8,7 @@
 #include <istream>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -50,7 +51,8 @@ struct LogOptions {
   std::vector<std::string> scan_topics;
   /// Of a bag: topic of odometry, or "/tf"; empty: the robot's own.
   std::string odometry_topic;
-  /// Of a bag of several robots: the namespace of one. Where there is only one, it is read.
+  /// Of a bag of several robots: the namespace of one. Where there is only one, without a namespace
+  /// or this is empty, it is read.
   std::string robot;
   /// Of a bag: time from a scan's first beam to its last, in seconds; else as its messages say.
   std::optional<double> sweep_s;
@@ -104,6 +106,11 @@ class LogReader {
 ///         a bag of several robots and the options name none.
 std::unique_ptr<LogReader> OpenLog(const std::filesystem::path& path,
                                    const LogOptions& options = {});
+
+/// Opens logs that are parts of one recording. Bags that follow each other are read as one: what
+/// is said once, as where a laser sits, is in the first alone. @throws LogError as OpenLog() does.
+std::vector<std::unique_ptr<LogReader>> OpenLogs(std::span<const std::filesystem::path> paths,
+                                                 const LogOptions& options = {});
 
 /// Opens a log of any of OpenLog's formats of text from a stream, which must outlive the reader;
 /// `name` stands for it in messages.

@@ -10,6 +10,9 @@
 
 namespace qwsm::io {
 
+/// The name of a log that comes from a pipe.
+inline constexpr std::string_view kStandardInput = "standard input";
+
 /// One kind of trouble with the lines of a log, however many lines have it.
 struct LogFault {
   std::string what;            ///< Cause and remedy, as "FLASER: a field is not a number; ...".
