@@ -130,6 +130,9 @@ ExitCode RunExport(const ExportArguments& arguments) {
   if (arguments.live == arguments.source.has_value()) {
     throw UsageError("export needs either a SOURCE or --live");
   }
+  if (!arguments.geotiff.has_filename()) {
+    throw UsageError("--geotiff needs a name for the files, as rescue or folder/rescue");
+  }
   std::vector<io::PointOfInterest> given;
   if (arguments.points) given = io::ReadPointsOfInterest(*arguments.points);
   const options::ProgramOptions& options = session.options();

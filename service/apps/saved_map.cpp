@@ -74,6 +74,10 @@ ExitCode ConcludeDrive(const RunSession& session,
   if (end.end == pipeline::ReplayEnd::kExhausted && lost_and_found.held() > 0) {
     return ConcludeLost(localizer.belief(), lost_and_found.held());
   }
+  if (lost_and_found.held() > 0) {
+    messages::Warn("the last {} scans are not placed: the robot was still looked for",
+                   lost_and_found.held());
+  }
   return session.Conclude(end);
 }
 

@@ -73,6 +73,14 @@ TEST_F(ExportCommand, GivesTheSameMapOfAllThatHoldsIt) {
   }
 }
 
+TEST_F(ExportCommand, RefusesFilesWithoutAName) {
+  for (const std::string& name : {std::string(), folder_.path().string() + "/"}) {
+    const Outcome outcome = RunProgram({"export", results_, "--geotiff", name});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.errors.find("--geotiff needs a name"), std::string::npos) << outcome.errors;
+  }
+}
+
 TEST_F(ExportCommand, MarksOfAJournalAreOnTheMapsThatAreSavedOfIt) {
   const fs::path journal = Journal();
   const RelevantScan scan = io::LoadMap(saved_).scans().back();

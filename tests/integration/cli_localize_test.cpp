@@ -3,6 +3,7 @@
 //
 // `qwsm localize` as its users run it.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -92,6 +93,27 @@ TEST_F(LocalizeCommand, SaysWhenTheRobotWasNotFound) {
       << outcome.errors;
   EXPECT_NE(outcome.errors.find("--at X Y DEG says where the robot starts"), std::string::npos);
   EXPECT_TRUE(io::ReadTumFile(results_ / "trajectory.tum").empty());
+}
+
+TEST_F(LocalizeCommand, SaysWhatIsNotPlacedWhenItIsInterrupted) {
+  std::ofstream log(part_);
+  for (int scan = 0; scan < 2000; ++scan) {
+    log << "FLASER 5 1 1 1 1 1 0 0 0 0 0 0 " << scan << ".0 robot " << scan << ".0\n";
+  }
+  log.close();
+  const fs::path pipe = folder_.path() / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  Program program({"localize", "--map", map_, part_, "-o", results_, "--json"}, {.output = pipe});
+  std::ifstream lines(pipe);
+  std::string line;
+  std::getline(lines, line);
+  program.Signal(SIGINT);
+  while (std::getline(lines, line)) continue;
+  const Outcome outcome = program.Wait();
+  EXPECT_EQ(outcome.exit_code, 130);
+  EXPECT_NE(outcome.errors.find("scans are not placed: the robot was still looked for"),
+            std::string::npos)
+      << outcome.errors;
 }
 
 TEST_F(LocalizeCommand, StartsWhereItIsTold) {

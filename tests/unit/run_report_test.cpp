@@ -30,5 +30,22 @@ TEST(RunReport, SaysWhenMappingIsSlowerThanTheRobotDrove) {
   EXPECT_EQ(SummaryOf(20ms).find("too slow"), std::string::npos) << SummaryOf(20ms);
 }
 
+TEST(RunReport, SaysWhetherALostRobotWasFoundAgain) {
+  RunStatistics run;
+  const auto take = [&run](StepStatus status) {
+    TimedStep timed;
+    timed.step.status = status;
+    run.Take(timed);
+  };
+  take(StepStatus::kLost);
+  take(StepStatus::kMatched);
+  const std::string found = SummaryText(run, ScanMap(), std::nullopt);
+  EXPECT_NE(found.find("lost           1, and placed once"), std::string::npos) << found;
+  take(StepStatus::kLost);
+  take(StepStatus::kLost);
+  const std::string lost = SummaryText(run, ScanMap(), std::nullopt);
+  EXPECT_NE(lost.find("lost           3, of which the last 2 are"), std::string::npos) << lost;
+}
+
 }  // namespace
 }  // namespace qwsm::pipeline

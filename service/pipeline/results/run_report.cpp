@@ -103,8 +103,13 @@ std::string SummaryText(const RunStatistics& run,
                   WithThousands(run.Count(StepStatus::kExtended)));
   text += fmt::format("dead-reckoned  {}\n", WithThousands(run.Count(StepStatus::kDeadReckoned)));
   if (run.Count(StepStatus::kLost) > 0) {
-    text += fmt::format("lost           {}, and placed once the robot was found\n",
-                        WithThousands(run.Count(StepStatus::kLost)));
+    text += fmt::format("lost           {}, {}\n",
+                        WithThousands(run.Count(StepStatus::kLost)),
+                        run.lost_at_end() == 0
+                            ? "and placed once the robot was found"
+                            : fmt::format("of which the last {} are on a path of their own: the "
+                                          "robot was not found again",
+                                          WithThousands(run.lost_at_end())));
   }
   text += fmt::format("mean residual  {:.2f} mm\n", run.MeanResidual_mm());
   text += fmt::format("map            {} points of {} relevant scans, {:.1f} MB\n",

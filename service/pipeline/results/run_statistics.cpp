@@ -20,6 +20,7 @@ void RunStatistics::Take(const TimedStep& timed) {
   time_sum_ms_ += time_ms;
   longest_time_ms_ = std::max(longest_time_ms_, time_ms);
   ++count_of_status_[static_cast<std::size_t>(step.status)];
+  lost_at_end_ = step.status == StepStatus::kLost ? lost_at_end_ + 1 : 0;
   if (step.relevant) ++relevant_;
   if (HasMatch(step.status)) {
     residual_sum_mm_ += step.match.mean_residual_m * 1e3;

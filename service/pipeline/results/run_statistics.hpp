@@ -23,6 +23,8 @@ class RunStatistics final : public StepSink {
   std::size_t relevant() const { return relevant_; }
   std::size_t Count(StepStatus status) const;
   double path_length_m() const { return path_length_m_; }
+  /// Scans since the robot was lost, where it was not found again.
+  std::size_t lost_at_end() const { return lost_at_end_; }
   /// Mean residual over the matched scans, in mm; 0 where there is none.
   double MeanResidual_mm() const;
   double MeanTrace_m2() const;
@@ -43,6 +45,7 @@ class RunStatistics final : public StepSink {
   double longest_time_ms_ = 0.0;
   std::vector<std::size_t> count_of_status_ = std::vector<std::size_t>(5);
   std::size_t relevant_ = 0;
+  std::size_t lost_at_end_ = 0;
   double path_length_m_ = 0.0;
   double residual_sum_mm_ = 0.0;
   double trace_sum_m2_ = 0.0;
