@@ -51,8 +51,8 @@ struct LogOptions {
   std::vector<std::string> scan_topics;
   /// Of a bag: topic of odometry, or "/tf"; empty: the robot's own.
   std::string odometry_topic;
-  /// Of a bag of several robots: the namespace of one. Where there is only one, without a namespace
-  /// or this is empty, it is read.
+  /// Of a bag of several robots: the namespace of one. An only robot is read where it has none, or
+  /// this is empty.
   std::string robot;
   /// Of a bag: time from a scan's first beam to its last, in seconds; else as its messages say.
   std::optional<double> sweep_s;
