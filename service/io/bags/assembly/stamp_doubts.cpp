@@ -12,6 +12,8 @@ namespace {
 
 // Messages of one topic are recorded out of order by less than that.
 constexpr Timestamp kLeastFall = std::chrono::seconds(1);
+// Of so many scans one may be without odometry: as a recording begins and ends.
+constexpr std::ptrdiff_t kScansWithOdometry = 10;
 
 std::string SecondsText(Timestamp time) {
   std::array<char, 32> text{};
@@ -46,7 +48,7 @@ void DoubtScansWithoutOdometry(std::span<const MessagePlace> scans,
   if (scans.empty() || odometry.empty()) return;
   const auto without = std::ranges::count_if(
       scans, [&](const MessagePlace& scan) { return !odometry.At(scan.stamp, scan.sequence); });
-  if (without == 0) return;
+  if (without * kScansWithOdometry <= std::ssize(scans)) return;
   const auto span = [](Timestamp first, Timestamp last) {
     return "from " + SecondsText(first) + " to " + SecondsText(last);
   };
