@@ -89,7 +89,8 @@ ExitCode RunEcho(const EchoArguments& arguments) {
   const NetworkSession session(arguments.network);
   const dds::Participant participant(session.options().network);
   dds::MatchReportReader reports(participant, arguments.robots);
-  const pipeline::Interruption interruption;
+  const pipeline::Interruption interruption(pipeline::Interruption::kListensNoMore,
+                                            pipeline::Interruption::WithoutReaders::kEnds);
   messages::Info("listening");
   using Clock = std::chrono::steady_clock;
   const auto begin = Clock::now();

@@ -21,8 +21,11 @@
 namespace qwsm::apps {
 namespace {
 
+// Where nobody reads it any more, that is no further error.
+void TellError(const std::string& line) { std::fputs((line + "\n").c_str(), stderr); }
+
 ExitCode Complain(const CLI::App& program, ExitCode code, const std::string& message) {
-  fmt::print(stderr, "{}: {}\n", program.get_name(), message);
+  TellError(program.get_name() + ": " + message);
   return code;
 }
 
@@ -76,7 +79,7 @@ ExitCode RunChosen(const CLI::App& program, const std::vector<Command>& commands
   try {
     return chosen->run();
   } catch (const config::ConfigError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    TellError(error.what());
     return ExitCode::kUsage;
   } catch (const io::WriteError& error) {
     return Complain(program, ExitCode::kIo, error.what());

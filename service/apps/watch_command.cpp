@@ -58,7 +58,8 @@ ExitCode RunWatch(const WatchArguments& arguments) {
   const NetworkSession session(arguments.network);
   const dds::Participant participant(session.options().network);
   dds::MatchReportReader reports(participant, arguments.robots);
-  const pipeline::Interruption interruption;
+  const pipeline::Interruption interruption(pipeline::Interruption::kListensNoMore,
+                                            pipeline::Interruption::WithoutReaders::kEnds);
   messages::Info("listening");
   pipeline::TeamTable table;
   Screen screen;

@@ -7,10 +7,12 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "service/io/trajectories/trajectory_file.hpp"
@@ -248,13 +250,27 @@ TEST_F(InterruptedMapCommand, WritesAllResultsAfterTheLastScanToo) {
   EXPECT_TRUE(fs::exists(results_ / "map.png"));
 }
 
+TEST_F(InterruptedMapCommand, GoesOnWhereNobodyReadsItsLinesAnyMore) {
+  Program program({"map", log_, "--output", results_, "--json"}, {.output = pipe_});
+  {
+    std::ifstream lines(pipe_);
+    std::string line;
+    std::getline(lines, line);
+  }
+  const Outcome outcome = program.Wait();
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_EQ(CountLines(results_ / "trajectory.tum"), 1000U);
+}
+
 TEST_F(InterruptedMapCommand, QuitsWhenInterruptedTwice) {
   Program program({"map", log_, "--output", results_, "--json"}, {.output = pipe_});
   std::ifstream lines(pipe_);
   std::string line;
   std::getline(lines, line);
-  program.Signal(SIGINT);
-  program.Signal(SIGTERM);
+  while (!program.HasEnded()) {
+    program.Signal(SIGINT);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
   EXPECT_EQ(program.Wait().exit_code, 130);
   EXPECT_FALSE(fs::exists(results_ / "trajectory.tum"));
 }

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <unistd.h>
+
+#include <cerrno>
 
 namespace qwsm::pipeline {
 namespace {
@@ -37,6 +40,52 @@ TEST(Interruption, WhoeverIsToIgnoreCtrlCStillEndsWhenTold) {
     EXPECT_TRUE(interruption.requested());
   }
   EXPECT_EQ(signal(SIGINT, SIG_DFL), SIG_IGN);
+}
+
+TEST(Interruption, OnlyAPersonQuitsAndHasToAskTwice) {
+  const Interruption interruption;
+  raise(SIGTERM);
+  EXPECT_TRUE(interruption.requested());
+  raise(SIGTERM);  // `timeout` signals the program and its group.
+  raise(SIGHUP);
+  raise(SIGINT);  // So does a launcher: all of this is one request.
+}
+
+TEST(Interruption, ATerminalThatIsGoneEndsWhoWasNotStartedToOutliveIt) {
+  {
+    const Interruption interruption;
+    raise(SIGHUP);
+    EXPECT_TRUE(interruption.requested());
+  }
+  ASSERT_EQ(signal(SIGHUP, SIG_IGN), SIG_DFL);
+  {
+    const Interruption interruption;
+    raise(SIGHUP);
+    EXPECT_FALSE(interruption.requested());
+  }
+  EXPECT_EQ(signal(SIGHUP, SIG_DFL), SIG_IGN);
+}
+
+TEST(Interruption, WhoHasResultsToWriteOutlivesItsReaders) {
+  {
+    const Interruption writes;
+    raise(SIGPIPE);
+    EXPECT_FALSE(writes.requested());
+  }
+  const Interruption prints("", Interruption::WithoutReaders::kEnds);
+  EXPECT_EQ(signal(SIGPIPE, SIG_DFL), SIG_DFL);
+}
+
+TEST(Interruption, LeavesTheErrorOfTheCallThatItCameInto) {
+  const Interruption interruption("noted\n");
+  const int standard_error = dup(STDERR_FILENO);
+  close(STDERR_FILENO);
+  errno = ENOSPC;
+  raise(SIGINT);
+  const int error_number = errno;
+  dup2(standard_error, STDERR_FILENO);
+  close(standard_error);
+  EXPECT_EQ(error_number, ENOSPC);
 }
 
 }  // namespace

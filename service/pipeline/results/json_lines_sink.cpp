@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/results/json_lines_sink.hpp"
 
+#include <cerrno>
 #include <string>
 
 #include "service/io/files/standard_output.hpp"
@@ -11,6 +12,7 @@
 namespace qwsm::pipeline {
 
 void JsonLinesSink::Take(const TimedStep& timed) {
+  if (!has_reader_) return;
   const MappingStep& step = timed.step;
   const Pose2& T_map_robot = step.map_robot.T_a_b;
   Json json;
@@ -33,9 +35,9 @@ void JsonLinesSink::Take(const TimedStep& timed) {
   json["cpu_ms"] = std::chrono::duration<double, std::milli>(timed.worked).count();
   const std::string line = json.Line();
   const bool complete = std::fwrite(line.data(), 1, line.size(), stream_) == line.size();
-  if (!complete || std::fflush(stream_) != 0) {
-    throw io::StandardOutputError();
-  }
+  if (complete && std::fflush(stream_) == 0) return;
+  has_reader_ = errno != EPIPE;
+  if (has_reader_) throw io::StandardOutputError();
 }
 
 }  // namespace qwsm::pipeline

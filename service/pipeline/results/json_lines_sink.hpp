@@ -13,11 +13,13 @@ class JsonLinesSink final : public StepSink {
  public:
   explicit JsonLinesSink(std::FILE* stream) : stream_(stream) {}
 
-  /// Writes an answer. @throws io::WriteError when nobody reads any more.
+  /// Writes an answer, or nothing once nobody reads any more: a run has other results.
+  /// @throws io::WriteError where it cannot be written for another reason.
   void Take(const TimedStep& timed) override;
 
  private:
   std::FILE* stream_;
+  bool has_reader_ = true;
 };
 
 }  // namespace qwsm::pipeline
