@@ -1,8 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -59,10 +63,41 @@ TEST_F(AtomicFileTest, LeavesWhatCannotBeHadAgain) {
   {
     AtomicFile file(file_);
     unfinished = file.KeepUnfinished();
-    file.stream() << "as far as it came" << std::flush;
+    file.stream() << "as far as it came";
   }
   EXPECT_FALSE(fs::exists(file_));
   EXPECT_EQ(ReadFile(unfinished), "as far as it came");
+}
+
+TEST_F(AtomicFileTest, WritesWhatALinkLeadsTo) {
+  const fs::path folder = folder_.path() / "elsewhere";
+  fs::create_directory(folder);
+  fs::create_symlink("elsewhere/other.txt", file_);
+  for (const char* text : {"not there yet", "there"}) {
+    WriteTextFile(file_, text);
+    EXPECT_TRUE(fs::is_symlink(file_));
+    EXPECT_EQ(ReadFile(folder / "other.txt"), text);
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
+}
+
+TEST_F(AtomicFileTest, WritesToAPipeAndLeavesItThere) {
+  ASSERT_EQ(mkfifo(file_.c_str(), 0600), 0);
+  const int reader = open(file_.c_str(), O_RDONLY | O_NONBLOCK);
+  WriteTextFile(file_, "text");
+  { const AtomicFile given_up(file_); }
+  std::array<char, 8> bytes{};
+  EXPECT_EQ(read(reader, bytes.data(), bytes.size()), 4);
+  EXPECT_STREQ(bytes.data(), "text");
+  close(reader);
+  EXPECT_TRUE(fs::is_fifo(file_));
+  EXPECT_TRUE(FolderHoldsOnly(file_));
+}
+
+TEST_F(AtomicFileTest, RefusesWhatIsNoFileBeforeAnythingIsWritten) {
+  fs::create_directory(file_);
+  EXPECT_THROW(AtomicFile{file_}, WriteError);
+  EXPECT_TRUE(FolderHoldsOnly(file_));
 }
 
 TEST_F(AtomicFileTest, SaysWhyItCannotBeWritten) {

@@ -22,6 +22,44 @@ WriteError CannotWrite(const std::filesystem::path& path, int error_number) {
   return WriteError(path.string() + ": cannot be written: " + Reason(error_number));
 }
 
+namespace fs = std::filesystem;
+
+constexpr int kMostLinks = 40;  // As the system has it.
+
+/// The file that a path leads to by symbolic links, whether there is one yet or not.
+fs::path TargetOf(fs::path path) {
+  std::error_code is_no_link;
+  for (int links = 0; links < kMostLinks; ++links) {
+    const fs::path target = fs::read_symlink(path, is_no_link);
+    if (is_no_link) break;
+    path = path.parent_path() / target;
+  }
+  return path;
+}
+
+/// Whether what stands at a path takes bytes one after the other and cannot be replaced.
+/// @throws WriteError where what stands there is nothing to write to.
+bool IsStream(const fs::path& path) {
+  std::error_code ignored;
+  switch (fs::status(path, ignored).type()) {
+    case fs::file_type::fifo:
+    case fs::file_type::character:
+      return true;
+    case fs::file_type::directory:
+      throw CannotWrite(path, EISDIR);
+    case fs::file_type::block:
+    case fs::file_type::socket:
+      throw WriteError(path.string() + ": cannot be written: is neither a file nor a pipe");
+    default:
+      return false;
+  }
+}
+
+/// Where to write until all is there.
+fs::path TemporaryPathOf(const fs::path& path, const fs::path& target) {
+  return IsStream(path) ? path : fs::path(target.string() + ".part");
+}
+
 }  // namespace
 
 /// Unlike std::filebuf, remembers why a write failed.
@@ -84,7 +122,8 @@ class AtomicFile::FileBuffer : public std::streambuf {
 
 AtomicFile::AtomicFile(std::filesystem::path path)
     : path_(std::move(path)),
-      temporary_path_(path_.string() + ".part"),
+      target_(TargetOf(path_)),
+      temporary_path_(TemporaryPathOf(path_, target_)),
       buffer_(std::make_unique<FileBuffer>(temporary_path_)),
       stream_(buffer_.get()) {
   ThrowIfFailed();
@@ -92,8 +131,9 @@ AtomicFile::AtomicFile(std::filesystem::path path)
 
 AtomicFile::~AtomicFile() {
   if (committed_) return;
+  if (keeps_unfinished_) stream_.flush();
   buffer_->Close();
-  if (keeps_unfinished_) return;
+  if (keeps_unfinished_ || temporary_path_ == path_) return;
   std::error_code ignored;
   std::filesystem::remove(temporary_path_, ignored);
 }
@@ -109,7 +149,7 @@ void AtomicFile::Commit() {
   buffer_->Close();
   ThrowIfFailed();
   std::error_code error;
-  std::filesystem::rename(temporary_path_, path_, error);
+  if (temporary_path_ != path_) std::filesystem::rename(temporary_path_, target_, error);
   if (error) throw CannotWrite(path_, error.value());
   committed_ = true;
 }

@@ -17,10 +17,11 @@ class WriteError : public std::runtime_error {
 };
 
 /// A file that appears under its name whole, or not at all: until Commit() the bytes go to a
-/// neighbour with a name of its own, which is removed if there is no commit.
+/// neighbour with a name of its own, which is removed if there is no commit. A symbolic link stays,
+/// and what it leads to is written. A pipe or a device, such as /dev/stdout, is written to itself.
 class AtomicFile {
  public:
-  /// Begins the file. @throws WriteError where it cannot be created.
+  /// Begins the file. @throws WriteError where it cannot be created, or is none.
   explicit AtomicFile(std::filesystem::path path);
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
@@ -36,11 +37,12 @@ class AtomicFile {
   /// @throws WriteError
   void ThrowIfFailed() const;
 
-  /// From now on, what was written stays under its temporary name, which is returned, if there is
-  /// no commit: for what cannot be had again.
+  /// From now on, what was written stays under its temporary name, if there is no commit: for what
+  /// cannot be had again.
+  /// @return where it is.
   const std::filesystem::path& KeepUnfinished() {
     keeps_unfinished_ = true;
-    return temporary_path_;
+    return committed_ ? path_ : temporary_path_;
   }
 
   /// Puts the file in its place. @throws WriteError if any byte did not get there.
@@ -49,7 +51,8 @@ class AtomicFile {
  private:
   class FileBuffer;
 
-  std::filesystem::path path_;
+  std::filesystem::path path_;    // As asked for.
+  std::filesystem::path target_;  // What that leads to.
   std::filesystem::path temporary_path_;
   std::unique_ptr<FileBuffer> buffer_;
   std::ostream stream_;
