@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "qwsm/logs/log_reader.hpp"
+#include "service/io/bags/containers/bag_files.hpp"
 #include "service/io/bags/writing/log_bag_writer.hpp"
 #include "service/io/bags/writing/message_definitions.hpp"
 #include "tests/support/bag_maker.hpp"
@@ -92,6 +93,21 @@ TEST_P(BagWriting, KeepsWhatAnInertialSensorFelt) {
     ASSERT_EQ(log.imu[0].orientation.has_value(), all);
     EXPECT_EQ(log.imu[0].orientation.value_or(Quaternion{}).w, all ? 0.9 : 1.0);
   }
+}
+
+TEST_P(BagWriting, TakesMessagesOfTypesWithoutAHash) {
+  const std::filesystem::path path = folder_.path() / GetParam();
+  BagFile bag(path, BagFormatOf(path).value_or(BagFormat::kMcap));
+  const TopicToWrite topic{.name = "/qwsm/marks", .type = "qwsm_msgs/msg/Mark"};
+  ASSERT_TRUE(TypeHash(topic.type).empty());
+  bag.Write(topic, 1s, std::string(40, '\0'));
+  bag.Write(topic, 2s, {});
+  bag.Commit();
+  OpenBagFile written(BagFormatOf(path) ? path : path / "folder_0.mcap",
+                      [](std::uint64_t, const std::string& what) { ADD_FAILURE() << what; });
+  std::size_t messages = 0;
+  while (written.messages().Next()) ++messages;
+  EXPECT_EQ(messages, 2U);
 }
 
 TEST_P(BagWriting, RefusesATimeThatRos2DoesNotHave) {

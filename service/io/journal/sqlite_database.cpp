@@ -23,6 +23,9 @@ std::string Explain(sqlite3* database) {
   return text;
 }
 
+// To SQLite a null pointer is no value at all, not an empty one.
+const char* NeverNull(std::string_view text) { return text.data() != nullptr ? text.data() : ""; }
+
 }  // namespace
 
 void SqliteStatement::Finalize::operator()(sqlite3_stmt* statement) const {
@@ -45,13 +48,13 @@ void SqliteStatement::Bind(int parameter, std::int64_t value) {
 }
 
 void SqliteStatement::Bind(int parameter, std::string_view text) {
-  Check(sqlite3_bind_text(
-      statement_.get(), parameter, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT));
+  const int size = static_cast<int>(text.size());
+  Check(sqlite3_bind_text(statement_.get(), parameter, NeverNull(text), size, SQLITE_TRANSIENT));
 }
 
 void SqliteStatement::BindBlob(int parameter, std::string_view bytes) {
-  Check(sqlite3_bind_blob(
-      statement_.get(), parameter, bytes.data(), static_cast<int>(bytes.size()), SQLITE_TRANSIENT));
+  const int size = static_cast<int>(bytes.size());
+  Check(sqlite3_bind_blob(statement_.get(), parameter, NeverNull(bytes), size, SQLITE_TRANSIENT));
 }
 
 bool SqliteStatement::Step() {
