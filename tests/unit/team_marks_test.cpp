@@ -59,6 +59,24 @@ TEST(MarkBook, HoldsSoManyAndNoMore) {
   EXPECT_TRUE(book.Take(MarkOf("7", 2s)));
 }
 
+TEST(MarkBook, MarksThatWereRemovedGiveWay) {
+  MarkBook book;
+  for (std::size_t i = 0; i < MarkBook::kMostMarks; ++i) {
+    Mark mark = MarkOf(std::to_string(i), 1s * i);
+    mark.is_removed = i == 7 || i == 8;
+    ASSERT_TRUE(book.Take(mark));
+  }
+  Mark removed = MarkOf("removed elsewhere", 3000s);
+  removed.is_removed = true;
+  EXPECT_FALSE(book.Take(removed)) << "or books would go on telling each other of such for ever";
+  EXPECT_TRUE(book.Take(MarkOf("one more", 3000s)));
+  EXPECT_EQ(book.Find("7"), nullptr);
+  ASSERT_NE(book.Find("8"), nullptr);
+  EXPECT_TRUE(book.Take(MarkOf("another", 3000s)));
+  EXPECT_FALSE(book.HasRoomFor(MarkOf("one too many", 3000s)));
+  EXPECT_EQ(book.marks().size(), MarkBook::kMostMarks);
+}
+
 TEST(MarkBook, NumbersStay) {
   MarkBook book;
   for (const char* id : {"b", "a", "c"}) book.Take(book.Completed(MarkOf(id, 1s)));

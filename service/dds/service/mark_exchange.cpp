@@ -47,12 +47,18 @@ void MarkExchange::Tell(team::Mark mark) {
   mark.stamp = std::chrono::system_clock::now().time_since_epoch();
   mark.revision = 0;
   const std::lock_guard lock(mutex_);
+  // Who made it may have had a clock that is ahead of this one.
+  if (const team::Mark* known = book_.Find(mark.id); known && known->stamp >= mark.stamp) {
+    mark.stamp = known->stamp;
+    mark.revision = known->revision + 1;
+  }
   mark = book_.Completed(std::move(mark));
   if (const auto objection = team::ObjectionTo(mark); !objection.empty()) {
     throw MarkError(std::string(objection));
   }
   if (!book_.HasRoomFor(mark)) throw MarkError("there are too many marks");
-  if (book_.Take(mark)) TellAndKeep({mark});
+  if (!book_.Take(mark)) throw MarkError("what is known of it is newer");
+  TellAndKeep({mark});
 }
 
 void MarkExchange::Place(std::span<const team::ScanPlace> places) {

@@ -17,11 +17,27 @@ using ScanName = std::pair<std::string, Timestamp>;
 }  // namespace
 
 bool MarkBook::HasRoomFor(const Mark& mark) const {
-  return marks_.size() < kMostMarks || marks_.contains(mark.id);
+  if (marks_.size() < kMostMarks || marks_.contains(mark.id)) return true;
+  return !mark.is_removed && OldestRemoved() != marks_.end();
+}
+
+const Mark* MarkBook::Find(const std::string& id) const {
+  const auto known = marks_.find(id);
+  return known == marks_.end() ? nullptr : &known->second;
+}
+
+std::map<std::string, Mark>::const_iterator MarkBook::OldestRemoved() const {
+  auto oldest = marks_.end();
+  for (auto mark = marks_.begin(); mark != marks_.end(); ++mark) {
+    if (!mark->second.is_removed) continue;
+    if (oldest == marks_.end() || mark->second.stamp < oldest->second.stamp) oldest = mark;
+  }
+  return oldest;
 }
 
 bool MarkBook::Take(const Mark& mark) {
   if (!HasRoomFor(mark)) return false;
+  if (marks_.size() >= kMostMarks && !marks_.contains(mark.id)) marks_.erase(OldestRemoved());
   const auto [known, is_new] = marks_.try_emplace(mark.id, mark);
   if (!is_new && !Supersedes(mark, known->second)) return false;
   known->second = mark;

@@ -28,7 +28,10 @@ class MarkBook {
   /// Takes a mark, by whomever, if it is the newest of its id and there is room for it.
   /// @returns whether it was taken. @pre ObjectionTo(mark).empty()
   bool Take(const Mark& mark);
+  /// Marks that were removed give way to others, the oldest first, where there are too many.
   bool HasRoomFor(const Mark& mark) const;
+  /// What is known of an id; null where nothing is.
+  const Mark* Find(const std::string& id) const;
 
   /// The mark with a number, and on the nearest scan: as an operator has just put it there.
   /// O(scans).
@@ -46,6 +49,8 @@ class MarkBook {
   std::vector<Mark> marks() const;
 
  private:
+  std::map<std::string, Mark>::const_iterator OldestRemoved() const;
+
   std::map<std::string, Mark> marks_;                         // By their ids.
   std::map<std::string, std::map<Timestamp, Pose2>> places_;  // T_map_robot of scans, by robot.
 };

@@ -89,9 +89,11 @@ std::vector<Mark> MarkJournal::Load() const {
 void MarkJournal::Keep(const std::vector<Mark>& marks) {
   if (file_.empty()) return;
   const bool had_trouble = !unwritten_.empty();
-  unwritten_.insert(unwritten_.end(), marks.begin(), marks.end());
+  for (const Mark& mark : marks) unwritten_.insert_or_assign(mark.id, mark);
   std::vector<io::KeptMark> kept;
-  for (const Mark& mark : unwritten_) kept.push_back({.id = mark.id, .contents = EncodeMark(mark)});
+  for (const auto& [id, mark] : unwritten_) {
+    kept.push_back({.id = id, .contents = EncodeMark(mark)});
+  }
   try {
     io::KeepMarks(file_, kept);
     unwritten_.clear();

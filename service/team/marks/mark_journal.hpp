@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,7 +40,7 @@ class MarkJournal {
  private:
   std::filesystem::path file_;
   Warn warn_;
-  std::vector<Mark> unwritten_;
+  std::map<std::string, Mark> unwritten_;  // By their ids.
 };
 
 }  // namespace qwsm::team
