@@ -19,7 +19,8 @@ constexpr double kSameLattice_cells = 0.02;
 
 enum CellCode : std::uint8_t { kUnknownCell, kFreeCell, kOccupiedCell };
 
-CellCode CodeOf(char occupancy) {
+// Below 0 where it is unknown.
+CellCode CodeOf(std::int8_t occupancy) {
   if (occupancy == 0) return kFreeCell;
   return occupancy > 50 ? kOccupiedCell : kUnknownCell;
 }
@@ -66,7 +67,8 @@ std::string RunsOf(const GridMessage& grid, std::int64_t first_x, std::int64_t f
     }
     runs.Add(kUnknownCell, begin - first_x);
     for (std::int64_t x = begin; x < end; ++x) {
-      runs.Add(CodeOf(grid.cells[static_cast<std::size_t>(y * width + x)]), 1);
+      const char cell = grid.cells[static_cast<std::size_t>(y * width + x)];
+      runs.Add(CodeOf(static_cast<std::int8_t>(cell)), 1);
     }
     runs.Add(kUnknownCell, first_x + MapTiles::kTileCells - end);
   }
