@@ -16,6 +16,8 @@ class TrajectorySink final : public StepSink {
 
   void Take(const TimedStep& timed) override;
   void Commit() { file_.Commit(); }
+  /// See io::AtomicFile.
+  const std::filesystem::path& KeepUnfinished() { return file_.KeepUnfinished(); }
 
  private:
   io::AtomicFile file_;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -42,19 +43,22 @@ class TeamResults::RobotResults {
       files_->first.Take(timed);
       files_->second.Take(timed);
     } catch (const io::WriteError& error) {
-      has_failed_ = true;
-      messages::Error("{}; the results end here", error.what());
+      messages::Error("{}; the results end here{}", error.what(), EndUnfinished());
     }
     statistics_.Take(timed);
     history_.Take(timed);
     path_.Take(answer);
   }
 
-  /// Leaves what was answered.
+  /// Leaves what was answered. @throws io::WriteError; then it is left unfinished.
   void FinishAnswers() {
     if (has_failed_ || !files_) return;
-    files_->first.Commit();
-    files_->second.Commit();
+    try {
+      files_->first.Commit();
+      files_->second.Commit();
+    } catch (const io::WriteError& error) {
+      throw io::WriteError(error.what() + EndUnfinished());
+    }
   }
 
   /// Places the answers in the map as it is in the end. @return the path there.
@@ -69,6 +73,16 @@ class TeamResults::RobotResults {
   const fs::path& folder() const { return folder_; }
 
  private:
+  // Says where what was written until now is, if anything was.
+  std::string EndUnfinished() {
+    has_failed_ = true;
+    if (!files_) return {};
+    const std::string trajectory = files_->first.KeepUnfinished();
+    const std::string table = files_->second.KeepUnfinished();
+    files_.reset();
+    return "; what was written before is in " + trajectory + " and " + table;
+  }
+
   // With the path as it was answered in that map. Odometry begins where the path does.
   io::MapOverlay OverlayOf(std::vector<io::PathPose> path, std::uint64_t map) const {
     io::MapOverlay overlay = history_.Overlay();
@@ -162,14 +176,20 @@ TeamResults::RobotResults& TeamResults::ResultsOf(const std::string& robot) {
 }
 
 void TeamResults::Finish(team::TeamService& service) {
-  for (const auto& [_, results] : robots_) results->FinishAnswers();
+  std::vector<std::function<void()>> tasks;
+  for (const auto& [_, results] : robots_) {
+    try {
+      results->FinishAnswers();
+    } catch (const io::WriteError& error) {
+      tasks.emplace_back([error] { throw error; });  // Once what the others leave is written.
+    }
+  }
   std::map<const team::TeamMap*, FinalMap> maps;
   const auto map_of = [&](const std::string& robot, const fs::path& folder) -> FinalMap& {
     const auto [known, is_new] = maps.try_emplace(service.MapOf(robot).get());
     if (is_new) known->second = FinishMap(service, robot, folder);
     return known->second;
   };
-  std::vector<std::function<void()>> tasks;
   map_of("", folder_.path());  // The team's, where it shares one.
   for (const auto& [robot, results] : robots_) {
     FinalMap& map = map_of(robot, results->folder());
