@@ -166,7 +166,7 @@ void PublishAbsurdScans(const PrivateNetwork& network) {
     sample.angle_increment = nan;
     scans.Write(sample);
     sample = dds::ToWire(good, frame);
-    sample.range_max = std::numeric_limits<float>::infinity();
+    sample.range_max = -1.0F;
     scans.Write(sample);
     sample.ranges._length = 0;
     scans.Write(sample);
@@ -306,6 +306,7 @@ TEST_F(DdsFaults, AbsurdScansAreRefusedAndTold) {
   ASSERT_NO_FATAL_FAILURE(PublishAbsurdScans(network_));
   EXPECT_TRUE(service.WaitUntilItSays("its stamp is no time"));
   EXPECT_TRUE(service.WaitUntilItSays("its frame_id is empty"));
+  EXPECT_TRUE(service.WaitUntilItSays("range limits are not 0 <= minimum < maximum"));
   EXPECT_TRUE(service.WaitUntilItSays("it has no ranges"));
   EXPECT_TRUE(service.WaitUntilItSays("it has more than 100000 ranges"));
   EXPECT_EQ(Replay({"--rate", "max"}).exit_code, 0);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "qwsm/sensor/scan_limits.hpp"
 #include "service/dds/wire/planar.hpp"
 #include "service/dds/wire/robot_names.hpp"
 #include "service/dds/wire/scan_conversion.hpp"
@@ -147,6 +148,14 @@ TEST_F(WireScan, ComesBackAsItWas) {
   ASSERT_EQ(back.size(), scan.size());
   EXPECT_EQ(back.ranges_m[1], scan.ranges_m[1]);
   EXPECT_TRUE(std::isnan(back.ranges_m[3]));
+}
+
+TEST_F(WireScan, OfARangeWithoutLimitReachesAsFarAsAny) {
+  wire::LaserScan sample = ToWire(Scan(), frame_);
+  sample.range_max = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(qwsm::ObjectionTo(FromWire(sample, {})), "");
+  sample.range_max = std::nanf("");
+  EXPECT_NE(qwsm::ObjectionTo(FromWire(sample, {})), "");
 }
 
 TEST_F(WireScan, TellsHowLongItTook) {

@@ -183,6 +183,18 @@ TEST(ScanQueue, DropsTheOldestAndAccountsForEveryScan) {
   }
 }
 
+TEST(ScanQueue, HasRoomForThoseThatHadToWaitUntilTheyAreTaken) {
+  ScanQueue<int> queue(2);
+  for (int i = 0; i < 10; ++i) queue.Push(i, true);
+  EXPECT_EQ(queue.size(), 10U);
+  queue.Push(10);  // The newest wins, but the others stay.
+  EXPECT_EQ(queue.dropped(), 1U);
+  for (int i = 1; i < 10; ++i) EXPECT_EQ(queue.Pop(), i);
+  for (int i = 11; i < 14; ++i) queue.Push(i);
+  EXPECT_EQ(queue.size(), 2U);
+  EXPECT_EQ(queue.dropped(), 3U);
+}
+
 TEST(LatencyHistogram, GivesQuantilesWithinFivePercent) {
   LatencyHistogram histogram;
   EXPECT_EQ(histogram.Quantile(0.5), std::chrono::nanoseconds(0));

@@ -3,6 +3,7 @@
 #include "service/dds/wire/scan_conversion.hpp"
 
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include "qwsm/geometry/position.hpp"
@@ -46,6 +47,12 @@ std::chrono::nanoseconds SweepOf(const wire::LaserScan& sample) {
                                                      : std::chrono::nanoseconds{};
 }
 
+// By an infinite one drivers and simulators mean that there is no limit.
+float RangeMaximumOf_m(const wire::LaserScan& sample) {
+  return sample.range_max == std::numeric_limits<float>::infinity() ? kLongestRange_m
+                                                                    : sample.range_max;
+}
+
 }  // namespace
 
 wire::LaserScan ToWire(const LaserScan& scan, const std::string& frame) {
@@ -72,7 +79,7 @@ LaserScan FromWire(const wire::LaserScan& sample, const Pose2& T_robot_laser) {
           .geometry = {.first_bearing_rad = sample.angle_min,
                        .bearing_step_rad = sample.angle_increment,
                        .range_min_m = sample.range_min,
-                       .range_max_m = sample.range_max,
+                       .range_max_m = RangeMaximumOf_m(sample),
                        .T_robot_laser = T_robot_laser},
           .ranges_m = Copy(sample.ranges),
           .sweep = SweepOf(sample)};

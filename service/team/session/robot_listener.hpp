@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 #include <utility>
 
@@ -21,6 +22,9 @@ class RobotListener {
   RobotListener& operator=(const RobotListener&) = delete;
   virtual ~RobotListener() = default;
 
+  /// Tells that so many scans come now that have waited for where their sensor sits: that many came
+  /// at once is not that more come than can be matched.
+  virtual void ExpectWaited(std::string_view /*robot*/, std::size_t /*scans*/) {}
   /// Takes a scan. @return false if it was refused.
   virtual bool TakeScan(std::string_view robot, typename Kind::Scan scan) = 0;
   /// Takes a scan where somebody has begun to say that its sensor sits elsewhere on the robot.

@@ -88,23 +88,48 @@ bool SessionIntake<Kind>::IsHere() const {
 }
 
 template <class Kind>
+void SessionIntake<Kind>::ExpectWaited(std::size_t scans) {
+  const std::lock_guard lock(mutex_);
+  waited_ = scans;
+}
+
+template <class Kind>
 bool SessionIntake<Kind>::Enqueue(Scan scan, const std::optional<Pose>& T_robot_sensor_claimed) {
   Join();
-  const bool is_malformed = !ObjectionTo(scan).empty();
-  if (!is_malformed) ThinOut(scan);
-  const std::lock_guard lock(mutex_);
+  const std::string_view malformed = ObjectionTo(scan);
+  if (malformed.empty()) ThinOut(scan);
+  std::string_view objection;
+  {
+    const std::lock_guard lock(mutex_);
+    objection = Count(malformed, scan);
+    if (objection.empty()) {
+      Push({.scan = std::move(scan),
+            .arrived = steady_clock::now(),
+            .T_robot_sensor_claimed = T_robot_sensor_claimed});
+      return true;
+    }
+    if (!told_objections_.insert(objection).second) return false;
+  }
+  events_.Warn("scans are refused: " + std::string(objection) +
+               "; whoever publishes them has to mend that");
+  return false;
+}
+
+// Whether it can be used; why not, else.
+template <class Kind>
+std::string_view SessionIntake<Kind>::Count(std::string_view malformed, const Scan& scan) {
   ++counts_.scans;
-  if (is_malformed) {
+  if (!malformed.empty()) {
     ++counts_.malformed;
-    return false;
+    return malformed;
   }
   switch (GuardOf(scan).Judge(scan.stamp)) {
     case StampVerdict::kDuplicate:
       ++counts_.duplicates;
-      return false;
+      return "their stamp is that of an earlier one";
     case StampVerdict::kWrongTime:
       ++counts_.wrong_time;
-      return false;
+      return "their stamp is more than a second before the last one, or more than an hour ahead";
     case StampVerdict::kLate:
       ++counts_.late;
       break;
@@ -115,12 +140,19 @@ bool SessionIntake<Kind>::Enqueue(Scan scan, const std::optional<Pose>& T_robot_
     case StampVerdict::kInOrder:
       break;
   }
-  const Lane::Time now = steady_clock::now();
+  return {};
+}
+
+// Scans that wait for odometry are not too many, nor those that come at once after a wait.
+template <class Kind>
+void SessionIntake<Kind>::Push(Arrival arrival) {
+  const Lane::Time now = arrival.arrived;
   if (!first_arrived_) first_arrived_ = now;
-  queue_.Push(
-      {.scan = std::move(scan), .arrived = now, .T_robot_sensor_claimed = T_robot_sensor_claimed});
+  const bool has_waited = waited_ > 0;
+  if (has_waited) --waited_;
+  const bool others_wait = !queue_.empty() && ReadyAtOf(queue_.front()) > now;
+  queue_.Push(std::move(arrival), has_waited || others_wait);
   counts_.dropped = queue_.dropped();
-  return true;
 }
 
 template <class Kind>
@@ -195,7 +227,11 @@ template <class Kind>
 std::optional<Lane::Time> SessionIntake<Kind>::ReadyAt() const {
   const std::lock_guard lock(mutex_);
   if (queue_.empty()) return std::nullopt;
-  const Arrival& next = queue_.front();
+  return ReadyAtOf(queue_.front());
+}
+
+template <class Kind>
+Lane::Time SessionIntake<Kind>::ReadyAtOf(const Arrival& next) const {
   return std::max({next.arrived, AwaitsOdometryUntil(next), AwaitsImuUntil(next)});
 }
 

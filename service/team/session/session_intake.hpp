@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 
 #include "qwsm/sensor/gyro_track.hpp"
 #include "qwsm/sensor/tilt_track.hpp"
@@ -67,6 +69,8 @@ class SessionIntake {
   /// Notes that another service answers the robot from now on, until it joins again.
   void HandOver();
 
+  /// See RobotListener::ExpectWaited().
+  void ExpectWaited(std::size_t scans);
   /// Takes a scan; whoever sends scans has joined. One that is taken may still be dropped for newer
   /// ones.
   /// @return false if the scan was refused.
@@ -112,9 +116,12 @@ class SessionIntake {
 
   static constexpr std::size_t kImuReadingsKept = 4096;
 
+  std::string_view Count(std::string_view malformed, const Scan& scan);
+  void Push(Arrival arrival);
   StampGuard& GuardOf(const Scan& scan);
   bool IsHere() const;
   void ThinOut(Scan& scan);
+  Lane::Time ReadyAtOf(const Arrival& next) const;
   Lane::Time AwaitsOdometryUntil(const Arrival& next) const;
   Lane::Time AwaitsImuUntil(const Arrival& next) const;
   Timestamp KnownUntil(const Arrival& next) const;
@@ -138,6 +145,8 @@ class SessionIntake {
   bool hears_odometry_ = false;              // Whether there was odometry since the robot joined.
   std::optional<Lane::Time> first_arrived_;  // Arrival of the first scan since the robot joined.
   ScanQueue<Arrival> queue_;
+  std::size_t waited_ = 0;                      // Of the scans that come next, so many had to wait.
+  std::set<std::string_view> told_objections_;  // Literals.
   bool is_interrupted_ = false;
   bool was_elsewhere_ = false;
   std::optional<Pose> T_odom_last_;  // Odometry of the scan taken last.

@@ -72,6 +72,9 @@ class SessionList final : public RobotListener<typename Session::Kind> {
     if (const auto session = Find(robot)) session->intake().HandOver();
   }
 
+  void ExpectWaited(std::string_view robot, std::size_t scans) override {
+    if (const auto session = Of(robot)) session->intake().ExpectWaited(scans);
+  }
   /// Takes a robot's scan.
   /// @return false if it was refused: malformed, of a wrong time or a duplicate; see the robot's
   /// counts.
