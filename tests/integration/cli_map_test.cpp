@@ -263,7 +263,10 @@ TEST_F(InterruptedMapCommand, GoesOnWhereNobodyReadsItsLinesAnyMore) {
 }
 
 TEST_F(InterruptedMapCommand, QuitsWhenInterruptedTwice) {
-  Program program({"map", log_, "--output", results_, "--json"}, {.output = pipe_});
+  // Nobody reads the path, so that the results cannot be finished.
+  fs::create_directory(results_);
+  ASSERT_EQ(mkfifo((results_ / "trajectory.tum.part").c_str(), 0600), 0);
+  Program program({"map", log_, "--output", results_, "--force", "--json"}, {.output = pipe_});
   std::ifstream lines(pipe_);
   std::string line;
   std::getline(lines, line);
@@ -271,7 +274,9 @@ TEST_F(InterruptedMapCommand, QuitsWhenInterruptedTwice) {
     program.Signal(SIGINT);
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-  EXPECT_EQ(program.Wait().exit_code, 130);
+  const Outcome outcome = program.Wait();
+  EXPECT_EQ(outcome.exit_code, 130);
+  EXPECT_NE(outcome.errors.find("quit without writing results"), std::string::npos);
   EXPECT_FALSE(fs::exists(results_ / "trajectory.tum"));
 }
 
