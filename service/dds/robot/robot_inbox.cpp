@@ -16,7 +16,7 @@ namespace {
 
 // A transform that is not there after this long will not come.
 constexpr auto kPatienceForTransforms = std::chrono::seconds(1);
-constexpr std::size_t kMaxUnplaced = 64;
+constexpr std::size_t kMaxUnplaced = 160;  // Those of four lasers at 40 Hz in that time.
 constexpr std::size_t kMaxFrames = 256;
 
 template <class Kind>
@@ -27,6 +27,12 @@ std::string_view ObjectionToPose(const wire::Header& header, const wire::Pose& p
     return "its pose is not finite, or more than 10000 km away";
   }
   return {};
+}
+
+std::string SeveralPublish(const std::string& what) {
+  return "two participants publish " + what +
+         " in turns, and what both say is mixed: each robot needs a namespace of its own, such as "
+         "/robot1";
 }
 
 }  // namespace
@@ -64,10 +70,7 @@ void BasicRobotInbox<Kind>::HoldScans() {
       scans_, [](const ScanTopic& topic) { return topic.reader.writer_count() > 0; });
   if (!std::exchange(has_publisher_, has_publisher) && has_publisher_) mountings_.clear();
   const auto held = static_cast<std::ptrdiff_t>(unplaced_.size());
-  for (ScanTopic& topic : scans_) {
-    topic.reader.TakeAll(
-        [&](const typename OnWire<Kind>::Scan& sample) { HoldScan(topic.name, sample); });
-  }
+  for (const ScanTopic& topic : scans_) HearScans(topic);
   if (scans_.size() < 2 || std::ssize(unplaced_) <= held) return;
   std::stable_sort(
       unplaced_.begin() + held, unplaced_.end(), [](const UnplacedScan& a, const UnplacedScan& b) {
@@ -79,7 +82,7 @@ template <class Kind>
 void BasicRobotInbox<Kind>::Deliver(const BasicStaticTransforms<Kind>& transforms,
                                     team::RobotListener<Kind>& listener) {
   listener.ExpectOdometry(names_.name(), odometry_.writer_count() > 0);
-  odometry_.TakeAll([&](const wire::Odometry& sample) { TakeOdometry(sample, listener); });
+  HearOdometry(listener);
   if constexpr (OnWire<Kind>::kUsesImu) {
     imu_->Deliver(
         [&](const std::string& frame) {
@@ -90,6 +93,21 @@ void BasicRobotInbox<Kind>::Deliver(const BasicStaticTransforms<Kind>& transform
   initial_poses_.TakeAll(
       [&](const wire::PoseWithCovarianceStamped& sample) { TakeInitialPose(sample, listener); });
   DeliverPlacedScans(transforms, listener);
+}
+
+// Who sends is asked for only where several might.
+template <class Kind>
+void BasicRobotInbox<Kind>::HearOdometry(team::RobotListener<Kind>& listener) {
+  if (odometry_.writer_count() < 2) {
+    odometry_.TakeAll([&](const wire::Odometry& sample) { TakeOdometry(sample, listener); });
+    return;
+  }
+  odometry_.TakeAllWithSource([&](const wire::Odometry& sample, const Guid& source) {
+    if (odometry_sources_.Note(source)) {
+      refusals_.Tell(SeveralPublish(names_.Topic(kOdometryTopic)));
+    }
+    TakeOdometry(sample, listener);
+  });
 }
 
 template <class Kind>
@@ -104,15 +122,31 @@ void BasicRobotInbox<Kind>::TakeOdometry(const wire::Odometry& sample,
 }
 
 template <class Kind>
-void BasicRobotInbox<Kind>::HoldScan(const std::string& topic,
-                                     const typename OnWire<Kind>::Scan& sample) {
+void BasicRobotInbox<Kind>::HearScans(const ScanTopic& topic) {
+  using Scan = typename OnWire<Kind>::Scan;
+  if (topic.reader.writer_count() < 2) {
+    topic.reader.TakeAll([&](const Scan& sample) { HoldScan(topic, sample, Guid{}); });
+    return;
+  }
+  topic.reader.TakeAllWithSource(
+      [&](const Scan& sample, const Guid& source) { HoldScan(topic, sample, source); });
+}
+
+/// @param source all zeros where it is not asked for.
+template <class Kind>
+void BasicRobotInbox<Kind>::HoldScan(const ScanTopic& topic,
+                                     const typename OnWire<Kind>::Scan& sample,
+                                     const Guid& source) {
   const std::string_view objection = ObjectionTo(sample);
-  if (!objection.empty()) return refusals_.Add(topic, objection);
-  unplaced_.push_back(
-      {.scan = OnWire<Kind>::ScanOf(sample), .sensor_frame = sample.header.frame_id});
-  if (unplaced_.size() <= kMaxUnplaced) return;
-  unplaced_.pop_front();
-  refusals_.Add(topic, "/tf_static does not say yet where on the robot its frame is");
+  if (!objection.empty()) return refusals_.Add(topic.name, objection);
+  if (source != Guid{}) {
+    const std::string scans = topic.name + " in the frame '" + sample.header.frame_id + "'";
+    if (scan_sources_.size() >= kMaxFrames) scan_sources_.clear();
+    if (scan_sources_[scans].Note(source)) refusals_.Tell(SeveralPublish(scans));
+  }
+  unplaced_.push_back({.scan = OnWire<Kind>::ScanOf(sample),
+                       .sensor_frame = sample.header.frame_id,
+                       .topic = &topic.name});
 }
 
 // Scans and /tf_static overtake each other at the beginning. Scans of one frame wait for it, not
@@ -121,17 +155,33 @@ template <class Kind>
 void BasicRobotInbox<Kind>::DeliverPlacedScans(const BasicStaticTransforms<Kind>& transforms,
                                                team::RobotListener<Kind>& listener) {
   std::deque<UnplacedScan> waiting;
+  std::vector<std::pair<UnplacedScan, Placement>> placed;
+  std::size_t waited = 0;
   for (UnplacedScan& next : unplaced_) {
     if (const auto placement = SensorOnRobot(next.sensor_frame, transforms)) {
-      if constexpr (OnWire<Kind>::kUsesImu) {
-        next.scan.height_m = HeightOf_m(next.sensor_frame, transforms);
-      }
-      DeliverScan(std::move(next.scan), next.sensor_frame, *placement, listener);
+      waited += next.has_waited ? 1 : 0;
+      placed.emplace_back(std::move(next), *placement);
     } else {
+      next.has_waited = true;
       waiting.push_back(std::move(next));
     }
   }
+  if (waited > 0) listener.ExpectWaited(names_.name(), waited);
+  for (auto& [next, placement] : placed) {
+    if constexpr (OnWire<Kind>::kUsesImu) {
+      next.scan.height_m = HeightOf_m(next.sensor_frame, transforms);
+    }
+    DeliverScan(std::move(next.scan), next.sensor_frame, placement, listener);
+  }
   unplaced_ = std::move(waiting);
+  while (unplaced_.size() > kMaxUnplaced) LeaveOutOldest();
+}
+
+template <class Kind>
+void BasicRobotInbox<Kind>::LeaveOutOldest() {
+  refusals_.Add(*unplaced_.front().topic,
+                "/tf_static does not say yet where on the robot its frame is");
+  unplaced_.pop_front();
 }
 
 // A robot does not mount its sensors anew while it drives. Whether it did, its scans will tell.
@@ -160,10 +210,21 @@ void BasicRobotInbox<Kind>::TakeInitialPose(const wire::PoseWithCovarianceStampe
   const typename Kind::UncertainPose map_robot{
       .T_a_b = OnWire<Kind>::PoseOf(sample.pose.pose),
       .covariance = OnWire<Kind>::CovarianceOf(sample.pose.covariance)};
-  std::string_view objection = ObjectionToPose<Kind>(sample.header, sample.pose.pose);
+  std::string objection(ObjectionToPose<Kind>(sample.header, sample.pose.pose));
   if (objection.empty()) objection = ObjectionTo(map_robot);
+  if (objection.empty()) objection = ObjectionToFrame(sample.header.frame_id);
   if (!objection.empty()) return refusals_.Add(names_.Topic(kInitialPoseTopic), objection);
   listener.PlaceAt(names_.name(), map_robot);
+}
+
+// One frame is named: anybody may tell of any number of them.
+template <class Kind>
+std::string BasicRobotInbox<Kind>::ObjectionToFrame(std::string_view frame) {
+  if (frame.empty() || frame == kMapFrame) return {};
+  if (foreign_frame_.empty()) foreign_frame_ = frame.substr(0, kMaxNameLength);
+  const std::string named = frame == foreign_frame_ ? "'" + foreign_frame_ + "'" : "another";
+  return "its frame_id is " + named + ", not '" + kMapFrame +
+         "'; in RViz, that is the Fixed Frame of the Global Options";
 }
 
 /// A sensor nobody says anything about sits in the middle of the robot.

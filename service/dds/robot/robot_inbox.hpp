@@ -8,10 +8,12 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "service/dds/entities/reader.hpp"
 #include "service/dds/robot/imu_inbox.hpp"
+#include "service/dds/robot/source_watch.hpp"
 #include "service/dds/wire/refusals.hpp"
 #include "service/dds/wire/robot_names.hpp"
 #include "service/dds/wire/static_transforms.hpp"
@@ -52,12 +54,19 @@ class BasicRobotInbox {
     bool is_told = false;  // Else nobody says where the sensor sits.
   };
 
+  void HearOdometry(team::RobotListener<Kind>& listener);
   void TakeOdometry(const wire::Odometry& sample, team::RobotListener<Kind>& listener);
-  void HoldScan(const std::string& topic, const typename OnWire<Kind>::Scan& sample);
+  struct ScanTopic;
+  void HearScans(const ScanTopic& topic);
+  void HoldScan(const ScanTopic& topic,
+                const typename OnWire<Kind>::Scan& sample,
+                const Guid& source);
+  void LeaveOutOldest();
   void DeliverPlacedScans(const BasicStaticTransforms<Kind>& transforms,
                           team::RobotListener<Kind>& listener);
   void TakeInitialPose(const wire::PoseWithCovarianceStamped& sample,
                        team::RobotListener<Kind>& listener);
+  std::string ObjectionToFrame(std::string_view frame);
   void DeliverScan(typename Kind::Scan scan,
                    const std::string& sensor_frame,
                    const Placement& placement,
@@ -75,12 +84,15 @@ class BasicRobotInbox {
   struct UnplacedScan {
     typename Kind::Scan scan;
     std::string sensor_frame;
+    const std::string* topic;
+    bool has_waited = false;
   };
 
   RobotNames names_;
   Refusals& refusals_;
   std::string robot_frame_;
   Reader<wire::Odometry> odometry_;
+  SourceWatch odometry_sources_;
   struct ScanTopic {
     std::string name;
     Reader<typename OnWire<Kind>::Scan> reader;
@@ -95,6 +107,8 @@ class BasicRobotInbox {
   std::set<std::string> overruled_;  // Frames of which strangers say something else.
   // By frame, the place its first scans were sent with.
   std::map<std::string, typename Kind::Pose> mountings_;
+  std::map<std::string, SourceWatch> scan_sources_;  // By topic and frame.
+  std::string foreign_frame_;  // The first that a place was told in which is not the map's.
 };
 
 using RobotInbox = BasicRobotInbox<team::Planar>;

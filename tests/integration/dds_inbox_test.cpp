@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What is heard of robots and marks that somebody has set up wrongly.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "service/dds/entities/writer.hpp"
+#include "service/dds/robot/robot_feed.hpp"
+#include "service/dds/robot/source_watch.hpp"
+#include "service/dds/service/mark_exchange.hpp"
+#include "service/dds/wire/mark_conversion.hpp"
+#include "service/dds/wire/planar.hpp"
+#include "service/dds/wire/robot_names.hpp"
+#include "service/dds/wire/scan_conversion.hpp"
+#include "tests/support/network.hpp"
+#include "tests/support/room_drive.hpp"
+#include "tests/support/room_log.hpp"
+
+namespace qwsm::dds {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(SourceWatch, ToldOfThoseWhoTakeTurnsAndNotOfWhoIsStartedAgain) {
+  const std::vector<Guid> guids{Guid{1}, Guid{2}, Guid{3}};
+  SourceWatch restarted;
+  for (const Guid& guid : guids) {
+    for (int i = 0; i < 3; ++i) EXPECT_FALSE(restarted.Note(guid));
+    EXPECT_FALSE(restarted.Note(Guid{})) << "who is gone by now may be anybody";
+  }
+  SourceWatch several;
+  for (const Guid& guid : guids) EXPECT_FALSE(several.Note(guid));
+  EXPECT_TRUE(several.Note(guids[0]));
+  EXPECT_FALSE(several.Note(guids[1])) << "told once";
+}
+
+/// Counts what comes through.
+class CountingListener : public team::RobotListener<team::Planar> {
+ public:
+  bool TakeScan(std::string_view, LaserScan) override { return true; }
+  void TakeOdometry(std::string_view, Timestamp, const Pose2&) override {}
+  void ExpectOdometry(std::string_view, bool) override {}
+  void PlaceAt(std::string_view, const UncertainPose2&) override { ++places; }
+
+  int places = 0;
+};
+
+class DdsInbox : public ::testing::Test {
+ protected:
+  bool IsTold(const std::string& text) const {
+    return std::ranges::any_of(
+        told_, [&](const std::string& told) { return told.find(text) != std::string::npos; });
+  }
+  /// Does something again and again until it has an effect.
+  template <class Do, class Done>
+  static bool DoUntil(Do&& act, Done&& is_done) {
+    for (int i = 0; i < 2000 && !is_done(); ++i) {
+      act();
+      std::this_thread::sleep_for(5ms);
+    }
+    return is_done();
+  }
+
+  test::PrivateNetwork network_;
+  Participant participant_{{.interface = "lo", .tag = network_.tag()}};
+  std::vector<std::string> told_;
+  Refusals refusals_{[this](const std::string& text) { told_.push_back(text); }};
+  CountingListener listener_;
+};
+
+TEST_F(DdsInbox, TwoRobotsOfOneNameAreTold) {
+  RobotFeed feed(participant_, RobotNames("robot1"), {"scan"}, refusals_);
+  const Writer<wire::Odometry> odometry(participant_, "/robot1/odom", Profile::kSensorOut);
+  const Writer<wire::LaserScan> scans(participant_, "/robot1/scan", Profile::kSensorOut);
+  const test::TemporaryFolder folder;
+  const std::string log = folder.path() / "room.log";
+  test::WriteRoomLog(log, 1000);
+  const test::Daemon other(network_.Join({"replay", log, "--robot", "robot1", "--rate", "5"}));
+  int i = 0;
+  const auto drive = [&] {
+    const Observation observation = test::ObservationInRoom(i++);
+    const std::string frame = "robot1/laser";
+    wire::Odometry sample{};
+    sample.header = HeaderOf(observation.scan.stamp, frame);
+    sample.child_frame_id = Borrow(frame);
+    sample.pose.pose = ToWire(Pose2{});
+    odometry.Write(sample);
+    for (const char* of : {"robot1/laser", "robot1/base_link"}) {
+      const std::string own = of;
+      scans.Write(ToWire(observation.scan, own));
+    }
+    feed.Deliver(0ms, listener_);
+  };
+  EXPECT_TRUE(DoUntil(drive, [&] {
+    return IsTold("two participants publish /robot1/odom in turns") &&
+           IsTold("two participants publish /robot1/scan in the frame 'robot1/");
+  }));
+  EXPECT_TRUE(IsTold("each robot needs a namespace of its own"));
+}
+
+TEST_F(DdsInbox, APlaceInAnotherFrameIsRefused) {
+  RobotFeed feed(participant_, RobotNames("robot1"), {"scan"}, refusals_);
+  const Writer<wire::PoseWithCovarianceStamped> poses(
+      participant_, "/robot1/initialpose", Profile::kSensorOut);
+  wire::PoseWithCovarianceStamped sample{};
+  sample.pose.pose = ToWire(Pose2{});
+  for (const char* name : {"robot1/odom", "base_link", "", "map"}) {
+    const std::string frame = name;
+    sample.header = HeaderOf(1s, frame);
+    poses.Write(sample);
+  }
+  EXPECT_TRUE(
+      DoUntil([&] { feed.Deliver(0ms, listener_); }, [&] { return listener_.places == 2; }));
+  EXPECT_TRUE(
+      IsTold("/robot1/initialpose: a sample was refused: its frame_id is 'robot1/odom', "
+             "not 'map'; in RViz, that is the Fixed Frame"));
+  EXPECT_EQ(told_.size(), 2U);
+}
+
+TEST_F(DdsInbox, AMarkOfAClockThatIsAheadCanBeChangedAndRemoved) {
+  MarkExchange marks(participant_, refusals_, team::MarkJournal({}, [](const std::string&) {}));
+  marks.Start();
+  team::Mark mark{.id = "a", .kind = "note", .text = "of tomorrow", .p_map_m = {1.0, 2.0}};
+  mark.stamp = std::chrono::system_clock::now().time_since_epoch() + 24h;
+  mark.number = 1;
+  const Writer<wire::Mark> writer(participant_, kMarksTopic, Profile::kMarks);
+  const std::string map = kMapFrame;
+  writer.Write(ToWire(mark, map));
+  EXPECT_TRUE(DoUntil([] {}, [&] { return !marks.marks().empty(); }));
+  mark.text = "of today";
+  marks.Tell(mark);
+  EXPECT_EQ(marks.marks().front().text, "of today");
+  mark.is_removed = true;
+  marks.Tell(mark);
+  EXPECT_TRUE(marks.marks().front().is_removed);
+}
+
+}  // namespace
+}  // namespace qwsm::dds
