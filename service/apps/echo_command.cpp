@@ -119,7 +119,9 @@ Command AddEchoCommand(CLI::App& program) {
       "  qwsm echo robot1 --count 1            of one robot, once\n"
       "  qwsm echo robot1 --to tum > live.tum  as a trajectory");
   parser->add_option("ROBOT", arguments->robots, "namespaces of robots; else all")->type_name("");
-  parser->add_option("--count", arguments->count, "stop after so many")->type_name("N");
+  parser->add_option("--count", arguments->count, "stop after so many")
+      ->check(NumberBetween(1.0, kMostCounted))
+      ->type_name("N");
   parser->add_option("--duration", arguments->duration_s, "stop after so many seconds")
       ->check(NumberBetween(0.0, kLongest_s))
       ->type_name("S");

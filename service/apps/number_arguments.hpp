@@ -9,6 +9,9 @@ namespace qwsm::apps {
 /// Longest time that a command is given, in seconds: some thirty years.
 inline constexpr double kLongest_s = 1e9;
 
+/// Most things that a command is told to count: more than there will ever be.
+inline constexpr double kMostCounted = 1e15;
+
 /// The check() of an option that takes a number between two others; neither nan nor inf passes.
 CLI::Validator NumberBetween(double least, double most);
 

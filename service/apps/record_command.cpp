@@ -12,6 +12,7 @@
 
 #include "service/apps/command.hpp"
 #include "service/apps/network.hpp"
+#include "service/apps/number_arguments.hpp"
 #include "service/apps/output.hpp"
 #include "service/dds/robot/robot_feed.hpp"
 #include "service/io/files/atomic_file.hpp"
@@ -136,7 +137,9 @@ Command AddRecordCommand(CLI::App& program) {
                    arguments->robot,
                    "only what this robot says; of a log, else that without a namespace")
       ->type_name("NAME");
-  parser->add_option("--count", arguments->count, "stop after so many scans")->type_name("N");
+  parser->add_option("--count", arguments->count, "stop after so many scans")
+      ->check(NumberBetween(1.0, kMostCounted))
+      ->type_name("N");
   AddNetworkArguments(*parser, arguments->network, {});
   return {.parser = parser, .run = [arguments] { return RunRecord(*arguments); }};
 }

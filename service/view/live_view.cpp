@@ -65,7 +65,7 @@ class LiveView::Parts final : public WebHandler {
 
   WebAnswer Answer(const WebRequest& request) override {
     constexpr std::string_view kPlain = "text/plain";
-    if (!request.is_get) return {.status = 405, .type = kPlain, .body = "only GET\n"};
+    if (!request.is_get) return {.status = 405, .type = kPlain, .body = "only GET and HEAD\n"};
     std::string_view path = request.target.substr(0, request.target.find('?'));
     if (path == "/") path = "/index.html";
     for (const PageFile& file : PageFiles()) {

@@ -49,6 +49,20 @@ TEST(Usage, NamesTheMatchers) {
             "did you mean 'q-wsm'?\n");
 }
 
+TEST(Usage, CountsFromOne) {
+  for (const char* count : {"0", "-1"}) {
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"echo"}, std::vector<std::string>{"record", "none.mcap"}}) {
+      std::vector<std::string> arguments = command;
+      arguments.insert(arguments.end(), {"--count", count});
+      const Outcome outcome = RunProgram(arguments);
+      EXPECT_EQ(outcome.exit_code, 2);
+      EXPECT_NE(outcome.errors.find("--count: must be a number between 1 and"), std::string::npos)
+          << outcome.errors;
+    }
+  }
+}
+
 TEST(Usage, AsksForWhatIsMissing) {
   EXPECT_EQ(RunProgram({}).exit_code, 2);
   const Outcome outcome = RunProgram({"map"});

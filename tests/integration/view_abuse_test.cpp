@@ -55,6 +55,19 @@ TEST_F(ViewAbuse, RefusesPagesAndNamesOfOthers) {
             std::string::npos);
 }
 
+TEST_F(ViewAbuse, AnswersWhatItDoesNotTake) {
+  ViewedService service(network_, {"--set", "view.address=localhost"});
+  const auto answer = [&](const std::string& method, const std::string& more) {
+    return WebClient(service.port())
+        .Ask(method + " / HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n" + more);
+  };
+  const std::string head = answer("HEAD", "\r\n");
+  EXPECT_NE(head.find(" 200 "), std::string::npos) << head;
+  EXPECT_TRUE(head.ends_with("\r\n\r\n")) << head;
+  EXPECT_NE(answer("DELETE", "\r\n").find(" 405 "), std::string::npos);
+  EXPECT_NE(answer("POST", "Content-Length: 2\r\n\r\n{}").find(" 413 "), std::string::npos);
+}
+
 TEST_F(ViewAbuse, OutsideTheLoopbackNeedsAToken) {
   const Outcome open = network_.Run({"serve", "--view", "--set", "view.address=0.0.0.0"});
   EXPECT_NE(open.exit_code, 0);

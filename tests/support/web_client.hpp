@@ -37,7 +37,12 @@ class WebClient {
 
   /// Asks for a page. @param more lines of the header, each with its end.
   std::string Get(const std::string& target, const std::string& more = {}) {
-    Send("GET " + target + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n" + more + "\r\n");
+    return Ask("GET " + target + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n" + more +
+               "\r\n");
+  }
+  /// Says something. @returns all that is answered until the server hangs up.
+  std::string Ask(std::string_view request) {
+    Send(request);
     const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(10);
     while (Fill(until)) continue;
     return std::exchange(received_, {});

@@ -11,6 +11,7 @@
 
 #include "service/config/options_io.hpp"
 #include "service/options/program_options.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace qwsm::config {
 namespace {
@@ -44,6 +45,22 @@ TEST(SensorConfiguration, TheDefaultOneChangesNothing) {
   const auto options =
       LoadOptions<options::ProgramOptions>({.file = kFolder / "default.yaml", .settings = {}});
   EXPECT_EQ(DumpOptions(options), DumpOptions(options::ProgramOptions{}));
+}
+
+TEST(RobotConfiguration, NamesAreThoseThatNamespacesCanHave) {
+  const test::TemporaryFolder folder;
+  const fs::path file = folder.path() / "robots.yaml";
+  for (const char* name : {"a b", "/robot1", "a//b"}) {
+    std::ofstream(file) << "team: {robots: [{name: \"" << name << "\"}]}\n";
+    try {
+      static_cast<void>(LoadOptions<options::ProgramOptions>({.file = file, .settings = {}}));
+      ADD_FAILURE() << name;
+    } catch (const ConfigError& error) {
+      EXPECT_NE(std::string(error.what()).find("team.robots[0].name: must be a namespace"),
+                std::string::npos)
+          << error.what();
+    }
+  }
 }
 
 }  // namespace

@@ -85,22 +85,32 @@ std::string ConfigurationOf(const NetworkOptions& options) {
   return fmt::format("{}", fmt::join(parts, ","));
 }
 
-Entity CreateParticipant(std::uint32_t domain) {
+/// What decides on a network that cannot be used, to be looked at.
+std::string SettingsOf(const NetworkOptions& options) {
+  const char* environment = std::getenv("CYCLONEDDS_URI");
+  std::string settings = options.interface.empty()
+                             ? "network.interface"
+                             : fmt::format("network.interface, which is '{}'", options.interface);
+  if (environment != nullptr && *environment != '\0') settings += ", and CYCLONEDDS_URI";
+  return settings;
+}
+
+Entity CreateParticipant(std::uint32_t domain, const NetworkOptions& options) {
   const std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)> qos(dds_create_qos(), dds_delete_qos);
   constexpr std::string_view kEnclave = "enclave=/;";  // As every ROS 2 participant says.
   dds_qset_userdata(qos.get(), kEnclave.data(), kEnclave.size());
   return {dds_create_participant(domain, qos.get(), nullptr),
-          fmt::format("domain {} cannot be joined; check network.interface and CYCLONEDDS_URI",
-                      domain)};
+          fmt::format("domain {} cannot be joined; check {}", domain, SettingsOf(options))};
 }
 
 }  // namespace
 
 Participant::Participant(const NetworkOptions& options) {
   const std::uint32_t domain = DomainOf(options);
-  domain_ = Entity(dds_create_domain(domain, ConfigurationOf(options).c_str()),
-                   fmt::format("domain {} cannot be configured; check CYCLONEDDS_URI", domain));
-  participant_ = CreateParticipant(domain);
+  domain_ =
+      Entity(dds_create_domain(domain, ConfigurationOf(options).c_str()),
+             fmt::format("domain {} cannot be configured; check {}", domain, SettingsOf(options)));
+  participant_ = CreateParticipant(domain, options);
 }
 
 Guid Participant::guid() const { return GuidOf(handle()); }

@@ -2,24 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/dds/wire/robot_names.hpp"
 
-#include <algorithm>
-#include <cctype>
+#include "service/team/scans/robot_name.hpp"
 
 namespace qwsm::dds {
-namespace {
-
-constexpr std::size_t kMaxNamespaceLength = 128;
-
-/// What ROS accepts. Names become topics of ours and folders: nothing else must get through.
-bool IsNamespace(std::string_view name) {
-  const auto is_legal = [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '/';
-  };
-  return name.size() <= kMaxNamespaceLength && std::ranges::all_of(name, is_legal) &&
-         !name.starts_with('/') && !name.ends_with('/') && name.find("//") == name.npos;
-}
-
-}  // namespace
 
 RobotNames::RobotNames(std::string_view name) {
   while (name.starts_with('/')) name.remove_prefix(1);
@@ -36,7 +21,7 @@ std::optional<std::string> RobotNames::RobotOf(std::string_view dds_topic, std::
   if (rest.empty()) return std::string();
   if (!rest.ends_with('/')) return std::nullopt;  // `rt/myscan` is another topic.
   rest.remove_suffix(1);
-  return IsNamespace(rest) ? std::optional(std::string(rest)) : std::nullopt;
+  return team::IsRobotName(rest) ? std::optional(std::string(rest)) : std::nullopt;
 }
 
 std::string RobotNames::Topic(std::string_view part) const {

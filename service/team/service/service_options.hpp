@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "service/team/scans/robot_name.hpp"
 #include "service/team/session/session_options.hpp"
 
 namespace qwsm::team {
@@ -46,6 +47,9 @@ void Validate(const ServiceOptions& o, Report& report) {
   for (std::size_t i = 0; i < o.robots.size(); ++i) {
     const std::string key = "robots[" + std::to_string(i) + "].name";
     if (o.robots[i].name.empty()) report(key, "must not be empty");
+    if (!IsRobotName(o.robots[i].name)) {
+      report(key, "must be a namespace of letters, digits, _ and / between them, such as robot1");
+    }
     if (!names.insert(o.robots[i].name).second) report(key, "is the name of another robot, too");
   }
 }

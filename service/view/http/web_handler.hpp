@@ -12,7 +12,7 @@ namespace qwsm::view {
 
 /// What a browser asks for.
 struct WebRequest {
-  bool is_get = false;
+  bool is_get = false;           ///< Or what comes before it only, HEAD.
   std::string_view target{};     ///< Path and query.
   std::string_view host{};       ///< What the client calls us.
   std::string_view origin{};     ///< The page that asks; empty where no browser does.

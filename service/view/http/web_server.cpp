@@ -29,6 +29,16 @@ constexpr std::size_t kMostPlainConnections = 64;
 // What waits in the kernel cannot be overtaken by what is newer.
 constexpr int kUnsentBytes = 4 * 1024;
 
+asio::ip::address AddressOf(const std::string& text) {
+  error_code error;
+  const asio::ip::address address =
+      asio::ip::make_address(text == "localhost" ? "127.0.0.1" : text, error);
+  if (!error) return address;
+  throw WebError(fmt::format(
+      "view.address: must be an address in numbers, such as 127.0.0.1, or localhost, got '{}'",
+      text));
+}
+
 }  // namespace
 
 class WebServer::Listener {
@@ -37,7 +47,7 @@ class WebServer::Listener {
       : server_{.handler = handler, .max_sockets = options.max_sockets},
         identity_(options.identity) {
     try {
-      const tcp::endpoint endpoint(asio::ip::make_address(options.address),
+      const tcp::endpoint endpoint(AddressOf(options.address),
                                    static_cast<std::uint16_t>(options.port));
       acceptor_.open(endpoint.protocol());
       acceptor_.set_option(tcp::acceptor::reuse_address(true));

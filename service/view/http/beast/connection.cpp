@@ -9,6 +9,12 @@
 #include "service/view/http/beast/socket.hpp"
 
 namespace qwsm::view {
+namespace {
+
+constexpr WebAnswer kToldToSendNothing{
+    .status = 413, .type = "text/plain", .body = "only GET and HEAD, without a body\n"};
+
+}  // namespace
 
 Connection::Connection(Wire wire, Counted place, Server& server)
     : server_(server), place_(std::move(place)), wire_(std::move(wire)) {}
@@ -20,7 +26,8 @@ void Connection::Receive() {
   wire_.next_layer().expires_after(kTimeToAsk);
   http::async_read(
       wire_, buffer_, *parser_, [self = shared_from_this()](error_code error, std::size_t) {
-        if (!error) self->Take();
+        if (!error) return self->Take();
+        if (error == http::error::body_limit) self->Refuse(kToldToSendNothing);
       });
 }
 

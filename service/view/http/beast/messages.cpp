@@ -14,7 +14,8 @@ std::string_view ToView(beast::string_view text) { return {text.data(), text.siz
 }  // namespace
 
 WebRequest ToWebRequest(const HttpRequest& request) {
-  return {.is_get = request.method() == http::verb::get,
+  const http::verb method = request.method();
+  return {.is_get = method == http::verb::get || method == http::verb::head,
           .target = ToView(request.target()),
           .host = ToView(request[http::field::host]),
           .origin = ToView(request[http::field::origin]),
@@ -35,6 +36,7 @@ HttpResponse ToHttpResponse(const WebAnswer& answer, const HttpRequest& request)
   response.keep_alive(request.keep_alive() && answer.status == 200);
   response.body() = {answer.body.data(), answer.body.size()};
   response.prepare_payload();
+  if (request.method() == http::verb::head) response.body() = {};  // All but that is told.
   return response;
 }
 
