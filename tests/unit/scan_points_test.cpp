@@ -104,6 +104,30 @@ TEST_F(PointFiles, KeepWhatStandsBeforeTheEndOfACutBinaryFile) {
   EXPECT_NE(cut.first_problem.find("ends after 98 of 100 points"), std::string::npos);
 }
 
+TEST_F(PointFiles, KeepModelsToAMillimetreWhereverTheyLie) {
+  const Eigen::Vector3d far_m{432'101.0625, 5'432'101.0625, 51.0625};
+  PointCloud cloud;
+  cloud.push_back(far_m);
+  const fs::path file = folder_.path() / "far.ply";
+  WritePly(file, cloud);
+  ASSERT_EQ(ReadScanPoints(file).cloud.size(), 1U);
+  EXPECT_EQ(ReadScanPoints(file).cloud[0], far_m);
+  const std::uintmax_t of_doubles = fs::file_size(file);
+  cloud.Set(0, {1.0, -2.0, 3.0});
+  WritePly(file, cloud);
+  EXPECT_LT(fs::file_size(file), of_doubles);
+  EXPECT_EQ(ReadScanPoints(file).cloud[0], Eigen::Vector3d(1.0, -2.0, 3.0));
+}
+
+TEST_F(PointFiles, MayHaveWholeNumbersOfEightBytesBesideTheirPoints) {
+  const ScanPoints points =
+      ReadScanPoints(Write("t.pcd",
+                           "FIELDS t x y z\nSIZE 8 4 4 4\nTYPE U F F F\nPOINTS 1\nDATA binary\n" +
+                               std::string(8, '\1') + Bytes({1.0F, 2.0F, 3.0F})));
+  ASSERT_EQ(points.cloud.size(), 1U);
+  EXPECT_EQ(points.cloud[0], Eigen::Vector3d(1.0, 2.0, 3.0));
+}
+
 TEST_F(PointFiles, SayWhatIsWrongWithAHeader) {
   const auto problem = [&](const std::string& name, const std::string& text) {
     try {
@@ -117,6 +141,15 @@ TEST_F(PointFiles, SayWhatIsWrongWithAHeader) {
   EXPECT_NE(problem("b.ply", "ply\nformat binary_big_endian 1.0\n").find("b.ply:2: the format"),
             std::string::npos);
   EXPECT_NE(problem("c.ply", "ply\nformat ascii 1.0\nend_header\n").find("no fields x, y and z"),
+            std::string::npos);
+  EXPECT_NE(problem("d.ply", "ply\nelement vertex 1\nproperty float x\nend_header\n")
+                .find("d.ply:4: the header has no line 'format'"),
+            std::string::npos);
+  EXPECT_NE(
+      problem("e.ply", "ply\nformat ascii 1.0\nelement vertex -5\n").find("'-5' in the header"),
+      std::string::npos);
+  EXPECT_NE(problem("n.pcd", "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS -5\nDATA ascii\n")
+                .find("'-5' in the header is no count"),
             std::string::npos);
   EXPECT_NE(problem("a.pcd", "no header\n").find("this is no PCD file"), std::string::npos);
   EXPECT_NE(problem("a.las", "LASF").find("not a known file of points"), std::string::npos);

@@ -50,6 +50,8 @@ TEST(UosScan, NamesFileAndLineOfABrokenPose) {
   } catch (const std::runtime_error& error) {
     EXPECT_EQ(error.what(), file.string() + ":2: expected three angles in degrees");
   }
+  const std::filesystem::path spinning = Write("scan_spinning.pose", "1 2 3\n0 1e300 0\n");
+  EXPECT_THROW(static_cast<void>(ReadUosPose(spinning)), std::runtime_error);
   EXPECT_THROW(static_cast<void>(ReadUosPose("/nowhere/scan000.pose")), std::runtime_error);
   EXPECT_THROW(static_cast<void>(ReadUosPoints("/nowhere/scan000.3d")), std::runtime_error);
 }

@@ -28,22 +28,17 @@ PcdHeader ReadPcdHeader(RecordFile& file) {
   file.Fail("no line 'DATA ascii' or 'DATA binary': this is no PCD file");
 }
 
-std::size_t NumberOf(const RecordFile& file, const std::string& word) {
-  std::size_t number = 0;
-  std::istringstream stream(word);
-  if (!(stream >> number)) file.Fail("'" + word + "' in the header is no count");
-  return number;
-}
-
 NumberType TypeOf(const RecordFile& file, const std::string& type, std::size_t size) {
   if (type == "F" && size == 4) return NumberType::kFloat32;
   if (type == "F" && size == 8) return NumberType::kFloat64;
   if (type == "I" && size == 1) return NumberType::kInt8;
   if (type == "I" && size == 2) return NumberType::kInt16;
   if (type == "I" && size == 4) return NumberType::kInt32;
+  if (type == "I" && size == 8) return NumberType::kInt64;
   if (type == "U" && size == 1) return NumberType::kUint8;
   if (type == "U" && size == 2) return NumberType::kUint16;
   if (type == "U" && size == 4) return NumberType::kUint32;
+  if (type == "U" && size == 8) return NumberType::kUint64;
   file.Fail("a field of TYPE " + type + " and SIZE " + std::to_string(size) + " is not read");
 }
 
@@ -61,8 +56,8 @@ RecordLayout LayoutOf(const RecordFile& file, const PcdHeader& header) {
   }
   RecordLayout layout;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::size_t count = i < counts.size() ? NumberOf(file, counts[i]) : 1;
-    layout.Add(names[i], TypeOf(file, types[i], NumberOf(file, sizes[i])), count);
+    const std::size_t count = i < counts.size() ? file.Count(counts[i]) : 1;
+    layout.Add(names[i], TypeOf(file, types[i], file.Count(sizes[i])), count);
   }
   layout.Check(file.path);
   return layout;
@@ -72,7 +67,7 @@ std::size_t CountOf(const RecordFile& file, const PcdHeader& header) {
   const auto number = [&](const char* keyword) -> std::optional<std::size_t> {
     const auto found = header.find(keyword);
     if (found == header.end() || found->second.empty()) return std::nullopt;
-    return NumberOf(file, found->second.front());
+    return file.Count(found->second.front());
   };
   const std::optional<std::size_t> points = number("POINTS");
   const std::optional<std::size_t> width = number("WIDTH");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -18,7 +19,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 struct PlyHeader {
-  bool binary = false;
+  std::optional<bool> binary;
   std::size_t vertices = 0;
   RecordLayout layout;
 };
@@ -72,7 +73,10 @@ PlyHeader ReadPlyHeader(RecordFile& file) {
     std::istringstream words{std::string(*line)};
     std::string keyword;
     words >> keyword;
-    if (keyword == "end_header") return header;
+    if (keyword == "end_header") {
+      if (!header.binary) file.Fail("the header has no line 'format'");
+      return header;
+    }
     if (keyword == "format") {
       std::string format;
       words >> format;
@@ -81,15 +85,38 @@ PlyHeader ReadPlyHeader(RecordFile& file) {
       if (element.empty() && words >> element && element != "vertex") {
         file.Fail("the first element must be 'vertex', not '" + element + "'");
       }
-      if (header.layout.columns == 0 && !(words >> header.vertices)) {
-        file.Fail("expected a number of vertices");
-      }
+      std::string count;
+      words >> count;
+      if (header.layout.columns == 0) header.vertices = file.Count(count);
       if (header.layout.columns > 0) element = "other";
     } else if (keyword == "property" && element == "vertex") {
       ReadProperty(file, words, header);
     }
   }
   file.Fail("the header has no end_header");
+}
+
+/// A step between two floats is no larger than this where they will do.
+constexpr double kLargestFloatStep_m = 1e-3;
+
+/// Whether floats are as good as doubles: they are not where a model lies far from its origin.
+bool FitsFloats(const PointCloud& cloud) {
+  double farthest_m = 0.0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    farthest_m = std::max(farthest_m, cloud[i].cwiseAbs().maxCoeff());
+  }
+  constexpr auto kStepShare = static_cast<double>(std::numeric_limits<float>::epsilon());
+  return kStepShare * farthest_m <= kLargestFloatStep_m;
+}
+
+template <class Number>
+void WriteVertices(std::ostream& stream, const PointCloud& cloud) {
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Matrix<Number, 3, 1> point_m = cloud[i].cast<Number>();
+    std::array<char, sizeof(Number) * 3> bytes{};
+    std::memcpy(bytes.data(), point_m.data(), bytes.size());
+    stream.write(bytes.data(), bytes.size());
+  }
 }
 
 }  // namespace
@@ -99,7 +126,7 @@ ScanPoints ReadPly(const std::filesystem::path& path) {
   const PlyHeader header = ReadPlyHeader(file);
   header.layout.Check(path);
   ScanPoints points;
-  if (header.binary) {
+  if (*header.binary) {
     TakeBinary(file, header.layout, header.vertices, points);
   } else {
     TakeText(file, header.layout, header.vertices, points);
@@ -109,14 +136,17 @@ ScanPoints ReadPly(const std::filesystem::path& path) {
 
 void WritePly(const std::filesystem::path& path, const PointCloud& cloud) {
   qwsm::io::AtomicFile file(path);
+  const bool as_floats = FitsFloats(cloud);
   file.stream() << "ply\nformat binary_little_endian 1.0\ncomment metres, x forward, y left, z up\n"
-                << "element vertex " << cloud.size()
-                << "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const Eigen::Vector3f point_m = cloud[i].cast<float>();
-    std::array<char, sizeof(float) * 3> bytes{};
-    std::memcpy(bytes.data(), point_m.data(), bytes.size());
-    file.stream().write(bytes.data(), bytes.size());
+                << "element vertex " << cloud.size() << "\n";
+  for (const char axis : {'x', 'y', 'z'}) {
+    file.stream() << "property " << (as_floats ? "float " : "double ") << axis << "\n";
+  }
+  file.stream() << "end_header\n";
+  if (as_floats) {
+    WriteVertices<float>(file.stream(), cloud);
+  } else {
+    WriteVertices<double>(file.stream(), cloud);
   }
   file.Commit();
 }

@@ -13,7 +13,8 @@ namespace slam6d::io {
 /// @throws std::runtime_error naming file and line where it is no such file.
 ScanPoints ReadPly(const std::filesystem::path& file);
 
-/// Writes points as a binary PLY with 32-bit floats, in metres.
+/// Writes points as a binary PLY, in metres: as 32-bit floats, or as doubles where floats would
+/// round to more than a millimetre.
 /// @throws qwsm::io::WriteError where it cannot be written.
 void WritePly(const std::filesystem::path& file, const PointCloud& cloud);
 

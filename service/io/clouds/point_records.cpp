@@ -3,6 +3,7 @@
 #include "service/io/clouds/point_records.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <stdexcept>
@@ -40,6 +41,10 @@ double LoadNumber(const char* bytes, NumberType type) {
       return Load<std::int32_t>(bytes);
     case NumberType::kUint32:
       return Load<std::uint32_t>(bytes);
+    case NumberType::kInt64:
+      return Load<std::int64_t>(bytes);
+    case NumberType::kUint64:
+      return Load<std::uint64_t>(bytes);
     case NumberType::kFloat32:
       return Load<float>(bytes);
     case NumberType::kFloat64:
@@ -72,7 +77,7 @@ std::optional<Eigen::Vector3d> PointInLine(std::string_view line, const RecordLa
 }  // namespace
 
 std::size_t SizeOf(NumberType type) {
-  constexpr std::array<std::size_t, 8> kSizes{1, 1, 2, 2, 4, 4, 4, 8};
+  constexpr std::array<std::size_t, 10> kSizes{1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
   return kSizes[static_cast<std::size_t>(type)];
 }
 
@@ -115,6 +120,14 @@ std::optional<std::string_view> RecordFile::NextLine() {
   ++line;
   if (text.ends_with('\r')) text.remove_suffix(1);
   return text;
+}
+
+std::size_t RecordFile::Count(std::string_view word) const {
+  std::size_t count = 0;
+  const char* const end = word.data() + word.size();
+  const auto [rest, error] = std::from_chars(word.data(), end, count);
+  if (error == std::errc{} && rest == end) return count;
+  Fail("'" + std::string(word) + "' in the header is no count");
 }
 
 std::string RecordFile::Problem(const std::string& what) const {

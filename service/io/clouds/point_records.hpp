@@ -14,7 +14,18 @@
 namespace slam6d::io {
 
 /// Numbers as files hold them, little endian.
-enum class NumberType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
+enum class NumberType {
+  kInt8,
+  kUint8,
+  kInt16,
+  kUint16,
+  kInt32,
+  kUint32,
+  kInt64,
+  kUint64,
+  kFloat32,
+  kFloat64
+};
 
 std::size_t SizeOf(NumberType type);
 
@@ -49,6 +60,8 @@ struct RecordFile {
 
   /// The next line of text; nothing at the end.
   std::optional<std::string_view> NextLine();
+  /// A number of points or the like, as the header has it; Fail() where it is none.
+  std::size_t Count(std::string_view word) const;
   /// Text of a problem here: "file:line: what".
   std::string Problem(const std::string& what) const;
   /// Throws the Problem() as std::runtime_error.

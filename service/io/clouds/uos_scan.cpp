@@ -20,11 +20,15 @@
 namespace slam6d::io {
 namespace {
 
-/// Kinds of steps in a .frames file, by which the viewer colours a scan.
 constexpr const char* kTooFar =
     "the position is more than 10000 km from the origin; its source had failed, or its unit is no "
     "centimetre";
 
+constexpr double kMostAngle_deg = 360.0 * 1000.0;
+constexpr const char* kTooManyTurns =
+    "an angle is more than a thousand turns; its source had failed";
+
+/// Kinds of steps in a .frames file, by which the viewer colours a scan.
 constexpr int kStartStep = 1;
 constexpr int kMatchedStep = 2;
 
@@ -88,6 +92,7 @@ Pose3 ReadUosPose(const std::filesystem::path& file) {
   if (!IsPosition(Eigen::Vector3d(kMetresPerUosUnit * *position_cm))) Fail(file, 1, kTooFar);
   const std::optional<Eigen::Vector3d> angles_deg = NextTriple(text);
   if (!angles_deg) Fail(file, 2, "expected three angles in degrees");
+  if (!(angles_deg->cwiseAbs().maxCoeff() <= kMostAngle_deg)) Fail(file, 2, kTooManyTurns);
   const Eigen::Vector3d angles_rad = *angles_deg * (std::numbers::pi / 180.0);
   const Eigen::Matrix3d R_uos = (Eigen::AngleAxisd(angles_rad.x(), Eigen::Vector3d::UnitX()) *
                                  Eigen::AngleAxisd(angles_rad.y(), Eigen::Vector3d::UnitY()) *
