@@ -20,15 +20,15 @@ double SecondsSince(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-RegisteredScan Add(LoadedScan loaded, std::size_t number, Slam& slam) {
+RegisteredScan Add(LoadedScan loaded, Slam& slam) {
   const Clock::time_point begin = Clock::now();
-  RegisteredScan scan{
-      .name = std::move(loaded.name),
-      .file = std::move(loaded.file),
-      .stamp = loaded.stamp.value_or(std::chrono::seconds(static_cast<std::int64_t>(number))),
-      .T_odom_scan = loaded.T_odom_scan,
-      .cloud = WithinRange(loaded.cloud, slam.options()),
-      .step = {}};
+  RegisteredScan scan{.name = std::move(loaded.name),
+                      .file = std::move(loaded.file),
+                      .stamp = loaded.stamp.value_or(
+                          std::chrono::seconds(static_cast<std::int64_t>(loaded.number))),
+                      .T_odom_scan = loaded.T_odom_scan,
+                      .cloud = WithinRange(loaded.cloud, slam.options()),
+                      .step = {}};
   scan.step = slam.Add(scan.cloud, loaded.T_odom_scan);
   scan.time_s = SecondsSince(begin);
   return scan;
@@ -67,7 +67,7 @@ Registration RegisterSeries(ScanSeries& series,
     std::optional<LoadedScan> loaded = series.Next();
     if (!loaded) break;
     for (const std::string& problem : loaded->problems) observer.warn(problem);
-    result.scans.push_back(Add(std::move(*loaded), result.scans.size(), slam));
+    result.scans.push_back(Add(std::move(*loaded), slam));
     const double share =
         static_cast<double>(result.scans.size()) / static_cast<double>(series.size());
     observer.show(share_of_scans * share,

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 #include <tuple>
@@ -20,16 +21,55 @@ namespace fs = std::filesystem;
 /// Scans read before the first is given out, so that one in other units is told from the others.
 constexpr std::size_t kReadAhead = 3;
 
+/// A name and the number at its end, without zeros before it.
+struct NumberedName {
+  std::string name;
+  std::string number;
+  bool has_number;
+};
+
+NumberedName SplitNumber(const std::string& name) {
+  const std::size_t length = name.find_last_not_of("0123456789") + 1;
+  const std::string digits = name.substr(length);
+  return {.name = name.substr(0, length),
+          .number = digits.substr(std::min(digits.find_first_not_of('0'), digits.size())),
+          .has_number = !digits.empty()};
+}
+
 /// Names in the order of the numbers at their ends: scan9 before scan10.
 bool ByNumber(const fs::path& a, const fs::path& b) {
   const auto key = [](const fs::path& file) {
-    const std::string name = io::ScanName(file);
-    const std::size_t digits = name.size() - (name.find_last_not_of("0123456789") + 1);
-    const std::string number = name.substr(name.size() - digits);
-    const std::size_t zeros = std::min(number.find_first_not_of('0'), number.size());
-    return std::tuple(name.substr(0, name.size() - digits), digits - zeros, number.substr(zeros));
+    const NumberedName split = SplitNumber(io::ScanName(file));
+    return std::tuple(split.name, split.number.size(), split.number);
   };
   return key(a) < key(b);
+}
+
+/// Every scan leaves files under its name: where two have the same, all are called by their place.
+void MakeNamesUnique(std::vector<ScanPlace>& places) {
+  std::set<std::string> names;
+  for (const ScanPlace& place : places) names.insert(place.name);
+  if (names.size() == places.size()) return;
+  for (std::size_t i = 0; i < places.size(); ++i) places[i].name = fmt::format("scan{:03}", i);
+}
+
+/// Numbers longer than these are no seconds of a stamp.
+constexpr std::size_t kMostDigits = 9;
+
+/// The numbers at the ends of the names, if these differ in nothing else; or else the places.
+std::vector<std::size_t> NumbersOf(const std::vector<ScanPlace>& places) {
+  std::vector<std::size_t> counted(places.size());
+  std::iota(counted.begin(), counted.end(), std::size_t{0});
+  std::vector<std::size_t> numbers;
+  std::set<std::string> names;
+  for (const ScanPlace& place : places) {
+    const NumberedName split = SplitNumber(place.name);
+    names.insert(split.name);
+    if (!split.has_number || split.number.size() > kMostDigits || names.size() > 1) return counted;
+    numbers.push_back(split.number.empty() ? 0 : std::stoul(split.number));
+  }
+  const bool all_differ = std::set(numbers.begin(), numbers.end()).size() == numbers.size();
+  return all_differ ? numbers : counted;
 }
 
 std::vector<fs::path> FindInFolder(const fs::path& folder) {
@@ -37,7 +77,7 @@ std::vector<fs::path> FindInFolder(const fs::path& folder) {
   std::set<io::PointFormat> formats;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     // Texts in a folder are rather notes than points; as arguments they are believed.
-    const bool is_text = entry.path().string().find(".txt") != std::string::npos;
+    const bool is_text = entry.path().filename().string().find(".txt") != std::string::npos;
     if (!entry.is_regular_file() || is_text || !io::IsPointFile(entry.path())) continue;
     files.push_back(entry.path());
     formats.insert(io::PointFormatOf(entry.path()));
@@ -98,18 +138,24 @@ std::vector<ScanPlace> FindScans(const std::vector<fs::path>& arguments,
     } else if (fs::is_directory(argument)) {
       for (const fs::path& file : FindInFolder(argument)) add_file(file);
     } else {
+      if (!fs::exists(argument)) {
+        throw std::runtime_error(argument.string() + ": no such file or folder");
+      }
       static_cast<void>(io::PointFormatOf(argument));
-      if (!fs::exists(argument)) throw std::runtime_error(argument.string() + ": no such file");
       add_file(argument);
     }
   }
+  MakeNamesUnique(places);
   return places;
 }
 
 ScanSeries::ScanSeries(std::vector<ScanPlace> places,
                        io::NumberedPoses starts,
                        const options::RegistrationOptions& options)
-    : places_(std::move(places)), starts_(std::move(starts)), options_(options) {}
+    : places_(std::move(places)),
+      numbers_(NumbersOf(places_)),
+      starts_(std::move(starts)),
+      options_(options) {}
 
 std::optional<LoadedScan> ScanSeries::Next() {
   ReadAhead();
@@ -122,20 +168,21 @@ std::optional<LoadedScan> ScanSeries::Next() {
   Eigen::Matrix3d& R = read.scan.T_odom_scan.rotation;
   R = RotationFromQuaternion(QuaternionOf(R));
   poses_.push_back(read.scan.T_odom_scan);
-  ++given_;
   return std::move(read.scan);
 }
 
 void ScanSeries::ReadAhead() {
   while (read_ < places_.size() && ahead_.size() < kReadAhead) {
-    ahead_.push_back(Read(places_[read_++]));
+    ahead_.push_back(Read(read_++));
     const double range_m = ahead_.back().range_m;
     if (range_m > 0.0 && ranges_m_.size() < kReadAhead) ranges_m_.push_back(range_m);
   }
 }
 
-ScanSeries::ReadScan ScanSeries::Read(const ScanPlace& place) const {
+ScanSeries::ReadScan ScanSeries::Read(std::size_t scan) const {
+  const ScanPlace& place = places_[scan];
   ReadScan read;
+  read.scan.number = numbers_[scan];
   read.scan.name = place.name;
   read.scan.file = place.file;
   try {
@@ -191,7 +238,7 @@ Pose3 ScanSeries::StartPose(ReadScan& read) {
   if (starts_.empty()) {
     return (read.is_of_bag ? read.T_odom_scan : PoseInFile(read.scan)).value_or(guess);
   }
-  const auto number = static_cast<double>(given_);
+  const auto number = static_cast<double>(read.scan.number);
   if (const auto start = starts_.find(number); start != starts_.end()) return start->second;
   read.scan.problems.push_back(
       fmt::format("{}: no pose with the number {} to start from", read.scan.file.string(), number));
@@ -200,7 +247,7 @@ Pose3 ScanSeries::StartPose(ReadScan& read) {
 
 /// The pose in the file beside that of the points.
 std::optional<Pose3> ScanSeries::PoseInFile(LoadedScan& scan) {
-  const fs::path file = scan.file.parent_path() / (scan.name + ".pose");
+  const fs::path file = scan.file.parent_path() / (io::ScanName(scan.file) + ".pose");
   try {
     if (fs::exists(file)) return io::ReadUosPose(file);
     if (!told_of_no_pose_) {

@@ -19,7 +19,7 @@ namespace slam6d::pipeline {
 /// Where the points of a scan are: a file, or one of the clouds of a bag.
 struct ScanPlace {
   std::filesystem::path file;         ///< Of a cloud of a bag "BAG:NAME", for messages.
-  std::string name;                   ///< Name of the file, without folder and endings.
+  std::string name;                   ///< As LoadedScan has it.
   std::shared_ptr<io::CloudBag> bag;  ///< Null for a file.
   std::size_t number = 0;             ///< Of the cloud among those of the bag.
 };
@@ -34,7 +34,11 @@ std::vector<ScanPlace> FindScans(const std::vector<std::filesystem::path>& argum
 
 /// A scan as it was read.
 struct LoadedScan {
-  std::string name;  ///< Name of the file, without folder and endings.
+  /// Name of the file, without folder and endings; "scanNNN" by its place where names repeat.
+  std::string name;
+  /// The number at the end of its name, where all names differ in that alone; or else its place in
+  /// the series, counted from 0.
+  std::size_t number = 0;
   std::filesystem::path file;
   std::optional<qwsm::Timestamp> stamp;  ///< Where its source tells it.
   PointCloud cloud;                      ///< Points; none where the scan was left out.
@@ -50,8 +54,8 @@ struct LoadedScan {
 class ScanSeries {
  public:
   /// Gives scans in the order of their places.
-  /// @param starts poses by the numbers of the scans, counted from 0; empty: from `NAME.pose`
-  ///        beside each file, or the odometry of the bag.
+  /// @param starts poses by the numbers of the scans; empty: from `NAME.pose` beside each file, or
+  ///        the odometry of the bag.
   ScanSeries(std::vector<ScanPlace> places,
              io::NumberedPoses starts,
              const options::RegistrationOptions& options);
@@ -67,7 +71,7 @@ class ScanSeries {
     double range_m = 0.0;              ///< Range that half of the points exceed.
   };
 
-  ReadScan Read(const ScanPlace& place) const;
+  ReadScan Read(std::size_t scan) const;
   static void ReadCloud(const ScanPlace& place, ReadScan& read);
   void ReadFile(const ScanPlace& place, ReadScan& read) const;
   void ReadAhead();
@@ -76,10 +80,10 @@ class ScanSeries {
   std::optional<Pose3> PoseInFile(LoadedScan& scan);
 
   std::vector<ScanPlace> places_;
+  std::vector<std::size_t> numbers_;  ///< Of the scans at the places.
   io::NumberedPoses starts_;
   options::RegistrationOptions options_;
   std::size_t read_ = 0;
-  std::size_t given_ = 0;
   std::deque<ReadScan> ahead_;
   std::vector<double> ranges_m_;  ///< Ranges of the scans in the right units.
   std::vector<Pose3> poses_;      ///< Poses of the scans given out.
