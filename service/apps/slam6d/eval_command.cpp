@@ -30,8 +30,28 @@ struct EvalArguments {
   bool json = false;
 };
 
+void WarnOfMissing(const pipeline::NamedErrors& named) {
+  const pipeline::PoseErrors& errors = named.errors;
+  if (errors.poses == errors.true_poses) return;
+  fmt::print(stderr,
+             "slam6d: {}: {} of {} true poses are compared; the others have no pose in it\n",
+             named.name,
+             errors.poses,
+             errors.true_poses);
+}
+
+/// A bound on the error is that of the whole drive, or at least of most of it.
+constexpr double kLeastCovered = 0.5;
+
 int CountFailures(const pipeline::NamedErrors& named, const EvalArguments& arguments) {
   int failures = 0;
+  if ((arguments.max_ate_m || arguments.max_ate_deg) && named.errors.covered < kLeastCovered) {
+    fmt::print(stderr,
+               "slam6d: {}: spans {:.0f} % of the truth, too little to hold a bound to\n",
+               named.name,
+               100.0 * named.errors.covered);
+    ++failures;
+  }
   const auto check = [&](const std::optional<double>& bound, double value, const char* what) {
     if (!bound || value <= *bound) return;  // Written so that NaN fails.
     fmt::print(stderr, "slam6d: {}: {}: {:.6g} is above {:.6g}\n", named.name, what, value, *bound);
@@ -53,7 +73,10 @@ ExitCode RunEval(const EvalArguments& arguments) {
   }
   qwsm::apps::Print("{}", arguments.json ? ErrorJson(all) : ErrorTable(all));
   int failures = 0;
-  for (const pipeline::NamedErrors& named : all) failures += CountFailures(named, arguments);
+  for (const pipeline::NamedErrors& named : all) {
+    WarnOfMissing(named);
+    failures += CountFailures(named, arguments);
+  }
   return failures == 0 ? ExitCode::kDone : ExitCode::kFailed;
 }
 

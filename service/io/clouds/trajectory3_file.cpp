@@ -43,6 +43,7 @@ NumberedPoses ReadTum3(const fs::path& file) {
         pose.rotation = q.normalized().toRotationMatrix();
         poses[stamp] = pose;
       });
+  if (poses.empty()) throw std::runtime_error(file.string() + ": holds no poses");
   return poses;
 }
 

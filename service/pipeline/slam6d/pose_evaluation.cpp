@@ -37,6 +37,16 @@ std::vector<PosePair3> PairUp(const io::NumberedPoses& estimate, const io::Numbe
   return pairs;
 }
 
+/// Every tenth pose of a drive covers it; the first tenth of its poses does not.
+double CoveredShare(const io::NumberedPoses& estimate, const io::NumberedPoses& truth) {
+  const double all = truth.rbegin()->first - truth.begin()->first;
+  if (!(all > 0.0)) return 1.0;
+  const auto is_common = [&](const auto& numbered) { return estimate.contains(numbered.first); };
+  const auto first = std::find_if(truth.begin(), truth.end(), is_common);
+  const auto last = std::find_if(truth.rbegin(), truth.rend(), is_common);
+  return (last->first - first->first) / all;
+}
+
 /// The motion that lays the estimate over the truth.
 Pose3 AlignmentOf(const std::vector<PosePair3>& pairs, PoseAlignment alignment) {
   if (alignment == PoseAlignment::kNone) return {};
@@ -64,7 +74,8 @@ PoseErrors Compare(const io::NumberedPoses& estimate,
                    PoseAlignment alignment) {
   const std::vector<PosePair3> pairs = PairUp(estimate, truth);
   const Pose3 T_truth_estimate = AlignmentOf(pairs, alignment);
-  PoseErrors errors{.poses = pairs.size()};
+  PoseErrors errors{
+      .poses = pairs.size(), .true_poses = truth.size(), .covered = CoveredShare(estimate, truth)};
   const auto count = static_cast<double>(pairs.size());
   double sum_m2 = 0.0;
   double sum_rad2 = 0.0;
@@ -114,6 +125,7 @@ std::string ErrorJson(std::span<const NamedErrors> all) {
     Json json;
     json["trajectory"] = named.name;
     json["poses"] = e.poses;
+    json["true_poses"] = e.true_poses;
     json["ate"]["rmse_m"] = e.rmse_m;
     json["ate"]["mean_m"] = e.mean_m;
     json["ate"]["max_m"] = e.max_m;

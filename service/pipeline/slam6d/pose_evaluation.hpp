@@ -20,7 +20,9 @@ enum class PoseAlignment {
 
 /// Absolute trajectory error: root mean square, mean and largest over the poses.
 struct PoseErrors {
-  std::size_t poses = 0;
+  std::size_t poses = 0;       ///< Compared ones.
+  std::size_t true_poses = 0;  ///< All that there were to compare with.
+  double covered = 0.0;        ///< Share of the truth, from its first pose to its last, they span.
   double rmse_m = 0.0;
   double mean_m = 0.0;
   double max_m = 0.0;
