@@ -65,6 +65,22 @@ TEST(OctreeOverlap, KeepsAGoodGuess) {
   EXPECT_GT(found.motions_tried, 100U);
 }
 
+TEST(OctreeOverlap, SeeksNoLongerForWhatLiesFarFromItsFrame) {
+  const OverlapOptions options;
+  const Pose3 far{.translation_m = {400e3, 5e6, 0.0}};
+  const OverlapModel ref(far * ScanRoom({}, 3000, 0.005, 4), options);
+  const OverlapModel cur(far * ScanRoom({}, 3000, 0.005, 5), options);
+  const OverlapReference reference{.model = &ref, .T_map_ref = {}};
+  EXPECT_LT(GuessByOverlap({&reference, 1}, cur, {}, options).motions_tried, 100'000U);
+}
+
+TEST(OctreeOverlap, KeepsItsStepsWhereAPointIsStray) {
+  PointCloud cloud = ScanRoom({}, 3000, 0.005, 4);
+  const double radius_m = OverlapModel(cloud, {}).radius_m();
+  cloud.push_back({300e3, 0.0, 0.0});
+  EXPECT_LT(OverlapModel(cloud, {}).radius_m(), 4.0 * radius_m);
+}
+
 TEST(OctreeOverlap, OfNothingIsNone) {
   const OverlapOptions options;
   const OverlapModel empty(PointCloud{}, options);

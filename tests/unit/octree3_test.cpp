@@ -50,6 +50,17 @@ TEST(Octree, TakesLargerCubesForACloudTooWide) {
   EXPECT_GT(octree.cube_m(), 1.0);
 }
 
+TEST(Octree, KeepsItsCubesWhereAFewPointsAreStray) {
+  PointCloud cloud = ScanRoom({}, 5000, 0.01, 1);
+  const auto cubes = static_cast<double>(Octree(cloud, 0.1).size());
+  cloud.push_back({300e3, 2.0, 1.0});
+  cloud.push_back({0.0, -300e3, 1.0});
+  const Octree octree(cloud, 0.1);
+  EXPECT_EQ(octree.cube_m(), 0.1);
+  EXPECT_NEAR(static_cast<double>(octree.size()), cubes + 2.0, 0.2 * cubes);
+  EXPECT_EQ(octree.points(octree.size() - 1).size() + octree.points(0).size(), 2U);
+}
+
 TEST(Reduction, KeepsNothingOrAllAsAsked) {
   const PointCloud cloud = ScanRoom({}, 100, 0.01, 2);
   EXPECT_EQ(Reduce(cloud, {.voxel_m = 0.0}).size(), cloud.size());

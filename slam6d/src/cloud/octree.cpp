@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slam6d/cloud/octree.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <numeric>
@@ -46,6 +47,29 @@ Extent ExtentOf(const PointCloud& cloud) {
   return extent;
 }
 
+/// Of the points of a cloud that is too wide for its cubes, this share at each end of an axis may
+/// be stray ones.
+constexpr double kStrayShare = 0.025;
+
+/// The same without the points that may be stray.
+Extent WithoutStrays(const PointCloud& cloud, const Extent& all) {
+  Extent extent = all;
+  std::vector<double> along_m(all.points.size());
+  const auto strays =
+      static_cast<std::ptrdiff_t>(kStrayShare * static_cast<double>(along_m.size()));
+  for (int axis = 0; axis < 3; ++axis) {
+    std::ranges::transform(
+        all.points, along_m.begin(), [&](std::uint32_t point) { return cloud[point](axis); });
+    std::ranges::nth_element(along_m, along_m.begin() + strays);
+    extent.low_m(axis) = along_m[static_cast<std::size_t>(strays)];
+    std::ranges::nth_element(along_m, along_m.end() - 1 - strays);
+    extent.high_m(axis) = *(along_m.end() - 1 - strays);
+  }
+  return extent;
+}
+
+double WidestM(const Extent& extent) { return (extent.high_m - extent.low_m).maxCoeff(); }
+
 struct CodedPoint {
   std::uint64_t code;
   std::uint32_t point;
@@ -81,20 +105,28 @@ Octree::Octree(const PointCloud& cloud, double cube_m) : cube_m_(cube_m) {
   assert(cube_m > 0.0 && "cubes have an edge");
   const Extent extent = ExtentOf(cloud);
   origin_m_ = extent.low_m;
-  const double widest_m = (extent.high_m - extent.low_m).maxCoeff();
-  while (!(widest_m / cube_m_ < kMaxCubes - 1)) cube_m_ *= 2.0;
+  if (!(WidestM(extent) / cube_m_ < kMaxCubes - 1)) {
+    const Extent most = WithoutStrays(cloud, extent);
+    while (!(WidestM(most) / cube_m_ < kMaxCubes - 1)) cube_m_ *= 2.0;
+    const Eigen::Vector3d center_m = 0.5 * (most.low_m + most.high_m);
+    origin_m_ = center_m.array() - 0.5 * kMaxCubes * cube_m_;
+  }
+  const auto place_of = [&](std::uint32_t point) {
+    const Eigen::Vector3d highest_m = origin_m_.array() + (kMaxCubes - 0.5) * cube_m_;
+    return PlaceOf(cloud[point].cwiseMax(origin_m_).cwiseMin(highest_m), origin_m_, cube_m_);
+  };
 
   std::vector<CodedPoint> coded;
   coded.reserve(extent.points.size());
   for (const std::uint32_t point : extent.points) {
-    coded.push_back({MortonCode(PlaceOf(cloud[point], origin_m_, cube_m_)), point});
+    coded.push_back({MortonCode(place_of(point)), point});
   }
   SortByCode(coded);
   points_.reserve(coded.size());
   for (std::size_t i = 0; i < coded.size(); ++i) {
     if (i == 0 || coded[i].code != coded[i - 1].code) {
       first_.push_back(static_cast<std::uint32_t>(i));
-      places_.push_back(PlaceOf(cloud[coded[i].point], origin_m_, cube_m_));
+      places_.push_back(place_of(coded[i].point));
     }
     points_.push_back(coded[i].point);
   }

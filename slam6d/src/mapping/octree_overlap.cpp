@@ -114,7 +114,30 @@ class Search {
   std::size_t tried_ = 0;
 };
 
-int StepsIn(double range, double step) { return static_cast<int>(std::ceil(range / step)); }
+/// No scanner sees so many times as far as most of what it sees: the rest are stray points, which
+/// count as if they were no farther off.
+constexpr double kStrayRatio = 100.0;
+
+double RadiusOf(const std::vector<Eigen::Vector3d>& means_m) {
+  if (means_m.empty()) return 0.0;
+  std::vector<double> ranges2_m2;
+  for (const Eigen::Vector3d& mean_m : means_m) ranges2_m2.push_back(mean_m.squaredNorm());
+  std::vector<double> sorted_m2 = ranges2_m2;
+  const auto middle = sorted_m2.begin() + static_cast<std::ptrdiff_t>(sorted_m2.size() / 2);
+  std::ranges::nth_element(sorted_m2, middle);
+  const double most_m2 = kStrayRatio * kStrayRatio * *middle;
+  double sum_m2 = 0.0;
+  for (const double range2_m2 : ranges2_m2) sum_m2 += std::min(range2_m2, most_m2);
+  return std::sqrt(sum_m2 / static_cast<double>(means_m.size()));
+}
+
+/// More steps to a side no search needs about a scanner that stands among its points. Where these
+/// are in another frame, far from its origin, every turn moves them by many cubes.
+constexpr double kMostSearchSteps = 1000.0;
+
+int StepsIn(double range, double step) {
+  return static_cast<int>(std::min(std::ceil(range / step), kMostSearchSteps));
+}
 
 }  // namespace
 
@@ -144,15 +167,13 @@ OverlapModel::OverlapModel(const PointCloud& cloud, const OverlapOptions& option
   for (int level = 0; level < std::max(options.levels, 1); ++level) {
     levels_.emplace_back(octree.origin_m(), octree.cube_m(level), KeysOf(octree, level));
   }
-  double sum_m2 = 0.0;
   for (std::size_t cube = 0; cube < octree.size(); ++cube) {
     const auto points = octree.points(cube);
     Eigen::Vector3d mean_m = Eigen::Vector3d::Zero();
     for (const std::uint32_t i : points) mean_m += cloud[i] / static_cast<double>(points.size());
     means_m_.push_back(mean_m);
-    sum_m2 += mean_m.squaredNorm();
   }
-  radius_m_ = std::sqrt(sum_m2 / static_cast<double>(std::max<std::size_t>(octree.size(), 1)));
+  radius_m_ = RadiusOf(means_m_);
 }
 
 double Overlap(std::span<const OverlapReference> references,

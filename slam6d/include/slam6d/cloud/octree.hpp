@@ -21,7 +21,8 @@ using CubePlace = std::array<std::uint32_t, 3>;
 /// its place k times.
 class Octree {
  public:
-  /// Most cubes along an axis. For a wider cloud the smallest cube is doubled until they suffice.
+  /// Most cubes along an axis. For a wider cloud the smallest cube is doubled until they suffice
+  /// for all but stray points; these are in the outermost cubes.
   static constexpr std::uint32_t kMaxCubes = 1U << 21U;
 
   /// Sorts the points into cubes in O(n log n); points that are not finite are left out.

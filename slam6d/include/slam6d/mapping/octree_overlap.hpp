@@ -72,7 +72,7 @@ class OverlapModel {
   const std::vector<CubeSet>& levels() const { return levels_; }
   /// The mean of the points of every smallest cube; neighbours stand near each other.
   const std::vector<Eigen::Vector3d>& means_m() const { return means_m_; }
-  /// Root mean square distance of the cubes' means from the scanner.
+  /// Root mean square distance of the cubes' means from the scanner, but for stray points.
   double radius_m() const { return radius_m_; }
 
  private:
