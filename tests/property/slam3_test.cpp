@@ -94,6 +94,17 @@ TEST(Slam3, DeadReckonsWhereAScanShowsAnotherPlace) {
   EXPECT_EQ(steps[3].status, SlamStatus::kMatched);
 }
 
+TEST(Slam3, DoesNotBelieveWhatNothingSpeaksFor) {
+  const Pose3 away{.translation_m = {100.0, 0.0, 0.0}};
+  const Drive3 drive = DriveInCircle(2, 4000, 8);
+  Slam slam({}, kCloser);
+  static_cast<void>(slam.Add(away * drive.scans[0], {}));
+  const SlamStep step = slam.Add(away * drive.scans[0], {});
+  EXPECT_EQ(step.match.status, IcpStatus::kConverged);
+  EXPECT_EQ(step.told, 0U);
+  EXPECT_EQ(step.status, SlamStatus::kDeadReckoned);
+}
+
 // Points that lie on nothing fit nowhere: with all of them, twenty times as much was sought as for a
 // scan that fits.
 TEST(Slam3, SeeksWhatFitsNowhereWithFewPoints) {

@@ -103,8 +103,7 @@ double RangeImage::seen_sr() const {
 }
 
 double Agreement::Contradiction() const {
-  const std::size_t told = surface + free;
-  return told > 0 ? static_cast<double>(free) / static_cast<double>(told) : 0.0;
+  return told() > 0 ? static_cast<double>(free) / static_cast<double>(told()) : 0.0;
 }
 
 double Agreement::Overlap() const {

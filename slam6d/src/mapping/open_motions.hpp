@@ -19,6 +19,7 @@ class OpenMotions {
 
   /// Whether the pairs tell of every motion at least as much as the guess does.
   bool empty() const { return first_ == kMotions; }
+  int size() const { return kMotions - first_; }
 
   /// The covariance of the result with all that follows from the guess. Sliding along a street, a
   /// scan rises with the ground, turns with it, and meets other surfaces; the equations at one

@@ -48,8 +48,8 @@ class Attempts {
     const PoseAndGuess start{.now = T_map_cur, .guess = guess_};
     Registration result{.icp = Align(models_, *cur_.model, start, options_.icp)};
     result.agreement = Compare(images_, *cur_.image, result.icp.T_ref_cur);
-    result.convinces = HasPose(result.icp) && IsWithinReach(result.icp.T_ref_cur) &&
-                       result.agreement.Contradiction() <= options_.evidence.max_contradiction;
+    result.convinces =
+        HasPose(result.icp) && IsWithinReach(result.icp.T_ref_cur) && IsBorneOut(result.agreement);
     return result;
   }
 
@@ -57,6 +57,7 @@ class Attempts {
   Registration WithErrorOfGuess(Registration registration) const {
     const OpenMotions open(registration.icp, guess_, options_.icp);
     if (registration.convinces && !open.empty()) {
+      registration.open_motions = open.size();
       registration.icp.covariance = open.Covariance(models_, *cur_.model);
     }
     return registration;
@@ -103,6 +104,11 @@ class Attempts {
   bool IsWithinReach(const Pose3& T_map_cur) const {
     const Vector6d error = Difference(T_map_cur, guess_.T_a_b);
     return error.dot(SolvePositive(guess_.covariance, error)) <= kMostGuessChi2;
+  }
+
+  /// Scans of which neither tells anything of the other's points may be anywhere.
+  bool IsBorneOut(const Agreement& agreement) const {
+    return agreement.told() > 0 && agreement.Contradiction() <= options_.evidence.max_contradiction;
   }
 
   std::span<const PlacedScan> references_;

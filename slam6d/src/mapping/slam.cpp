@@ -209,7 +209,9 @@ SlamStatus Slam::Match(const PlacedScan& cur,
   const Registration match = Register(references, cur, guess_covariance, HowToRegister(options_));
   step.match = match.icp;
   step.overlap = match.agreement.Overlap();
+  step.told = match.agreement.told();
   step.contradiction = match.agreement.Contradiction();
+  step.open_motions = match.open_motions;
   if (!match.convinces) return SlamStatus::kDeadReckoned;
   step.T_map_scan = match.icp.T_ref_cur;
   return SlamStatus::kMatched;

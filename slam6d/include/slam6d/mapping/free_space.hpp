@@ -49,6 +49,8 @@ struct Agreement {
   std::size_t surface = 0;  ///< Points of any scan on what the other scanner saw, too.
   std::size_t free = 0;     ///< Points where the other scanner saw nothing but air.
 
+  /// Points of which the other scanner tells anything.
+  std::size_t told() const { return surface + free; }
   /// Share of the points told about that contradict the other scan; 0 if nothing is told.
   double Contradiction() const;
   /// Share of the current scan's points that lie on what a reference saw.

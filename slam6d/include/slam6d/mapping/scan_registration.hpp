@@ -45,9 +45,10 @@ struct PlacedScan {
 struct Registration {
   IcpResult icp;  ///< Its `ref` is the map; its searches are those of all attempts.
   Agreement agreement{};
-  /// Whether the pairs hold the pose, within what the guess may be wrong by, and free space does
-  /// not contradict it.
+  /// Whether the pairs hold the pose, within what the guess may be wrong by, and what the scanners
+  /// saw of each other's points tells something and does not contradict it.
   bool convinces = false;
+  int open_motions = 0;  ///< Of six motions, so many are left to the guess, where it convinces.
 };
 
 /// Registers a scan, which is guessed to be at its pose within a covariance, with all references at

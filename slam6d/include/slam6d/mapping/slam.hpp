@@ -98,8 +98,10 @@ struct SlamStep {
   double voxel_m = 0.0;    ///< Cubes by which the scan was thinned; 0 if it was not.
   std::size_t points = 0;  ///< Points of the scan after its reduction.
   IcpResult match{};       ///< Match with the scans before; its `ref` is the map.
+  int open_motions = 0;    ///< Of six motions, so many the match leaves to the odometry.
   /// Share of the scan's points that lie on what the scans before saw, after the match.
   double overlap = 0.0;
+  std::size_t told = 0;  ///< Points of which two scans both tell after the match.
   /// Share of the points told about by two scans that contradict the other: solid for one, air for
   /// the other.
   double contradiction = 0.0;
