@@ -105,6 +105,21 @@ TEST(Slam3, DoesNotBelieveWhatNothingSpeaksFor) {
   EXPECT_EQ(step.status, SlamStatus::kDeadReckoned);
 }
 
+TEST(Slam3, ThinsToCubesLargerThanSurfacesAreThick) {
+  constexpr double kNoise_m = 0.03;
+  constexpr int kPoints = 60'000;
+  const Pose3 T_first_second{.rotation = RotationFromRollPitchYaw({0.0, 0.0, 0.05}),
+                             .translation_m = {0.3, 0.1, 0.0}};
+  const Pose3 stand{.translation_m = {-1.0, -1.0, 1.2}};
+  Slam slam({}, kCloser);
+  static_cast<void>(slam.Add(ScanRoom(stand, kPoints, kNoise_m, 1), {}));
+  const SlamStep step = slam.Add(ScanRoom(stand * T_first_second, kPoints, kNoise_m, 2), {});
+  EXPECT_GT(step.voxel_m, 2.0 * kNoise_m);
+  EXPECT_EQ(step.status, SlamStatus::kMatched);
+  EXPECT_EQ(step.open_motions, 0);
+  EXPECT_LT((step.T_map_scan.translation_m - T_first_second.translation_m).norm(), 0.01);
+}
+
 // Points that lie on nothing fit nowhere: with all of them, twenty times as much was sought as for a
 // scan that fits.
 TEST(Slam3, SeeksWhatFitsNowhereWithFewPoints) {

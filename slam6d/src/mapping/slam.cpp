@@ -70,6 +70,33 @@ double VoxelFor(const PointCloud& points, const RangeImage& image, const SlamOpt
   return kCubesPerSpacing * SpacingFarOff(points, image);
 }
 
+struct ThinnedScan {
+  double voxel_m = 0.0;  ///< Edge of the cubes; 0 if it was not thinned.
+  PointCloud points;
+  ScanModel model;
+};
+
+/// Thins a scan. Cubes that are no larger than a surface is thick leave pieces as thick as wide, of
+/// which none is flat: where nobody chose them, they are doubled as long as more pieces become so.
+ThinnedScan Thin(const PointCloud& all, const RangeImage& image, const SlamOptions& options) {
+  ReductionOptions reduction = options.reduction;
+  reduction.voxel_m = VoxelFor(all, image, options);
+  const auto thin = [&](const PointCloud& cloud) {
+    PointCloud points = Reduce(cloud, reduction);
+    ScanModel model(points, options.tree);
+    return ThinnedScan{reduction.voxel_m, std::move(points), std::move(model)};
+  };
+  ThinnedScan scan = thin(all);
+  const bool is_chosen = reduction.voxel_m == options.reduction.voxel_m;
+  while (!is_chosen) {
+    reduction.voxel_m *= 2.0;
+    ThinnedScan coarser = thin(scan.points);
+    if (coarser.model.surfels.surfels.size() <= scan.model.surfels.surfels.size()) break;
+    scan = std::move(coarser);
+  }
+  return scan;
+}
+
 /// For guesses that are worse by a factor.
 RegistrationOptions Widened(RegistrationOptions options, double factor) {
   OverlapOptions& search = options.guess;
@@ -149,10 +176,9 @@ Slam::Slam(const SlamOptions& options, const LoopCloser& closer)
 SlamStep Slam::Add(const PointCloud& scan, const Pose3& T_odom_scan) {
   const PointCloud all = WithinRange(scan, options_);
   RangeImage image(all);
-  ReductionOptions reduction = options_.reduction;
-  reduction.voxel_m = VoxelFor(all, image, options_);
-  const PointCloud points = Reduce(all, reduction);
-  SlamStep step{.T_map_scan = T_odom_scan, .voxel_m = reduction.voxel_m, .points = points.size()};
+  ThinnedScan thinned = Thin(all, image, options_);
+  SlamStep step{
+      .T_map_scan = T_odom_scan, .voxel_m = thinned.voxel_m, .points = thinned.points.size()};
   Eigen::Vector3d way_m = Eigen::Vector3d::Zero();
   if (!graph_.T_map_scan.empty()) {
     const Pose3& T_map_last = graph_.T_map_scan.back();
@@ -160,8 +186,8 @@ SlamStep Slam::Add(const PointCloud& scan, const Pose3& T_odom_scan) {
     way_m = step.T_map_scan.translation_m - T_map_last.translation_m;
   }
   T_odom_last_ = T_odom_scan;
-  Entry entry{.range_m = RangeOf(points, kRangeShare),
-              .model = ScanModel(points, options_.tree),
+  Entry entry{.range_m = RangeOf(thinned.points, kRangeShare),
+              .model = std::move(thinned.model),
               .image = std::move(image)};
   const bool usable = entry.model.tree.size() >= kLeastPoints;
   const PlacedScan cur{.model = &entry.model, .image = &entry.image, .T_map_scan = step.T_map_scan};

@@ -26,8 +26,8 @@ struct SlamOptions {
   /// Thinning of the scans; where it names no size, `thin_above_points` decides.
   ReductionOptions reduction{};
   /// A scan with more points is thinned to cubes as large as its points lie apart where it sees
-  /// far: points nearer to each other tell the same of the same surface, errors included. 0 keeps
-  /// them all.
+  /// far: points nearer to each other tell the same of the same surface, errors included; and to
+  /// larger ones where only these are larger than the surfaces are thick. 0 keeps them all.
   int thin_above_points = 26'000;
   KdTreeOptions tree{};
   OverlapOptions guess{};
