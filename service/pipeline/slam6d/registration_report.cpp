@@ -18,6 +18,7 @@ struct Figures {
   std::size_t kept_points = 0;  ///< After the thinning of the scans.
   double mean_voxel_m = 0.0;    ///< Of the scans that were thinned.
   std::size_t thinned = 0;
+  std::size_t left_open = 0;  ///< Scans whose match leaves motions to the odometry.
   std::size_t loops = 0;
   double path_m = 0.0;
   double mean_overlap = 0.0;
@@ -44,6 +45,7 @@ Figures FiguresOf(const Registration& registration) {
     figures.time_s += scan.time_s;
     figures.longest_s = std::max(figures.longest_s, scan.time_s);
     if (scan.step.status != SlamStatus::kMatched) continue;
+    figures.left_open += scan.step.open_motions > 0 ? 1 : 0;
     figures.mean_overlap += scan.step.overlap / matched;
     figures.mean_rms_m += scan.step.match.rms_residual_m / matched;
   }
@@ -63,6 +65,7 @@ Json MetricsOf(const Registration& registration) {
   json["scans"] = registration.scans.size();
   json["scans_in_series"] = registration.series_size;
   json["matched"] = Count(registration, SlamStatus::kMatched);
+  json["matched_with_open_motions"] = figures.left_open;
   json["dead_reckoned"] = Count(registration, SlamStatus::kDeadReckoned);
   json["unusable"] = Count(registration, SlamStatus::kUnusable);
   json["loops_closed"] = figures.loops;
@@ -97,6 +100,12 @@ std::string SummaryText(const Registration& registration) {
                       Count(registration, SlamStatus::kMatched),
                       100.0 * figures.mean_overlap,
                       1000.0 * figures.mean_rms_m);
+  if (figures.left_open > 0) {
+    text += fmt::format(
+        "left open      {} of these leave motions to odometry: open_motions and cov_* in "
+        "scans.csv\n",
+        figures.left_open);
+  }
   text += fmt::format("dead-reckoned  {}\n", Count(registration, SlamStatus::kDeadReckoned));
   text += fmt::format("unusable       {}\n", Count(registration, SlamStatus::kUnusable));
   text += fmt::format("loops          {} closed\n", figures.loops);

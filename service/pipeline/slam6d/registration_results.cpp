@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <numbers>
 
 #include "service/io/clouds/ply_file.hpp"
@@ -56,17 +57,40 @@ std::string LoopsText(const std::vector<std::size_t>& loops) {
   return fmt::format("{}", fmt::join(loops, " "));
 }
 
+/// The names of the upper triangle of a covariance, row by row, with their units.
+std::string CovarianceHeader() {
+  constexpr std::array<const char*, 6> kNames{"x", "y", "z", "roll", "pitch", "yaw"};
+  std::string text;
+  for (std::size_t row = 0; row < kNames.size(); ++row) {
+    for (std::size_t column = row; column < kNames.size(); ++column) {
+      const char* const unit = column < 3 ? "m2" : row < 3 ? "m_rad" : "rad2";
+      text += fmt::format(",cov_{}{}_{}", kNames[row], kNames[column], unit);
+    }
+  }
+  return text;
+}
+
+std::string CovarianceText(const Matrix6d& covariance) {
+  std::string text;
+  for (int row = 0; row < 6; ++row) {
+    for (int column = row; column < 6; ++column)
+      text += fmt::format(",{:.6g}", covariance(row, column));
+  }
+  return text;
+}
+
 std::string Table(const Registration& registration) {
   std::string text =
       "scan,name,status,points,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg,iterations,pairs,"
-      "rms_residual_m,overlap,contradiction,loops_to,time_s\n";
+      "rms_residual_m,overlap,contradiction,loops_to,time_s,open_motions" +
+      CovarianceHeader() + "\n";
   for (std::size_t i = 0; i < registration.scans.size(); ++i) {
     const RegisteredScan& scan = registration.scans[i];
     const Pose3& pose = registration.T_map_scan[i];
     const Eigen::Vector3d angles_deg = RollPitchYaw(pose.rotation) * 180.0 / std::numbers::pi;
     text += fmt::format(
         "{},{},{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{},{},{:.6f},{:.3f},{:.4f},{},{:.4f}"
-        "\n",
+        ",{}{}\n",
         i,
         scan.name,
         Name(scan.step.status),
@@ -83,7 +107,9 @@ std::string Table(const Registration& registration) {
         scan.step.overlap,
         scan.step.contradiction,
         LoopsText(scan.step.loops_to),
-        scan.time_s);
+        scan.time_s,
+        scan.step.open_motions,
+        CovarianceText(scan.step.covariance));
   }
   return text;
 }
