@@ -191,7 +191,12 @@ TEST_F(Slam6dProgram, SaysWhatIsWrongWithItsArguments) {
   fs::create_directories(empty);
   expect({"register", empty}, "holds no scans");
   expect({"register", folder_.path() / "none.3d"}, "no such file");
-  expect({"register", folder_.path() / "none.las"}, "not a known file of points");
+  expect({"register", folder_.path() / "nowhere"}, "no such file or folder");
+  std::ofstream(folder_.path() / "other.las") << "LASF";
+  expect({"register", folder_.path() / "other.las"}, "not a known file of points");
+  const fs::path nothing = folder_.path() / "nothing.ply";
+  std::ofstream(nothing) << "ply\nformat binary_big_endian 1.0\n";
+  expect({"register", nothing, "--output", results_}, "none of the scans has three");
   expect({"register", scans_, "--set", "slam.icp.metrik=svd"}, "did you mean");
   expect({"eval", empty, "--truth", truth_}, "holds no trajectory.tum");
   expect({"regster"}, "did you mean 'register'");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -114,7 +115,12 @@ pipeline::Registration Register(pipeline::ScanSeries& series,
 
 void WarnOfDoubtfulScans(const pipeline::Registration& registration) {
   for (const pipeline::RegisteredScan& scan : registration.scans) {
-    if (scan.step.status == SlamStatus::kDeadReckoned) {
+    if (scan.step.status == SlamStatus::kDeadReckoned && scan.step.told == 0) {
+      qwsm::messages::Warn(
+          "{}: sees nothing where the scans before it do, so that nothing speaks for where it "
+          "matches them; it is where odometry has it. Are its points in the scanner's frame?",
+          scan.file.string());
+    } else if (scan.step.status == SlamStatus::kDeadReckoned) {
       qwsm::messages::Warn(
           "{}: could not be registered with the scans before it ({}, overlap {:.0f} %, of which "
           "{:.0f} % contradicts them); it is where odometry has it",
@@ -127,6 +133,16 @@ void WarnOfDoubtfulScans(const pipeline::Registration& registration) {
           "{}: has fewer than three different points that count; it is where odometry has it",
           scan.file.string());
     }
+  }
+}
+
+/// @throws qwsm::apps::UsageError where there is nothing to make a model of.
+void CheckAnyUsable(const pipeline::Registration& registration) {
+  const bool any = std::ranges::any_of(registration.scans, [](const auto& scan) {
+    return scan.step.status != SlamStatus::kUnusable;
+  });
+  if (!any && !registration.interrupted) {
+    throw qwsm::apps::UsageError("none of the scans has three different points that count");
   }
 }
 
@@ -146,6 +162,7 @@ ExitCode RunRegister(const RegisterArguments& arguments) {
   const pipeline::Registration registration =
       Register(series, options, interruption, arguments.verbosity);
   WarnOfDoubtfulScans(registration);
+  CheckAnyUsable(registration);
   pipeline::WriteResults(registration, options, folder, PicturesOf(arguments, registration));
   const std::string summary = pipeline::SummaryText(registration);
   qwsm::messages::Info("\n{}", summary);
