@@ -54,7 +54,13 @@ ExitCode Replay(Source& source,
   const bool is_complete = replay.Run(interruption);
   const auto time = std::chrono::steady_clock::now() - begin;
   if (!verbosity.quiet) Print("{}", replay.Summary(time));
-  return is_complete ? ExitCode::kDone : ExitCode::kInterrupted;
+  if (!is_complete) return ExitCode::kInterrupted;
+  if (!replay.is_ignored()) return ExitCode::kDone;
+  messages::Error(
+      "no scan was answered: a service takes none that is older than what it had of the same "
+      "robot, as in a second replay; start '{}' anew, or give another --robot",
+      server);
+  return ExitCode::kFailed;
 }
 
 }  // namespace qwsm::apps

@@ -80,6 +80,9 @@ class NetworkReplay {
     return true;
   }
 
+  /// Whether answers were waited for, and none came.
+  bool is_ignored() const { return !pace_ && is_answered_ && window_.answered() == 0; }
+
   std::string Summary(std::chrono::duration<double> time) const {
     std::string text = fmt::format("published      {} scans in {:.1f} s\n",
                                    WithThousands(source_.progress().scans),
