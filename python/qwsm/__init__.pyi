@@ -3,7 +3,7 @@
 """Types of the module; what each thing is stands in its docstring: help(qwsm.Mapper)."""
 
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any, Union, overload
 
 import numpy as np
@@ -13,7 +13,7 @@ __version__: str
 
 Floats = NDArray[np.float64]
 Ids = NDArray[np.uint32]
-Options = Mapping[str, Any]
+Options = dict[str, Any]
 Path = Union[str, os.PathLike[str]]
 Pose = Union["Pose2", Sequence[float], Floats]
 

@@ -3,7 +3,6 @@
 """Types of the module; what each thing is stands in its docstring: help(slam6d.align)."""
 
 import os
-from collections.abc import Mapping
 from typing import Any, Union
 
 import numpy as np
@@ -12,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 __version__: str
 
 Floats = NDArray[np.float64]
-Options = Mapping[str, Any]
+Options = dict[str, Any]
 
 class OptionError(ValueError): ...
 

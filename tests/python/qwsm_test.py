@@ -143,6 +143,12 @@ class Mapping(unittest.TestCase):
                 theirs = pathlib.Path(folder, "run", f"trajectory{name}.tum").read_bytes()
                 self.assertEqual(ours, theirs)
 
+    def test_absurd_odometry_is_refused(self):
+        scan = next(r.scan for r in qwsm.read_log(LOG) if isinstance(r, qwsm.ScanReading))
+        for pose in (float("nan"), 0, 0), (1e300, 0, 0):
+            with self.assertRaisesRegex(ValueError, "T_odom_robot must be finite"):
+                qwsm.Mapper().process(scan, pose)
+
     def test_scan_by_scan_is_the_live_path(self):
         mapper = qwsm.Mapper()
         readings = (r for r in qwsm.read_log(LOG) if isinstance(r, qwsm.ScanReading))

@@ -3,6 +3,7 @@
 """The module slam6d on scans of a simulated hall."""
 
 import tempfile
+import threading
 import unittest
 
 import numpy as np
@@ -55,6 +56,37 @@ class Registration(unittest.TestCase):
             slam6d.align(model, model, np.ones((4, 4)))
         with self.assertRaisesRegex(slam6d.OptionError, "option icp.metrik: unknown.*'metric'"):
             slam6d.Slam({"icp.metrik": "point-to-plane"})
+
+    def test_poses_may_be_rounded_and_not_absurd(self):
+        model = slam6d.ScanModel(hall_from(self.first, 1, points=100))
+        slam6d.align(model, model, np.round(pose(0.3, 0.1, 0.7), 4))
+        with self.assertRaisesRegex(ValueError, "off by 0.21"):
+            slam6d.align(model, model, np.diag([1.1, 1.1, 1.1, 1.0]))
+        with self.assertRaisesRegex(ValueError, "within 10000 km"):
+            slam6d.Slam().add(hall_from(self.first, 1), pose(1e300, 0.0, 0.0))
+
+    def test_threads_take_turns(self):
+        slam = slam6d.Slam()
+        clouds = [hall_from(self.first, seed, points=2000) for seed in range(4)]
+
+        def add():
+            for cloud in clouds:
+                slam.add(cloud, np.eye(4))
+                self.assertGreater(len(slam.poses), 0)
+
+        threads = [threading.Thread(target=add) for _ in range(3)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(len(slam.poses), 12)
+
+    def test_faults_of_files_are_told(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".xyz") as file:
+            file.write("1 2 3\n4 5\n")
+            file.flush()
+            with self.assertWarnsRegex(UserWarning, r":2: expected three .*\(1 of this kind"):
+                self.assertEqual(slam6d.read_points(file.name).shape, (1, 3))
 
     def test_points_of_files(self):
         with tempfile.NamedTemporaryFile("w", suffix=".xyz") as file:

@@ -9,6 +9,7 @@
 
 #include "python/src/option_dict.hpp"
 #include "python/src/qwsm/bindings.hpp"
+#include "qwsm/geometry/position.hpp"
 
 namespace qwsm::python {
 
@@ -55,7 +56,9 @@ void AddMapper(py::module_& module) {
       "Incremental mapping (Visser et al. 2009, sections 3 and 4) by one robot: each scan is "
       "matched "
       "with the union of all relevant scans before it, and relevant ones extend the map. What was "
-      "found is never corrected afterwards; map_log does so. Deterministic; reads no clock.")
+      "found is never corrected afterwards; map_log does so. Deterministic; reads no clock. "
+      "Threads "
+      "may share one: they take turns.")
       .def(py::init(
                [](const py::dict& options) { return Mapper(OptionsFrom<MapperOptions>(options)); }),
            py::arg("options") = py::dict(),
@@ -66,7 +69,11 @@ void AddMapper(py::module_& module) {
       .def(
           "process",
           [](Mapper& mapper, const LaserScan& scan, const std::optional<Pose2>& T_odom_robot) {
-            const py::gil_scoped_release without_gil;
+            if (T_odom_robot && !IsPosition(*T_odom_robot)) {
+              throw std::invalid_argument(
+                  "T_odom_robot must be finite and within 10000 km of the origin");
+            }
+            // With the interpreter's lock: views into the map are read under it, too.
             return mapper.Process({.scan = scan, .T_odom_robot = T_odom_robot});
           },
           py::arg("scan"),

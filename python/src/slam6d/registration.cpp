@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include <Eigen/LU>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "python/src/option_dict.hpp"
 #include "python/src/slam6d/bindings.hpp"
 #include "service/io/clouds/scan_points.hpp"
+#include "slam6d/geometry/position.hpp"
 #include "slam6d/graph/ceres_loop_closer.hpp"
 #include "slam6d/icp/icp.hpp"
 #include "slam6d/mapping/slam.hpp"
@@ -47,14 +50,30 @@ py::array_t<double> PointsOf(const PointCloud& cloud) {
   return points_m;
 }
 
+/// Poses of files have six digits, and those in floats lose more when multiplied.
+constexpr double kMostDeviation = 1e-3;
+
 Pose3 PoseOf(const Transform& T) {
   const Eigen::Matrix3d rotation = T.topLeftCorner<3, 3>();
-  const bool is_rigid = T.allFinite() && T.row(3) == Eigen::RowVector4d(0, 0, 0, 1) &&
-                        (rotation * rotation.transpose()).isIdentity(1e-6) &&
-                        rotation.determinant() > 0.0;
-  if (!is_rigid)
+  if (!T.allFinite() || T.row(3) != Eigen::RowVector4d(0, 0, 0, 1) ||
+      !(rotation.determinant() > 0.0)) {
     throw std::invalid_argument("a pose must be a rigid transform: 4x4, rotation and translation");
-  return {.rotation = NearestRotation(rotation), .translation_m = T.topRightCorner<3, 1>()};
+  }
+  const double deviation =
+      (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (!(deviation <= kMostDeviation)) {
+    throw std::invalid_argument(
+        fmt::format("a pose must be a rigid transform: its rotation R is off by {:.2g} in R R^T, "
+                    "where {:.2g} is rounding",
+                    deviation,
+                    kMostDeviation));
+  }
+  const Pose3 pose{.rotation = NearestRotation(rotation),
+                   .translation_m = T.topRightCorner<3, 1>()};
+  if (!IsPosition(pose)) {
+    throw std::invalid_argument("a pose must be within 10000 km of the origin, in metres");
+  }
+  return pose;
 }
 
 Transform TransformOf(const Pose3& pose) {
@@ -74,25 +93,47 @@ IcpResult AlignClouds(const ScanModel& ref,
   return Align(ref, cur, guess, icp);
 }
 
-/// A map of scans with the solver that closes its loops.
-struct SolvingSlam {
-  explicit SolvingSlam(const SlamOptions& options) : slam(options, closer) {}
+/// A map of scans with the solver that closes its loops. Threads take turns.
+class SolvingSlam {
+ public:
+  explicit SolvingSlam(const SlamOptions& options) : slam_(options, closer_) {}
 
-  graph::CeresLoopCloser closer;
-  Slam slam;
+  /// What a function of the map returns, which is called while other threads run Python.
+  template <class Function>
+  auto With(const Function& function) {
+    const py::gil_scoped_release without_gil;
+    const std::lock_guard lock(mutex_);
+    return function(slam_);
+  }
+
+ private:
+  std::mutex mutex_;
+  graph::CeresLoopCloser closer_;
+  Slam slam_;
 };
 
 SlamStep AddScan(SolvingSlam& self, const ArrayOf<double>& points_m, const Transform& T_odom_scan) {
   const PointCloud cloud = CloudOf(points_m);
   const Pose3 odometry = PoseOf(T_odom_scan);
-  const py::gil_scoped_release without_gil;
-  return self.slam.Add(cloud, odometry);
+  return self.With([&](Slam& slam) { return slam.Add(cloud, odometry); });
 }
 
-std::vector<Transform> PosesOf(const SolvingSlam& self) {
-  std::vector<Transform> poses;
-  for (const Pose3& pose : self.slam.T_map_scan()) poses.push_back(TransformOf(pose));
-  return poses;
+std::vector<Transform> PosesOf(SolvingSlam& self) {
+  return self.With([](const Slam& slam) {
+    std::vector<Transform> poses;
+    for (const Pose3& pose : slam.T_map_scan()) poses.push_back(TransformOf(pose));
+    return poses;
+  });
+}
+
+py::array_t<double> ReadPoints(const std::filesystem::path& path) {
+  const io::ScanPoints points = io::ReadScanPoints(path);
+  if (points.skipped_lines > 0) {
+    const std::string problem = fmt::format(
+        "{} ({} of this kind; the rest is used)", points.first_problem, points.skipped_lines);
+    if (PyErr_WarnEx(PyExc_UserWarning, problem.c_str(), 1) != 0) throw py::error_already_set();
+  }
+  return PointsOf(points.cloud);
 }
 
 void AddAlign(py::module_& module) {
@@ -126,7 +167,8 @@ void AddAlign(py::module_& module) {
       py::arg_v("T_ref_cur_guess", Transform(Transform::Identity()), "numpy.identity(4)"),
       py::arg("options") = py::dict(),
       "Aligns a scan with a reference, beginning at a guess (Nuechter et al. 2007, section 3.3). "
-      "options: as under `slam.icp` in the program's configuration.");
+      "options: as under `slam.icp` in the program's configuration (`slam6d config --describe`), "
+      "where angles are in degrees: {'guess_sigma_deg': 5}.");
 }
 
 void AddSlam(py::module_& module) {
@@ -145,12 +187,13 @@ void AddSlam(py::module_& module) {
       module,
       "Slam",
       "6D SLAM (Nuechter et al. 2007, section 3): scans taken one after the other, "
-      "in one consistent model.")
+      "in one consistent model. Threads may share one: they take turns.")
       .def(py::init([](const py::dict& options) {
              return std::make_unique<SolvingSlam>(OptionsFrom<SlamOptions>(options));
            }),
            py::arg("options") = py::dict(),
-           "options: as under `slam` in the program's configuration (`slam6d config describe`).")
+           "options: as under `slam` in the program's configuration (`slam6d config --describe`), "
+           "where angles are in degrees.")
       .def("add",
            &AddScan,
            py::arg("points_m"),
@@ -162,8 +205,7 @@ void AddSlam(py::module_& module) {
       .def(
           "refine",
           [](SolvingSlam& self) {
-            const py::gil_scoped_release without_gil;
-            self.slam.Refine();
+            self.With([](Slam& slam) { static_cast<void>(slam.Refine()); });
           },
           "Fits all scans to each other, where refinement.enabled says so.");
 }
@@ -173,10 +215,11 @@ void AddSlam(py::module_& module) {
 void AddRegistration(py::module_& module) {
   module.def(
       "read_points",
-      [](const std::filesystem::path& path) { return PointsOf(io::ReadScanPoints(path).cloud); },
+      &ReadPoints,
       py::arg("path"),
       "Points (n, 3) of a file in the scanner's frame, right-handed, in metres: .3d of 3DTK, .xyz, "
-      ".txt, .ply, .pcd or KITTI's .bin; .gz, .bz2 or .xz may follow.");
+      ".txt, .ply, .pcd or KITTI's .bin; .gz, .bz2 or .xz may follow. What is no point is left out "
+      "and told as a UserWarning.");
   AddAlign(module);
   AddSlam(module);
 }
