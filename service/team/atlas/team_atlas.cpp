@@ -61,6 +61,7 @@ bool TeamAtlas::Extend(const TeamScan& scan,
     surroundings_.sinks.Tell(&TeamSink::TakeRelevantScan, *shared);
     TellNewPoints(*shared, *insertion->addition);
   });
+  joined_.erase(component.name);
   CatchUp(component);
   CorrectIfDue(component);
   return true;
@@ -74,6 +75,7 @@ bool TeamAtlas::TakeIn(TeamScan scan) {
   if (!component.map->Insert(scan, points)) return false;
   maps_.Put(scan.key.robot, component.name);
   surroundings_.keep(ToJournal(scan), [] {});
+  joined_.erase(component.name);
   CatchUp(component);
   CorrectIfDue(component);
   of_others_.push_back(std::move(scan));
@@ -92,11 +94,10 @@ void TeamAtlas::Settle(TeamScan& scan) const {
     scan.map_robot = told->second.map_robot;
     return;
   }
-  for (auto joined = joined_.find(scan.component); joined != joined_.end();
-       joined = joined_.find(scan.component)) {
-    scan.component = joined->second.component;
-    scan.map_robot = UncertainPose2{.T_a_b = joined->second.T_into_from} * scan.map_robot;
-  }
+  const auto joined = joined_.find(scan.component);
+  if (joined == joined_.end()) return;
+  scan.component = joined->second.component;
+  scan.map_robot = UncertainPose2{.T_a_b = joined->second.T_into_from} * scan.map_robot;
 }
 
 void TeamAtlas::TakeIn(const TeamEpoch& epoch) {
@@ -136,7 +137,7 @@ bool TeamAtlas::Part(const std::string& robot,
                      const MapVersion& from,
                      const std::string& from_name) {
   const std::string own = maps_.NewNameFor(robot);
-  return Rearrange([&]() -> std::optional<Plan> {
+  const bool has_parted = Rearrange([&]() -> std::optional<Plan> {
     if (!IsStill(from_name, from)) return std::nullopt;
     const MapComponent component = maps_.Named(from_name);
     Rearrangement wanted = AsTheyAre(maps_);
@@ -152,6 +153,8 @@ bool TeamAtlas::Part(const std::string& robot,
     if (!T_own_map) return std::nullopt;
     return Plan{.rank = Next(epoch_), .rearrangement = std::move(wanted)};
   });
+  if (!has_parted) maps_.GiveBack(own);
+  return has_parted;
 }
 
 // The correctors know the scans of their maps, in the same order.
@@ -209,19 +212,23 @@ bool TeamAtlas::Rearrange(const Planner& plan) {
 void TeamAtlas::TakeEffect(const Rearrangement& rearrangement, const RearrangedMaps& made) {
   TeamEpoch epoch = EpochOf(maps_, rearrangement, epoch_);
   std::map<std::string, std::string> home_of_robot;
+  const auto map_of_component = made.maps();
   for (const auto& [name, wanted] : rearrangement.wanted) {
     const bool loses_scans = std::ranges::any_of(
         wanted, [&, &of = name](const Placement& place) { return place.component != of; });
     if (loses_scans) {
+      const bool is_none = map_of_component.at(name) == nullptr;
+      if (is_none) NoteJoined(name, wanted.back());
       Leave(name, wanted, home_of_robot);
     } else if (IsCorrected(*maps_.Named(name).map, wanted)) {
       CorrectorOf(name).Adopt(PosesOf(std::span(wanted).first(CorrectorOf(name).size())));
     }
   }
-  for (const auto& [name, map] : made.maps()) {
+  for (const auto& [name, map] : map_of_component) {
+    if (map) joined_.erase(name);
     if (maps_.Has(name)) outdated_.push_back(maps_.Named(name).map);
   }
-  maps_.Exchange(made.maps(), home_of_robot);
+  maps_.Exchange(map_of_component, home_of_robot);
   Tell(std::move(epoch));
 }
 
@@ -230,7 +237,6 @@ void TeamAtlas::Leave(const std::string& component,
                       const std::vector<Placement>& wanted,
                       std::map<std::string, std::string>& home_of_robot) {
   const std::vector<TeamScan> scans = maps_.Named(component).map->Scans();
-  NoteJoined(component, wanted.back(), scans.back().map_robot.T_a_b);
   for (std::size_t id = 0; id < scans.size(); ++id) {
     const std::string& robot = scans[id].key.robot;
     if (maps_.Of(robot).name == component) home_of_robot[robot] = wanted[id].component;
@@ -238,12 +244,17 @@ void TeamAtlas::Leave(const std::string& component,
   if (auto corrector = correctors_.extract(component)) retired_.push_back(std::move(corrector));
 }
 
-void TeamAtlas::NoteJoined(const std::string& component,
-                           const Placement& wanted,
-                           const Pose2& before) {
-  if (wanted.component == component) return;
-  joined_[component] = {.component = wanted.component,
-                        .T_into_from = wanted.map_robot.T_a_b * before.Inverse()};
+// Those that had become part of it are now part of the other one, too: wherever a scan belongs is
+// found by looking once.
+// @param last where its last scan is now.
+void TeamAtlas::NoteJoined(const std::string& component, const Placement& last) {
+  const Pose2 before = maps_.Named(component).map->Read()->map.scans().back().map_robot.T_a_b;
+  const Pose2 T_into_from = last.map_robot.T_a_b * before.Inverse();
+  for (auto& [name, joined] : joined_) {
+    if (joined.component != component) continue;
+    joined = {.component = last.component, .T_into_from = T_into_from * joined.T_into_from};
+  }
+  joined_[component] = {.component = last.component, .T_into_from = T_into_from};
 }
 
 std::optional<Correction> TeamAtlas::Finish(const std::string& component) {

@@ -118,7 +118,7 @@ class TeamAtlas {
   void Leave(const std::string& component,
              const std::vector<Placement>& wanted,
              std::map<std::string, std::string>& home_of_robot);
-  void NoteJoined(const std::string& component, const Placement& wanted, const Pose2& before);
+  void NoteJoined(const std::string& component, const Placement& last);
   void Tell(TeamEpoch epoch);
   void TellNewPoints(const TeamScan& scan, const MapAddition& addition) const;
   void TellAsEvent(const TeamEpoch& epoch) const;
@@ -134,7 +134,7 @@ class TeamAtlas {
   std::vector<std::shared_ptr<TeamMap>> outdated_;  // Maps that others have replaced.
   EpochRank epoch_;
   Placements told_;                         // By the last epoch of another service.
-  std::map<std::string, JoinedTo> joined_;  // Components that are none any more.
+  std::map<std::string, JoinedTo> joined_;  // Components without scans, to such as have some.
   std::vector<TeamScan> of_others_;         // Scans taken in from other services.
 };
 

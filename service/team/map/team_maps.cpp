@@ -59,6 +59,11 @@ std::string TeamMaps::NewNameFor(std::string_view robot) {
   return NewName(robot);
 }
 
+void TeamMaps::GiveBack(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  names_.erase(name);
+}
+
 // A robot may begin several components, one after the other.
 std::string TeamMaps::NewName(std::string_view robot) {
   const std::string stem = robot.empty() ? std::string("robot") : std::string(robot);

@@ -51,6 +51,8 @@ class TeamMaps {
   void Put(std::string_view robot, const std::string& name);
   /// A name that no component had before, for one that the robot begins.
   std::string NewNameFor(std::string_view robot);
+  /// Says that no component has got that name after all. @pre NewNameFor() gave it.
+  void GiveBack(const std::string& name);
   /// An empty map, of no component yet.
   std::shared_ptr<TeamMap> Make() const { return std::make_shared<TeamMap>(options_); }
   /// Gives components other maps, all at once; one without a map is none any more. Who reads a map
