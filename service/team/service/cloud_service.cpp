@@ -62,6 +62,7 @@ CloudService::CloudService(const CloudServiceOptions& options,
           [this](const TeamEvent& event) { sinks_.Tell(&CloudSink::TakeEvent, event); },
           [this](std::string robot) { return MakeSession(std::move(robot)); }) {
   host_.Restore([this](const io::JournalEntry& entry) { Restore(CloudFromJournal(entry)); });
+  host_.ExpectRobots();
 }
 
 CloudService::~CloudService() { Stop(); }

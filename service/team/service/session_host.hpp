@@ -45,9 +45,11 @@ class SessionHost {
   const Sessions& sessions() const { return sessions_; }
   ServiceJournal& journal() { return journal_; }
 
-  /// Gives all entries of the journal to `take`, and expects the configured robots from then on.
-  void Restore(const std::function<void(const io::JournalEntry&)>& take) {
-    journal_.Restore(take);
+  /// Gives all entries of the journal to `take`.
+  void Restore(const std::function<void(const io::JournalEntry&)>& take) { journal_.Restore(take); }
+  /// Expects the configured robots from now on. @pre the map is what the journal says: each goes on
+  /// where it was.
+  void ExpectRobots() {
     for (const RobotStartOptions& robot : options_.robots) sessions_.Of(robot.name);
   }
 

@@ -60,6 +60,7 @@ TeamService::TeamService(const TeamServiceOptions& options,
     scan.component = component;
     offered_.push_back(std::move(scan));
   }
+  host_.ExpectRobots();
 }
 
 TeamService::~TeamService() { Stop(); }

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 the Q-WSM developers
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What a service makes of its journal.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "service/io/files/binary.hpp"
+#include "service/io/journal/journal_file.hpp"
+#include "service/io/journal/scan_codec.hpp"
+#include "service/team/journal/journaled_map.hpp"
+#include "service/team/service/team_service.hpp"
+#include "tests/support/recording_sink.hpp"
+#include "tests/support/room_drive.hpp"
+#include "tests/support/team_in_room.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace qwsm::team {
+namespace {
+
+TEST(TeamJournal, NumbersGoOnBehindItsLastOneThoughTheClockWasSetBack) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path journal = folder.path() / "team.db";
+  const std::uint64_t last = SequenceOfNow() + 3'600'000'000;
+  {
+    const Observation observation = test::ObservationInRoom(0);
+    const TeamScan scan{.key = {.service = "base", .robot = "robot1", .sequence = last},
+                        .scan = observation.scan,
+                        .map_robot = {.T_a_b = test::PoseInRoom(0)},
+                        .T_odom_robot = observation.T_odom_robot};
+    auto file = io::JournalFile::Continue(journal, io::kScanJournal, "base");
+    file.Append(std::vector{ToJournal(scan)});
+  }
+  test::RecordingSink sink;
+  TeamServiceOptions options = test::LosslessOptions();
+  options.team.robots.push_back({.name = "robot1"});
+  TeamService service(options, sink, journal);
+  service.Start();
+  test::Give(service, "robot1", 10, 30);
+  service.WaitUntilIdle();
+  ASSERT_GT(sink.relevant().size(), 1U);
+  EXPECT_EQ(sink.relevant().back().key.sequence, last + sink.relevant().size() - 1);
+}
+
+}  // namespace
+}  // namespace qwsm::team
