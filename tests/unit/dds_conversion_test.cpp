@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "qwsm/sensor/scan_limits.hpp"
+#include "service/dds/wire/epoch_conversion.hpp"
 #include "service/dds/wire/planar.hpp"
 #include "service/dds/wire/robot_names.hpp"
 #include "service/dds/wire/scan_conversion.hpp"
@@ -203,6 +205,33 @@ TEST_F(WireScan, RelevantOneComesBackWithItsPlace) {
   EXPECT_EQ(back.map_robot.covariance, scan.map_robot.covariance);
   EXPECT_EQ(back.T_odom_robot, scan.T_odom_robot);
   EXPECT_EQ(back.scan.geometry, scan.scan.geometry);
+}
+
+// A component's name becomes that of a topic.
+TEST_F(WireScan, RelevantOneIsRefusedWhereANameInItIsNoNamespace) {
+  team::TeamScan scan;
+  scan.key = {.service = "qwsm-1", .robot = "robot1", .sequence = 7};
+  scan.scan = Scan();
+  const std::string good = "map_robot_2";
+  const std::string evil = "map_robot-2";
+  EXPECT_EQ(ObjectionTo(ToWire(scan, good)), "");
+  EXPECT_EQ(ObjectionTo(ToWire(scan, evil)), "its frame_id is no map's");
+  scan.key.robot = "robot 1";
+  EXPECT_EQ(ObjectionTo(ToWire(scan, good)), "its robot's name is no namespace");
+}
+
+TEST(WireEpoch, IsRefusedWhereItNamesWhatCannotBe) {
+  team::TeamEpoch epoch{.rank = {.number = 1, .service = "qwsm-1"}, .stamp = {}, .scans = {}};
+  epoch.scans.push_back({.key = {.service = "qwsm-1", .robot = "robot1", .sequence = 7}});
+  const auto objection = [&epoch] { return ObjectionTo(EpochSample(epoch).sample()); };
+  EXPECT_EQ(objection(), "");
+  epoch.rank.number = std::numeric_limits<std::uint64_t>::max();
+  EXPECT_EQ(objection(), "its number is higher than any count");
+  epoch.rank.number = 1;
+  epoch.scans.front().component = "robot-2";
+  EXPECT_EQ(objection(), "a frame in it is no map's");
+  epoch.scans.front() = {.key = {.service = "qwsm-1", .robot = "robot-1", .sequence = 7}};
+  EXPECT_EQ(objection(), "a robot's name in it is no namespace");
 }
 
 }  // namespace

@@ -48,5 +48,30 @@ TEST(TeamJournal, NumbersGoOnBehindItsLastOneThoughTheClockWasSetBack) {
   EXPECT_EQ(sink.relevant().back().key.sequence, last + sink.relevant().size() - 1);
 }
 
+// What was let in by an older release, and stopped it each time its map was told.
+TEST(JournaledMap, LeavesOutWhatIsCalledAsNothingCanBe) {
+  const auto scan_of = [](const std::string& robot, const std::string& component) {
+    return TeamScan{.key = {.service = "base", .robot = robot, .sequence = 1},
+                    .component = component,
+                    .scan = test::ObservationInRoom(0).scan,
+                    .map_robot = {.T_a_b = test::PoseInRoom(0)},
+                    .T_odom_robot = {}};
+  };
+  JournaledMap map;
+  EXPECT_THROW(map.Take(ToJournal(scan_of("robot1", "robot-2"))), io::BinaryError);
+  EXPECT_THROW(map.Take(ToJournal(scan_of("robot 1", ""))), io::BinaryError);
+  map.Take(ToJournal(scan_of("robot1", "")));
+  TeamEpoch epoch{.rank = {.number = 7, .service = "base"}, .stamp = {}, .scans = {}};
+  epoch.scans.push_back({.key = scan_of("robot1", "").key, .component = "robot-2"});
+  EXPECT_THROW(map.Take(ToJournal(epoch)), io::BinaryError);
+  epoch.scans.front().component = "robot2";
+  epoch.rank.number = std::numeric_limits<std::uint64_t>::max();
+  EXPECT_THROW(map.Take(ToJournal(epoch)), io::BinaryError);
+  EXPECT_EQ(map.last_epoch(), 0U);
+  const std::vector<JournaledTeamScan> scans = map.TakeScans();
+  ASSERT_EQ(scans.size(), 1U);
+  EXPECT_EQ(scans.front().component, "");
+}
+
 }  // namespace
 }  // namespace qwsm::team

@@ -11,11 +11,16 @@
 #include "service/dds/wire/planar.hpp"
 #include "service/dds/wire/robot_names.hpp"
 #include "service/team/scans/component.hpp"
+#include "service/team/scans/robot_name.hpp"
 
 namespace qwsm::dds {
 namespace {
 
 bool IsTooLong(const char* name) { return strnlen(name, kMaxNameLength + 1) > kMaxNameLength; }
+
+bool IsMapFrame(const char* frame) {
+  return !IsTooLong(frame) && team::IsRobotName(team::ComponentOf(frame));
+}
 
 std::span<const wire::MovedScan> ScansOf(const wire::MapEpoch& sample) {
   return {sample.scans._buffer, sample.scans._length};
@@ -70,10 +75,12 @@ std::string_view ObjectionTo(const wire::MapEpoch& sample) {
     return objection;
   }
   if (*sample.origin == '\0' || IsTooLong(sample.origin)) return "it names no service";
+  if (sample.number > team::kMostEpochs) return "its number is higher than any count";
   for (const wire::MovedScan& scan : ScansOf(sample)) {
-    if (IsTooLong(scan.origin) || IsTooLong(scan.robot) || IsTooLong(scan.frame) ||
-        IsTooLong(scan.frame_before)) {
-      return "a name in it is too long";
+    if (IsTooLong(scan.origin) || IsTooLong(scan.robot)) return "a name in it is too long";
+    if (!team::IsRobotName(scan.robot)) return "a robot's name in it is no namespace";
+    if (!IsMapFrame(scan.frame) || !IsMapFrame(scan.frame_before)) {
+      return "a frame in it is no map's";
     }
     const UncertainPose2 pose{.T_a_b = FromWire(scan.pose),
                               .covariance = CovarianceOf(scan.covariance)};

@@ -11,6 +11,7 @@
 #include "service/dds/wire/planar.hpp"
 #include "service/dds/wire/robot_names.hpp"
 #include "service/team/scans/component.hpp"
+#include "service/team/scans/robot_name.hpp"
 
 namespace qwsm::dds {
 namespace {
@@ -112,6 +113,10 @@ std::string_view ObjectionTo(const wire::RelevantScan& sample) {
   if (LengthOf(sample.origin) == 0) return "it names no service";
   if (LengthOf(sample.origin) > kMaxNameLength || LengthOf(sample.robot) > kMaxNameLength) {
     return "a name in it is too long";
+  }
+  if (!team::IsRobotName(sample.robot)) return "its robot's name is no namespace";
+  if (!team::IsRobotName(team::ComponentOf(sample.header.frame_id))) {
+    return "its frame_id is no map's";
   }
   if (sample.has_odometry && !IsPosition(FromWire(sample.odometry))) {
     return "its odometry is no position";

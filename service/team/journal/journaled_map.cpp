@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "service/io/files/binary.hpp"
 #include "service/io/journal/epoch_codec.hpp"
 #include "service/io/journal/scan_codec.hpp"
+#include "service/team/scans/robot_name.hpp"
 
 namespace qwsm::team {
 namespace {
@@ -18,6 +20,18 @@ TeamScan ScanFromJournal(const io::JournalEntry& entry) {
           .scan = std::move(scan.relevant.scan),
           .map_robot = scan.relevant.map_robot,
           .T_odom_robot = scan.T_odom_robot};
+}
+
+// What was let in by mistake must not come back for ever.
+void RequireRobotName(std::string_view name) {
+  if (!IsRobotName(name)) throw io::BinaryError("a name in it is no namespace");
+}
+
+std::vector<io::JournaledPose> PosesFromJournal(const io::JournalEntry& entry) {
+  if (entry.sequence > kMostEpochs) throw io::BinaryError("its number is higher than any count");
+  std::vector<io::JournaledPose> poses = io::DecodeEpoch(entry.contents);
+  for (const io::JournaledPose& pose : poses) RequireRobotName(pose.component);
+  return poses;
 }
 
 }  // namespace
@@ -55,12 +69,14 @@ io::JournalEntry ToJournal(const TeamEpoch& epoch) {
 void JournaledMap::Take(const io::JournalEntry& entry) {
   if (!io::IsEpoch(entry.contents)) {
     TeamScan scan = ScanFromJournal(entry);
+    RequireRobotName(scan.key.robot);
+    RequireRobotName(scan.component);
     if (!index_.try_emplace(scan.key, scans_.size()).second) return;
     std::string component = scan.component;
     scans_.push_back({.scan = std::move(scan), .component = std::move(component)});
     return;
   }
-  for (io::JournaledPose& pose : io::DecodeEpoch(entry.contents)) {
+  for (io::JournaledPose& pose : PosesFromJournal(entry)) {
     const auto known = index_.find({.service = std::move(pose.service),
                                     .robot = std::move(pose.robot),
                                     .sequence = pose.sequence});

@@ -22,6 +22,10 @@ struct MovedScan {
   UncertainPose2 map_robot{};
 };
 
+/// More corrections than there can ever be: one each second for a hundred years. Who takes in a
+/// higher number cannot count on from there.
+inline constexpr std::uint64_t kMostEpochs = 1ULL << 32U;
+
 /// Which of two corrections counts, wherever they were found: the greater.
 struct EpochRank {
   std::uint64_t number = 0;  ///< Grows with the corrections.

@@ -3,6 +3,7 @@
 #include "service/team/service/team_service.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -190,15 +191,20 @@ void TeamService::PaintMaps(const std::stop_token& stop) {
 
 void TeamService::TellMap(const std::string& component, MapPainter& painter) {
   const std::optional<OccupancyGrid> grid = painter.Grid();
-  if (grid) {
-    sinks_.Tell(&TeamSink::TakeMap,
-                {.component = component,
-                 .frame = FrameOf(options_.team.map == MapSharing::kTeam ? component : ""),
-                 .stamp = painter.newest(),
-                 .grid = *grid});
+  std::string trouble = painter.trouble();
+  try {
+    if (grid) {
+      sinks_.Tell(&TeamSink::TakeMap,
+                  {.component = component,
+                   .frame = FrameOf(options_.team.map == MapSharing::kTeam ? component : ""),
+                   .stamp = painter.newest(),
+                   .grid = *grid});
+    }
+  } catch (const std::runtime_error& error) {
+    trouble = std::string("the map cannot be told: ") + error.what();
   }
-  if (painter.trouble().empty()) return;
-  const std::string text = FrameOf(component) + ": " + painter.trouble();
+  if (trouble.empty()) return;
+  const std::string text = FrameOf(component) + ": " + trouble;
   sinks_.Tell(&TeamSink::TakeEvent, {.robot = std::nullopt, .is_warning = true, .text = text});
 }
 
