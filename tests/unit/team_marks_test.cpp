@@ -84,6 +84,24 @@ TEST(MarkBook, NumbersStay) {
   EXPECT_EQ(book.Completed(MarkOf("d", 2s)).number, 4U);
 }
 
+// Whoever sends an absurd one keeps nobody from marking what comes later.
+TEST(MarkBook, NumbersStayLowEnoughToBeSaid) {
+  Mark absurd = MarkOf("a", 1s);
+  absurd.number = std::numeric_limits<std::uint32_t>::max();
+  EXPECT_EQ(ObjectionTo(absurd), "its number is too high");
+  Mark highest = MarkOf("b", 1s);
+  highest.number = 999'999;
+  EXPECT_EQ(ObjectionTo(highest), "");
+  MarkBook book;
+  book.Take(highest);
+  const Mark next = book.Completed(MarkOf("c", 2s));
+  EXPECT_EQ(next.number, 1U);
+  book.Take(next);
+  book.Take(MarkOf("d", 3s));
+  ASSERT_EQ(book.NumberApart().size(), 1U);
+  EXPECT_EQ(book.marks().back().number, 2U);
+}
+
 // Two services that did not hear each other have both given the numbers from 1 on.
 TEST(MarkBook, MarksOfSeveralSourcesAreNumberedApart) {
   Mark anna = MarkOf("b", 1s, "Anna");

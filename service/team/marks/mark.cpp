@@ -15,6 +15,7 @@ namespace {
 constexpr std::size_t kLongestId = 64;
 constexpr std::size_t kLongestText = 1024;
 constexpr double kFarthestMark_m = 1e6;
+constexpr std::uint32_t kHighestNumber = 999'999;  // People say them.
 
 // Whatever is not a number is not below.
 bool IsWithin(const Eigen::Vector2d& p_m) { return p_m.norm() < kFarthestMark_m; }
@@ -28,6 +29,7 @@ std::string_view ObjectionTo(const Mark& mark) {
     return "its kind is neither victim nor hazard nor note";
   }
   if (std::max(mark.text.size(), mark.author.size()) > kLongestText) return "its text is too long";
+  if (mark.number > kHighestNumber) return "its number is too high";
   if (!IsWithin(mark.p_map_m)) return "it lies nowhere";
   if (!mark.anchor) return {};
   if (mark.anchor->robot.size() > kLongestText) return "the name of its robot is too long";
@@ -39,12 +41,21 @@ bool Supersedes(const Mark& mark, const Mark& known) {
          std::tie(known.stamp, known.revision, known.number);
 }
 
-// The numbers of marks that were removed are not given again: people remember them.
+// The numbers of marks that were removed are not given again while there are others: people
+// remember them.
+std::uint32_t NumberAfter(const std::set<std::uint32_t>& given) {
+  const std::uint32_t last = given.empty() ? 0 : *given.rbegin();
+  if (last < kHighestNumber) return last + 1;
+  std::uint32_t free = 1;
+  while (given.contains(free)) ++free;
+  return free;
+}
+
 std::vector<Mark> NumberApart(std::span<Mark> marks) {
-  std::uint32_t last = 0;
+  std::set<std::uint32_t> given;
   std::vector<Mark*> there;
   for (Mark& mark : marks) {
-    last = std::max(last, mark.number);
+    given.insert(mark.number);
     if (!mark.is_removed) there.push_back(&mark);
   }
   std::ranges::sort(there, {}, [](const Mark* mark) { return std::tie(mark->stamp, mark->id); });
@@ -52,7 +63,8 @@ std::vector<Mark> NumberApart(std::span<Mark> marks) {
   std::vector<Mark> renumbered;
   for (Mark* mark : there) {
     if (taken.insert(mark->number).second) continue;
-    mark->number = ++last;
+    mark->number = NumberAfter(given);
+    given.insert(mark->number);
     ++mark->revision;
     renumbered.push_back(*mark);
   }

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -42,6 +43,9 @@ std::string_view ObjectionTo(const Mark& mark);
 
 /// Whether a mark takes the place of one of the same id. All who hear both decide alike.
 bool Supersedes(const Mark& mark, const Mark& known);
+
+/// A number for a mark behind those that were given before.
+std::uint32_t NumberAfter(const std::set<std::uint32_t>& given);
 
 /// Gives a number of its own to each mark that is there still and has none, or one that a mark of
 /// before has, too: services that do not hear each other count alike. O(n log n).

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/team/marks/mark_book.hpp"
 
-#include <algorithm>
 #include <limits>
+#include <set>
 #include <utility>
 
 namespace qwsm::team {
@@ -48,8 +48,9 @@ Mark MarkBook::Completed(Mark mark) const {
   const auto known = marks_.find(mark.id);
   if (known != marks_.end()) mark.number = known->second.number;
   if (mark.number == 0) {
-    for (const auto& [id, other] : marks_) mark.number = std::max(mark.number, other.number);
-    ++mark.number;
+    std::set<std::uint32_t> given;
+    for (const auto& [id, other] : marks_) given.insert(other.number);
+    mark.number = NumberAfter(given);
   }
   mark.anchor.reset();
   double nearest_m = std::numeric_limits<double>::infinity();
