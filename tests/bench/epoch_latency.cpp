@@ -131,6 +131,7 @@ int Measure(std::size_t scans, int rounds) {
       Correction& correction = corrections.emplace_back();
       correction.begun = Clock::now();
       service.TakeIn(epoch);
+      service.WaitUntilIdle();
       correction.ended = Clock::now();
       const double took_ms = Milliseconds(correction.ended - correction.begun).count();
       std::printf("taking it in took %7.1f ms; %zu scans, %.1f MB in use\n",

@@ -150,6 +150,7 @@ std::vector<RobotAnswer> DriveThroughACorrection(CorrectionPolicy policy) {
   };
   give(0, kBefore);
   service.TakeIn(test::Moved(sink.relevant(), {.x_m = 0.5}, {.number = 1, .service = "z"}));
+  service.WaitUntilIdle();
   give(kBefore, kAfter);
   service.Stop();
   EXPECT_EQ(sink.epochs().size(), 1U);

@@ -120,9 +120,11 @@ TEST(TeamComponents, AreTheSameForAServiceThatOnlyHearsOfThem) {
   TeamService scans_first(LosslessOptions(), sink);
   scans_first.TakeIn(told.relevant());
   scans_first.TakeIn(told.epochs().back());
+  scans_first.WaitUntilIdle();
   EXPECT_TRUE(is_same(scans_first));
   TeamService epoch_first(LosslessOptions(), sink);
   epoch_first.TakeIn(told.epochs().back());
+  epoch_first.WaitUntilIdle();
   epoch_first.TakeIn(told.relevant());
   EXPECT_TRUE(is_same(epoch_first));
   const std::optional<TeamScan> last = finds.MapOf("")->LastOf("robot2");

@@ -58,6 +58,11 @@ void TakeIn(TeamService& service, const std::vector<TeamScan>& scans) {
   service.WaitUntilIdle();
 }
 
+void TakeIn(TeamService& service, const TeamEpoch& epoch) {
+  service.TakeIn(epoch);
+  service.WaitUntilIdle();
+}
+
 class TeamCorrection : public ::testing::Test {
  protected:
   const test::Answers answers_ = test::BentOfficeLoop();
@@ -102,7 +107,7 @@ TEST_F(TeamCorrection, IsTheSameForAServiceThatOnlyHearsOfIt) {
   // Too few at a time for a look of its own.
   std::vector<TeamScan> few(scans_.begin(), scans_.begin() + 7);
   hears.service.TakeIn(few);
-  hears.service.TakeIn(finds.sink.epochs().back());
+  TakeIn(hears.service, finds.sink.epochs().back());
   EXPECT_EQ(hears.Poses().front().T_a_b, finds.Poses().front().T_a_b);
   ASSERT_EQ(hears.sink.epochs().size(), 1U);  // For those who come later.
   EXPECT_EQ(hears.sink.epochs().back().rank, finds.sink.epochs().back().rank);
@@ -121,9 +126,9 @@ TEST_F(TeamCorrection, OfTwoThatWereFoundAtOnceTheGreaterCounts) {
     epoch.scans = {{.key = scans_[0].key, .T_map_robot_before = {}, .map_robot = there}};
     return epoch;
   };
-  one.service.TakeIn(told("b", 2.0));
+  TakeIn(one.service, told("b", 2.0));
   EXPECT_EQ(one.Poses()[0].T_a_b.x_m, 2.0);
-  one.service.TakeIn(told("a", 1.0));
+  TakeIn(one.service, told("a", 1.0));
   EXPECT_EQ(one.Poses()[0].T_a_b.x_m, 2.0);
 }
 
@@ -136,7 +141,7 @@ TEST_F(TeamCorrection, TakesScansAlongThatNobodyNamed) {
   TeamEpoch epoch;
   epoch.rank = {.number = 3, .service = "elsewhere-1"};
   epoch.scans = {{.key = scans_[1].key, .T_map_robot_before = {}, .map_robot = moved}};
-  one.service.TakeIn(epoch);
+  TakeIn(one.service, epoch);
   EXPECT_EQ(one.Poses()[0].T_a_b, scans_[0].map_robot.T_a_b);
   EXPECT_NEAR(one.Poses()[3].T_a_b.x_m, scans_[3].map_robot.T_a_b.x_m + 5.0, 1e-9);
   ASSERT_EQ(one.sink.epochs().size(), 1U);

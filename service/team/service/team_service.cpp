@@ -79,11 +79,13 @@ void TeamService::Start() {
 
 void TeamService::Stop() {
   merging_.reset();
+  epochs_.Stop();
   host_.Stop();
 }
 
 // The thread beside gives way to all others: nobody is to wait for it.
 void TeamService::WaitUntilIdle() {
+  epochs_.WaitUntilIdle();
   host_.WaitUntilIdle();
   if (options_.team.map == MapSharing::kTeam && !merging_) MergeMaps({});
 }
@@ -131,8 +133,6 @@ void TeamService::TakeInOne(TeamScan scan) {
     map->robots().Report(robot, last->map_robot.T_a_b.translation_m(), steady_clock::now());
   }
 }
-
-void TeamService::TakeIn(const TeamEpoch& epoch) { atlas_.TakeIn(epoch); }
 
 void TeamService::OfferTakenIn() {
   for (const TeamScan& scan : atlas_.TakenIn()) {

@@ -23,6 +23,7 @@
 #include "service/team/atlas/map_merger.hpp"
 #include "service/team/atlas/team_atlas.hpp"
 #include "service/team/map/map_painter.hpp"
+#include "service/team/service/epoch_intake.hpp"
 #include "service/team/service/periodic_task.hpp"
 #include "service/team/service/robot_session.hpp"
 #include "service/team/service/session_host.hpp"
@@ -64,9 +65,9 @@ class TeamService {
   /// Finishes the matches at work, saves what is to be saved, and works no more. What waits in
   /// queues is left out.
   void Stop();
-  /// Waits until every scan that was taken is answered or dropped, and all that can be is on disk.
-  /// Where components are not looked for in one another beside, does that with what robots saw
-  /// last.
+  /// Waits until every scan that was taken is answered or dropped, corrections have taken effect,
+  /// and all that can be is on disk. Where components are not looked for in one another beside,
+  /// does that with what robots saw last.
   void WaitUntilIdle();
 
   /// The name of the service in the keys of its relevant scans.
@@ -81,8 +82,9 @@ class TeamService {
   /// What is known already, or came from this service, is passed over.
   void TakeIn(std::vector<TeamScan> scans);
   /// Takes in a correction of the team's maps that another service found. It counts if it is newer
-  /// than what this service knows: of a greater number, or of the same and a greater service.
-  void TakeIn(const TeamEpoch& epoch);
+  /// than what this service knows: of a greater number, or of the same and a greater service. It
+  /// takes effect later; WaitUntilIdle() waits for that.
+  void TakeIn(TeamEpoch epoch) { epochs_.Put(std::move(epoch)); }
   /// Offers what this service took in of another one that is gone, for those that come later. So
   /// what one service has is never lost to the team.
   void OfferTakenIn();
@@ -130,6 +132,7 @@ class TeamService {
   std::chrono::steady_clock::time_point maps_repeated_{};
 
   SessionHost<RobotSession> host_;  // Its threads use all members above.
+  EpochIntake epochs_{[this](const TeamEpoch& epoch) { atlas_.TakeIn(epoch); }};
   std::unique_ptr<PeriodicTask> merging_;
 };
 
