@@ -108,8 +108,9 @@ ExitCode RunServe(const ServeArguments& arguments) {
   const pipeline::Interruption interruption;
   Server server(arguments, session.options(), folder);
   server.Run(interruption);
-  if (!arguments.network.verbosity.quiet) Summarize(server.Status());
-  return ExitCode::kDone;
+  const team::TeamStatus status = server.Status();
+  if (!arguments.network.verbosity.quiet) Summarize(status);
+  return status.journal.waiting == 0 ? ExitCode::kDone : ExitCode::kIo;
 }
 
 }  // namespace qwsm::apps

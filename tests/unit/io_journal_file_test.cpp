@@ -124,6 +124,57 @@ TEST_F(JournalFileTest, BelongsToOneServiceAtATime) {
   EXPECT_EQ(Complaint(), file_.string() + ": is in use by another service; each needs its own");
 }
 
+TEST_F(JournalFileTest, BelongsToOneServiceByWhateverName) {
+  const JournalFile used = Continue();
+  const std::filesystem::path link = folder_.path() / "link.journal";
+  std::filesystem::create_symlink(file_, link);
+  EXPECT_THROW(JournalFile::Continue(link, kScanJournal, "base-2"), JournalError);
+}
+
+TEST_F(JournalFileTest, IsDamagedWhereATableIsMissing) {
+  Write(3);
+  Alter("DROP TABLE meta");
+  const std::string damaged = file_.string() + ": is damaged: no such table: meta";
+  EXPECT_EQ(Complaint().substr(0, damaged.size()), damaged);
+  try {
+    JournalFile::Read(file_, kScanJournal);
+    ADD_FAILURE() << "accepted";
+  } catch (const JournalError& error) {
+    EXPECT_EQ(std::string(error.what()).substr(0, damaged.size()), damaged);
+  }
+}
+
+TEST_F(JournalFileTest, IsWrittenAnewWhereItWasRemoved) {
+  Write(20);
+  JournalFile journal = Continue();
+  KeepMarks(file_, std::vector<KeptMark>{{.id = "a", .contents = "a mark"}});
+  journal.Append(std::vector{EntryOf(21)});
+  EXPECT_TRUE(journal.IsInPlace());
+  for (const char* part : {"", "-wal", "-shm", ".lock"}) {
+    std::filesystem::remove(file_.string() + part);
+  }
+  EXPECT_FALSE(journal.IsInPlace());
+  journal.WriteAnew(kScanJournal);
+  EXPECT_TRUE(journal.IsInPlace());
+  journal.Append(std::vector{EntryOf(22)});
+  EXPECT_EQ(ExpectSoundReading(file_, 22), 22U);
+  EXPECT_EQ(journal.identity(), "base-1");
+  EXPECT_EQ(Complaint(), file_.string() + ": is in use by another service; each needs its own");
+  std::size_t damaged_marks = 0;
+  EXPECT_EQ(ReadMarks(file_, damaged_marks), std::vector<std::string>{"a mark"});
+}
+
+TEST_F(JournalFileTest, IsNotWrittenOverAnotherFile) {
+  Write(5);
+  JournalFile journal = Continue();
+  std::filesystem::rename(file_, folder_.path() / "moved.journal");
+  std::ofstream(file_) << "another one";
+  EXPECT_THROW(journal.WriteAnew(kScanJournal), JournalError);
+  std::filesystem::remove(file_);
+  journal.WriteAnew(kScanJournal);
+  EXPECT_EQ(ExpectSoundReading(file_, 5), 5U);
+}
+
 TEST_F(JournalFileTest, SaysWhatIsWrongWithForeignAndNewerFiles) {
   std::ofstream(file_)
       << "this is a text of more than a hundred bytes, which SQLite looks at before "

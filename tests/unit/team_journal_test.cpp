@@ -48,6 +48,45 @@ TEST(TeamJournal, NumbersGoOnBehindItsLastOneThoughTheClockWasSetBack) {
   EXPECT_EQ(sink.relevant().back().key.sequence, last + sink.relevant().size() - 1);
 }
 
+TEST(TeamJournal, TroubleWithItIsToldWhenItBeginsAndWhenItEnds) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path journal = folder.path() / "not yet" / "team.db";
+  test::RecordingSink sink;
+  TeamService service(test::LosslessOptions(), sink, journal);
+  service.Start();
+  const std::string trouble = service.Status().journal.trouble;
+  EXPECT_NE(trouble, "");
+  test::Give(service, "robot1", 0, 30);
+  service.WaitUntilIdle();
+  EXPECT_EQ(
+      sink.CountEvents("service: scans cannot be stored, and wait until they can be: " + trouble),
+      1);
+  std::filesystem::create_directory(journal.parent_path());
+  service.Stop();
+  EXPECT_TRUE(sink.HasEvent("service: " + journal.string() + ": all scans are stored again"));
+  EXPECT_EQ(service.Status().journal.waiting, 0U);
+}
+
+TEST(TeamJournal, IsWrittenAnewWhereSomebodyRemovesIt) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path journal = folder.path() / "team.db";
+  test::RecordingSink sink;
+  TeamService service(test::LosslessOptions(), sink, journal);
+  service.Start();
+  test::Give(service, "robot1", 0, 30);
+  service.WaitUntilIdle();
+  std::filesystem::remove(journal);
+  test::Give(service, "robot1", 30, 30);
+  service.WaitUntilIdle();
+  service.Stop();
+  EXPECT_TRUE(sink.HasEvent("service: " + journal.string() +
+                            ": was removed; it is written anew, with all that was in it"));
+  std::size_t stored = 0;
+  io::JournalFile file = io::JournalFile::Read(journal, io::kScanJournal);
+  while (file.Next()) ++stored;
+  EXPECT_EQ(stored, sink.relevant().size());
+}
+
 // What was let in by an older release, and stopped it each time its map was told.
 TEST(JournaledMap, LeavesOutWhatIsCalledAsNothingCanBe) {
   const auto scan_of = [](const std::string& robot, const std::string& component) {

@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 #include <sqlite3.h>
+#include <sys/stat.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "service/io/files/atomic_file.hpp"
 #include "service/io/files/file_lock.hpp"
@@ -33,6 +35,7 @@ constexpr std::int64_t kVersion = 1;
     case SQLITE_NOTADB:
       throw JournalError(file.string() + ": is no journal of qwsm");
     case SQLITE_CORRUPT:
+    case SQLITE_ERROR:  // A table is missing.
       ThrowDamaged(file, error.what());
     default:
       throw WriteError(fmt::format("{}: {}", file.string(), error.what()));
@@ -89,6 +92,32 @@ bool IsSound(SqliteDatabase& database) {
   return check.Step() && check.Text(0) == "ok";
 }
 
+/// The file itself where its name is a link to it: SQLite puts its log there.
+std::filesystem::path TargetOf(const std::filesystem::path& file) {
+  std::error_code error;
+  std::filesystem::path target = std::filesystem::weakly_canonical(file, error);
+  return error ? file : target;
+}
+
+/// One service alone may write a journal, by whatever name.
+std::unique_ptr<FileLock> LockOf(const std::filesystem::path& file) {
+  auto lock = std::make_unique<FileLock>(TargetOf(file).string() + ".lock");
+  if (lock->is_held_elsewhere()) {
+    throw JournalError(file.string() + ": is in use by another service; each needs its own");
+  }
+  return lock;
+}
+
+/// Device and inode: what is under a name, however often it is written.
+using FileNumber = std::pair<dev_t, ino_t>;
+
+/// Nothing where there is no file of that name.
+std::optional<FileNumber> NumberOf(const std::filesystem::path& file) {
+  struct stat status {};
+  if (stat(file.c_str(), &status) != 0) return std::nullopt;
+  return FileNumber(status.st_dev, status.st_ino);
+}
+
 /// Removes the log of a database and its index.
 void RemoveLogOf(const std::filesystem::path& file) {
   for (const char* part : {"-wal", "-shm"}) std::filesystem::remove(file.string() + part);
@@ -107,7 +136,7 @@ std::filesystem::path NameForDamaged(const std::filesystem::path& file) {
 
 struct JournalFile::State {
   State(std::filesystem::path path, SqliteDatabase::Access access)
-      : file(std::move(path)), database(file, access), table(database) {}
+      : file(std::move(path)), database(file, access), number(NumberOf(file)), table(database) {}
 
   /// Whether a transaction is on the disk when it ends.
   void Wait(bool for_disk) {
@@ -117,6 +146,7 @@ struct JournalFile::State {
   std::filesystem::path file;
   std::unique_ptr<FileLock> lock;
   SqliteDatabase database;
+  std::optional<FileNumber> number;  // Of the file that is open.
   JournalTable table;
   std::string identity;
 
@@ -137,10 +167,7 @@ JournalFile::~JournalFile() = default;
 JournalFile JournalFile::Continue(const std::filesystem::path& file,
                                   std::string_view kind,
                                   std::string_view identity) {
-  auto lock = std::make_unique<FileLock>(file.string() + ".lock");
-  if (lock->is_held_elsewhere()) {
-    throw JournalError(file.string() + ": is in use by another service; each needs its own");
-  }
+  std::unique_ptr<FileLock> lock = LockOf(file);
   try {
     JournalFile journal = OpenToWrite(file, kind, identity);
     if (!IsSound(journal.state_->database) || !journal.state_->table.CanGrow()) {
@@ -169,34 +196,70 @@ JournalFile JournalFile::OpenToWrite(const std::filesystem::path& file,
   return Opened(std::move(state), kind);
 }
 
+/// @return the number of marks that are lost.
+std::size_t JournalFile::CopyTo(const std::filesystem::path& file, std::string_view kind) {
+  std::filesystem::remove(file);  // Of an earlier attempt that was cut short.
+  RemoveLogOf(file);
+  std::size_t lost_marks = 0;
+  const JournalFile copy = OpenToWrite(file, kind, identity());
+  copy.state_->Wait(true);
+  copy.state_->database.Execute("BEGIN");
+  while (const auto entry = Next()) copy.state_->table.Insert(*entry);
+  copy.state_->database.Execute("COMMIT");
+  MarkTable(copy.state_->database).Put(MarkTable(state_->database).All(lost_marks));
+  return lost_marks;
+}
+
 /// Whatever happens meanwhile, the file is there: the damaged one, or the mended one in its place.
 JournalFile JournalFile::Mended(JournalFile damaged, std::string_view kind) {
   const std::filesystem::path file = damaged.state_->file;
-  const std::filesystem::path mended = file.string() + ".mended";
+  const std::filesystem::path target = TargetOf(file);
+  const std::filesystem::path mended = target.string() + ".mended";
   const std::string identity = damaged.identity();
-  std::filesystem::remove(mended);  // Of an earlier attempt that was cut short.
-  RemoveLogOf(mended);
-  std::size_t lost_marks = 0;
-  {
-    const JournalFile copy = OpenToWrite(mended, kind, identity);
-    copy.state_->Wait(true);
-    copy.state_->database.Execute("BEGIN");
-    while (const auto entry = damaged.Next()) copy.state_->table.Insert(*entry);
-    copy.state_->database.Execute("COMMIT");
-    MarkTable(copy.state_->database).Put(MarkTable(damaged.state_->database).All(lost_marks));
-  }
+  const std::size_t lost_marks = damaged.CopyTo(mended, kind);
   const std::size_t lost = damaged.damaged() + lost_marks;
   damaged.state_->database.Execute("PRAGMA wal_checkpoint(TRUNCATE)");
   damaged.state_.reset();
   const std::filesystem::path kept = NameForDamaged(file);
   std::filesystem::copy_file(file, kept);
   // They stay where somebody else reads the journal, and the new one would take them as its own.
-  RemoveLogOf(file);
-  std::filesystem::rename(mended, file);
+  RemoveLogOf(target);
+  std::filesystem::rename(mended, target);
   JournalFile journal = OpenToWrite(file, kind, identity);
   journal.state_->damaged_copy = kept;
   journal.state_->lost_in_mending = lost;
   return journal;
+}
+
+bool JournalFile::IsInPlace() const { return NumberOf(state_->file) == state_->number; }
+
+// SQLite still reads what is in a file that has no name any more.
+void JournalFile::WriteAnew(std::string_view kind) {
+  State& state = *state_;
+  const std::filesystem::path target = TargetOf(state.file);
+  if (NumberOf(target)) {
+    throw JournalError(state.file.string() +
+                       ": is another file than the one that was opened; move it away");
+  }
+  try {
+    state.lock.reset();  // It may have gone with the file.
+    std::unique_ptr<FileLock> lock = LockOf(state.file);
+    state.extent = {};
+    state.position = state.last_found = state.found = 0;
+    const std::filesystem::path anew = target.string() + ".anew";
+    CopyTo(anew, kind);
+    RemoveLogOf(target);
+    std::filesystem::rename(anew, target);
+    state.number = NumberOf(target);  // Whoever opens it again goes on with that.
+    JournalFile journal = OpenToWrite(state.file, kind, identity());
+    journal.state_->lock = std::move(lock);
+    *this = std::move(journal);
+  } catch (const SqliteError& error) {
+    Rethrow(error, state.file);
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw WriteError(
+        fmt::format("{}: cannot be written anew: {}", state.file.string(), error.code().message()));
+  }
 }
 
 JournalFile JournalFile::Read(const std::filesystem::path& file, std::string_view kind) {

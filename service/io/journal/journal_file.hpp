@@ -63,6 +63,14 @@ class JournalFile {
   /// @throws WriteError where there is no room or no leave to write; none, some or all are added.
   void Append(std::span<const JournalEntry> entries);
 
+  /// Whether the file is still the one that was opened: somebody may have removed or moved it.
+  bool IsInPlace() const;
+  /// Puts all that is in it into a new file of its name. @pre it is open to be continued, and not
+  /// in its place any more.
+  /// @throws JournalError where another file is in its place, WriteError where none can be written
+  /// now; it stays as it is then.
+  void WriteAnew(std::string_view kind);
+
   /// Gives the next entry, from the first on. Damaged ones are passed over.
   /// @throws JournalError where none can be read.
   std::optional<JournalEntry> Next();
@@ -78,6 +86,7 @@ class JournalFile {
   static JournalFile OpenToWrite(const std::filesystem::path& file,
                                  std::string_view kind,
                                  std::string_view identity);
+  std::size_t CopyTo(const std::filesystem::path& file, std::string_view kind);
   static JournalFile Mended(JournalFile damaged, std::string_view kind);
 
   std::unique_ptr<State> state_;

@@ -15,7 +15,7 @@ namespace {
 constexpr std::chrono::milliseconds kRetryPeriod{500};
 }  // namespace
 
-Journal::Journal(Names names) : names_(std::move(names)) {
+Journal::Journal(Names names, Tell tell) : names_(std::move(names)), tell_(std::move(tell)) {
   try {
     Open();
   } catch (const io::WriteError& error) {
@@ -58,7 +58,7 @@ void Journal::Append(io::JournalEntry entry, std::function<void()> settled) {
   Take({.entry = std::move(entry), .settled = std::move(settled)});
 }
 
-void Journal::Tell(std::function<void()> tell) {
+void Journal::TellWhenSettled(std::function<void()> tell) {
   Take({.entry = std::nullopt, .settled = std::move(tell)});
 }
 
@@ -104,26 +104,47 @@ void Journal::Store() {
   if (unstored_.empty()) return;
   try {
     if (!file_) Open();
+    if (!file_->IsInPlace()) PutInPlace();
     file_->Append(unstored_);
   } catch (const std::runtime_error& error) {
     return Fail(error.what());
   }
-  const std::lock_guard lock(mutex_);
-  stored_ += unstored_.size();
-  waiting_ -= unstored_.size();
-  trouble_.clear();
+  {
+    const std::lock_guard lock(mutex_);
+    stored_ += unstored_.size();
+    waiting_ -= unstored_.size();
+  }
   unstored_.clear();
+  SetTrouble({});
 }
 
 void Journal::Open() {
   file_ = io::JournalFile::Continue(names_.file, names_.kind, names_.identity);
 }
 
+void Journal::PutInPlace() {
+  file_->WriteAnew(names_.kind);
+  tell_(true, names_.file.string() + ": was removed; it is written anew, with all that was in it");
+}
+
+// What has no name any more would be gone if it were closed.
 void Journal::Fail(const std::string& trouble) {
-  file_.reset();
+  if (file_ && file_->IsInPlace()) file_.reset();
   next_try_ = Clock::now() + kRetryPeriod;
-  const std::lock_guard lock(mutex_);
-  trouble_ = trouble;
+  SetTrouble(trouble);
+}
+
+// Each change is told once: what is wrong may be told in other words at each attempt.
+void Journal::SetTrouble(const std::string& trouble) {
+  bool had_trouble = false;
+  {
+    const std::lock_guard lock(mutex_);
+    had_trouble = !trouble_.empty();
+    trouble_ = trouble;
+  }
+  if (had_trouble == !trouble.empty()) return;
+  if (had_trouble) return tell_(false, names_.file.string() + ": all scans are stored again");
+  tell_(true, "scans cannot be stored, and wait until they can be: " + trouble);
 }
 
 void Journal::WaitUntilSettled() {

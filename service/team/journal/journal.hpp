@@ -33,9 +33,12 @@ class Journal {
     std::string identity;  ///< Identity that a new journal gets.
   };
 
+  /// Takes what a person should know of the journal; called by any of its threads.
+  using Tell = std::function<void(bool is_warning, const std::string& text)>;
+
   /// Opens the journal, or begins one. One that cannot be written now is tried again later.
   /// @throws io::JournalError where it is no journal, in use, or so damaged that it says nothing.
-  explicit Journal(Names names);
+  Journal(Names names, Tell tell);
   /// Stops as Stop() does.
   ~Journal();
   Journal(const Journal&) = delete;
@@ -58,7 +61,7 @@ class Journal {
   /// for a disk that cannot be written.
   void Append(io::JournalEntry entry, std::function<void()> settled);
   /// Calls `tell` once all that was appended before is settled. What is told keeps its order.
-  void Tell(std::function<void()> tell);
+  void TellWhenSettled(std::function<void()> tell);
 
   /// Stores what waits, unless the disk cannot be written, and tells it; works no more afterwards.
   void Stop();
@@ -78,9 +81,12 @@ class Journal {
   std::vector<Order> WaitForOrders(const std::stop_token& stop);
   void Store();
   void Open();
+  void PutInPlace();
   void Fail(const std::string& trouble);
+  void SetTrouble(const std::string& trouble);
 
   Names names_;
+  const Tell tell_;
 
   mutable std::mutex mutex_;  // Guards what follows.
   std::condition_variable_any changed_;

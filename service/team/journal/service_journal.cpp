@@ -16,7 +16,10 @@ ServiceJournal::ServiceJournal(const std::string& service, const Place& place, T
     : tell_(std::move(tell)), identity_(fmt::format("{}-{:08x}", service, std::random_device{}())) {
   if (place.file.empty()) return;
   journal_ = std::make_unique<Journal>(
-      Journal::Names{.file = place.file, .kind = std::string(place.kind), .identity = identity_});
+      Journal::Names{.file = place.file, .kind = std::string(place.kind), .identity = identity_},
+      [this](bool is_warning, const std::string& text) {
+        tell_({.robot = std::nullopt, .is_warning = is_warning, .text = text});
+      });
 }
 
 void ServiceJournal::Restore(const std::function<void(const io::JournalEntry&)>& take) {
@@ -44,7 +47,7 @@ void ServiceJournal::Restore(const std::function<void(const io::JournalEntry&)>&
 
 void ServiceJournal::TellWhenSafe(std::function<void()> tell) {
   if (!journal_) return tell();
-  journal_->Tell(std::move(tell));
+  journal_->TellWhenSettled(std::move(tell));
 }
 
 void ServiceJournal::Stop() {
