@@ -42,8 +42,8 @@ constexpr Terms TermsOf(Profile profile) {
       return {.reliable = true, .latched = true, .depth = 1};
     case Profile::kTransforms:
       return {.reliable = true, .latched = false, .depth = 100};
-    case Profile::kStaticTransforms:
-      return {.reliable = true, .latched = true, .depth = 100};
+    case Profile::kStaticTransforms:  // All writers share its history.
+      return {.reliable = true, .latched = true, .depth = kManySamples};
     case Profile::kRecorded:
       return {.reliable = false, .latched = false, .depth = kManySamples};
     case Profile::kRecordedWhole:
@@ -64,7 +64,7 @@ constexpr Terms TermsOf(Profile profile) {
 Qos QosOf(Profile profile) {
   const Terms terms = TermsOf(profile);
   Qos qos(dds_create_qos(), dds_delete_qos);
-  // A reader that hangs must not hang its writers: KEEP_LAST never blocks them for longer.
+  // A reader that hangs must not hang its writers: they wait for it no longer than that.
   dds_qset_reliability(qos.get(),
                        terms.reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
                        DDS_MSECS(100));
