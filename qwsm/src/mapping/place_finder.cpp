@@ -104,29 +104,8 @@ std::string_view Name(PlaceVerdict verdict) {
   return "unknown";
 }
 
-PlaceFinder::PlaceFinder(const MapperOptions& options)
-    : locator_(options.locator), evidence_(options.free_space) {}
-
-const PlaceBelief& PlaceFinder::Look(const ScanMap& map,
-                                     std::span<const ScanPoint> points,
-                                     const Pose2& T_local_robot) {
-  if (map.empty() || points.empty() || !HasMovedOn(T_local_robot)) return belief_;
-  Sight sight(map, points);
-  if (T_local_last_) Follow(sight, T_local_last_->Inverse() * T_local_robot);
-  sight.Search(AreaOf(map), FollowedScore());
-  AddModes(sight);
-  elsewhere_nats_ = std::log(CountPlaces(path_m_));
-  Weigh(sight, seen_.TakeNews(points, T_local_robot));
-  ForgetUnlikely();
-  T_local_last_ = T_local_robot;
-  ++looks_;
-  const bool is_promising = !hypotheses_.empty() && hypotheses_.front().nats > 0.0;
-  vain_looks_ = is_promising ? 0 : vain_looks_ + 1;
-  return belief_ = Belief();
-}
-
 // Where no scan was inserted or moved, the map is as it was.
-const ModeSearchArea& PlaceFinder::AreaOf(const ScanMap& map) {
+const ModeSearchArea& MappedArea::Of(const ScanMap& map) {
   std::vector<Eigen::Vector2d> path_m = PathOf(map);
   if (!area_ || path_m != path_m_) {
     path_m_ = std::move(path_m);
@@ -134,6 +113,34 @@ const ModeSearchArea& PlaceFinder::AreaOf(const ScanMap& map) {
         std::make_shared<const ModeSearchArea>(map.surfaces().likelihood(), path_m_, kAroundPath_m);
   }
   return *area_;
+}
+
+PlaceFinder::PlaceFinder(const MapperOptions& options)
+    : locator_(options.locator), evidence_(options.free_space) {}
+
+const PlaceBelief& PlaceFinder::Look(const ScanMap& map,
+                                     std::span<const ScanPoint> points,
+                                     const Pose2& T_local_robot) {
+  return Look(map, area_, points, T_local_robot);
+}
+
+const PlaceBelief& PlaceFinder::Look(const ScanMap& map,
+                                     MappedArea& area,
+                                     std::span<const ScanPoint> points,
+                                     const Pose2& T_local_robot) {
+  if (map.empty() || points.empty() || !HasMovedOn(T_local_robot)) return belief_;
+  Sight sight(map, points);
+  if (T_local_last_) Follow(sight, T_local_last_->Inverse() * T_local_robot);
+  sight.Search(area.Of(map), FollowedScore());
+  AddModes(sight);
+  elsewhere_nats_ = std::log(CountPlaces(area.path_m()));
+  Weigh(sight, seen_.TakeNews(points, T_local_robot));
+  ForgetUnlikely();
+  T_local_last_ = T_local_robot;
+  ++looks_;
+  const bool is_promising = !hypotheses_.empty() && hypotheses_.front().nats > 0.0;
+  vain_looks_ = is_promising ? 0 : vain_looks_ + 1;
+  return belief_ = Belief();
 }
 
 bool PlaceFinder::HasMovedOn(const Pose2& T_local_robot) const {

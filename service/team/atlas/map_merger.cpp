@@ -75,12 +75,12 @@ std::optional<ComponentPlace> MapMerger::LookFor(const std::string& robot,
                                                  const MapComponent& other,
                                                  const std::stop_token& stop) {
   const Chart& own = ChartOf(sighting.component);
-  const Chart& there = ChartOf(other);
+  Chart& there = ChartOf(other);
   if (own.version != sighting.version) return std::nullopt;  // Corrected since.
   Search& search = SearchBy(robot, sighting, other, there);
   const std::optional<Pose2> T_own_looked = search.finder.T_local_looked();
   const PlaceBelief& belief =
-      search.finder.Look(there.map, sighting.points, sighting.map_robot.T_a_b);
+      search.finder.Look(there.map, there.area, sighting.points, sighting.map_robot.T_a_b);
   if (search.finder.T_local_looked() == T_own_looked) return std::nullopt;
 
   JointCandidates& candidates = candidates_[std::minmax(sighting.component.name, other.name)];
@@ -91,7 +91,7 @@ std::optional<ComponentPlace> MapMerger::LookFor(const std::string& robot,
         IntoAndFrom(sighting.component, own_robot, other, place.map_robot);
     candidates.Propose(into_robot * Inverse(from_robot), from_robot.T_a_b);
   }
-  const auto [into, from] = IntoAndFrom(sighting.component, &own, other, &there);
+  const auto [into, from] = IntoAndFrom(sighting.component, &own, other, &std::as_const(there));
   const auto into_from = candidates.Decide(agreement_, into->Drawn(), from->Drawn(), stop);
   if (!into_from) return std::nullopt;
   return ComponentPlace{.from = from->version,
@@ -177,7 +177,7 @@ MapMerger::Sightings MapMerger::NewestSightings() const {
   return sightings_;
 }
 
-const MapMerger::Chart& MapMerger::ChartOf(const MapComponent& component) {
+MapMerger::Chart& MapMerger::ChartOf(const MapComponent& component) {
   const TeamMap::State::View contents = component.map->Read();
   const MapVersion version = component.map->VersionOf(*contents);
   Chart& chart = charts_[component.name];
@@ -188,6 +188,7 @@ const MapMerger::Chart& MapMerger::ChartOf(const MapComponent& component) {
     chart.version = version;
     chart.map = contents->map;
     chart.scans_of_robots = ScansOfRobots(*component.map, chart.map);
+    chart.area = {};
   }
   return chart;
 }

@@ -70,6 +70,7 @@ class MapMerger {
     MapVersion version;
     ScanMap map;
     std::vector<std::vector<ScanId>> scans_of_robots;
+    MappedArea area;  // For all searches in it.
 
     DrawnMap Drawn() const { return {.map = map, .scans_of_robots = scans_of_robots}; }
   };
@@ -87,7 +88,7 @@ class MapMerger {
   double NatsOfPlace(const std::vector<TeamScan>& scans,
                      const std::string& robot,
                      const std::stop_token& stop) const;
-  const Chart& ChartOf(const MapComponent& component);
+  Chart& ChartOf(const MapComponent& component);
   std::optional<ComponentPlace> LookFor(const std::string& robot,
                                         const Sighting& sighting,
                                         const MapComponent& other,

@@ -40,6 +40,20 @@ struct PlaceBelief {
   int looks = 0;              ///< How many there were so far.
 };
 
+/// Where in a map places are looked for: around the positions of its scans. Large, and the same for
+/// all who look at one map.
+class MappedArea {
+ public:
+  /// The area of the map; made anew where scans were inserted or moved since the last call.
+  const ModeSearchArea& Of(const ScanMap& map);
+  /// Positions of the scans of the map, as it was at the last call.
+  std::span<const Eigen::Vector2d> path_m() const { return path_m_; }
+
+ private:
+  std::vector<Eigen::Vector2d> path_m_;
+  std::shared_ptr<const ModeSearchArea> area_;  // Along that; copies share it.
+};
+
 /// Finds where in a map a robot is that may be anywhere in it, or outside (global localization).
 ///
 /// Now and then it looks around: it searches the whole map for places where the scan may have been
@@ -57,6 +71,11 @@ class PlaceFinder {
   /// Looks around with a scan if the robot has moved on since the last look.
   /// @param T_local_robot in a frame that drifts little between two looks.
   const PlaceBelief& Look(const ScanMap& map,
+                          std::span<const ScanPoint> points,
+                          const Pose2& T_local_robot);
+  /// The same where many look at one map. @param area of that map alone.
+  const PlaceBelief& Look(const ScanMap& map,
+                          MappedArea& area,
                           std::span<const ScanPoint> points,
                           const Pose2& T_local_robot);
 
@@ -79,7 +98,6 @@ class PlaceFinder {
   };
   struct Sight;
 
-  const ModeSearchArea& AreaOf(const ScanMap& map);
   bool HasMovedOn(const Pose2& T_local_robot) const;
   void Follow(const Sight& sight, const Pose2& T_last_robot);
   double FollowedScore() const;
@@ -92,10 +110,9 @@ class PlaceFinder {
 
   ScanLocator locator_;
   PlaceEvidence evidence_;
-  std::vector<Eigen::Vector2d> path_m_;         // Of the map at the last look.
-  std::shared_ptr<const ModeSearchArea> area_;  // Along that; copies of the finder share it.
-  SeenSurfaces seen_;                           // By the looks so far, in the local frame.
-  std::vector<Hypothesis> hypotheses_;          // The most likely one first.
+  MappedArea area_;                     // Of the map, where nobody else has it.
+  SeenSurfaces seen_;                   // By the looks so far, in the local frame.
+  std::vector<Hypothesis> hypotheses_;  // The most likely one first.
   // The robot may as well be outside the map as in it: any one place has that much against it.
   double elsewhere_nats_ = 0.0;
   std::optional<Pose2> T_local_last_;  // At the last look.
