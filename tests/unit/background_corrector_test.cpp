@@ -64,5 +64,16 @@ TEST_P(BackgroundCorrectorCalledBack, PlacesAnewWhatCameMeanwhile) {
 
 INSTANTIATE_TEST_SUITE_P(, BackgroundCorrectorCalledBack, testing::Values(kSinceLook, 1));
 
+TEST(BackgroundCorrector, KeepsItsScansOverACorrection) {
+  const Answers answers = BentOfficeLoop();
+  BackgroundCorrector corrector({}, WorkAtOnce, ChainsOf::kOneRobot);
+  NodeMaker nodes;
+  for (std::size_t i = 0; i < kSinceLook; ++i) corrector.Add(*nodes.Take(answers.steps[i]));
+  EXPECT_EQ(corrector.Correct().map_node.size(), kSinceLook);
+  EXPECT_EQ(corrector.size(), kSinceLook);
+  corrector.ForgetSince(kSinceLook - 1);
+  EXPECT_EQ(corrector.Correct().map_node.size(), kSinceLook - 1);
+}
+
 }  // namespace
 }  // namespace qwsm::test

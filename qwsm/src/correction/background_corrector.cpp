@@ -63,12 +63,16 @@ void BackgroundCorrector::Finish() {
   corrector_.Adopt(map_node_);
 }
 
-void BackgroundCorrector::Look() {
+std::vector<ScanNode> BackgroundCorrector::TakeNews() {
   for (const ScanNode& node : news_) {
     map_node_.push_back(node.map_robot);
     robot_.push_back(node.robot);
   }
-  under_look_ = std::exchange(news_, {});
+  return std::exchange(news_, {});
+}
+
+void BackgroundCorrector::Look() {
+  under_look_ = TakeNews();
   is_looking_ = true;
   wait_ = beside_([this] {
     for (ScanNode& node : under_look_) corrector_.Add(std::move(node));
@@ -147,7 +151,7 @@ std::size_t BackgroundCorrector::LookedAtBeside(const ScanNode& node) const {
 Correction BackgroundCorrector::Correct() {
   Finish();
   proposal_.reset();
-  for (ScanNode& node : std::exchange(news_, {})) corrector_.Add(std::move(node));
+  for (ScanNode& node : TakeNews()) corrector_.Add(std::move(node));
   return corrector_.Correct();
 }
 

@@ -86,6 +86,7 @@ class BackgroundCorrector {
 
   void Finish();
   void Look();
+  std::vector<ScanNode> TakeNews();
   std::optional<CorrectedMap> TakeUp(Proposal proposal);
   UncertainPose2 PlacedAnew(const ScanMap& map,
                             std::span<const ScanPoint> points,
