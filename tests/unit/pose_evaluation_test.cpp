@@ -30,6 +30,14 @@ TEST(PoseEvaluation, TellsHowMuchOfTheTruthWasCompared) {
   EXPECT_EQ(OfNine({0, 4, 8, 99}).covered, 1.0);
 }
 
+// As of scans named from 1 on, and poses of the lines of a file.
+TEST(PoseEvaluation, PairsPosesThatAreOnlyCountedByTheirOrder) {
+  EXPECT_EQ(Compare(Numbered({1, 2, 3}), Numbered({0, 1, 2}), PoseAlignment::kFirst).poses, 3U);
+  EXPECT_EQ(Compare(Numbered({0, 1, 2}), Numbered({0, 3, 4}), PoseAlignment::kFirst).poses, 3U);
+  EXPECT_EQ(Compare(Numbered({1, 2, 3}), Numbered({2, 3, 4}), PoseAlignment::kFirst).poses, 2U);
+  EXPECT_EQ(OfNine({1, 2, 3}).poses, 3U);
+}
+
 TEST(PoseEvaluation, OfAFileWithoutPosesIsRefused) {
   const qwsm::test::TemporaryFolder folder;
   std::ofstream(folder.path() / "none.tum") << "# nothing\n";

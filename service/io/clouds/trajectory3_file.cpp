@@ -3,6 +3,7 @@
 #include "service/io/clouds/trajectory3_file.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <charconv>
 #include <fstream>
 #include <optional>
@@ -110,6 +111,18 @@ NumberedPoses ReadPoses(const fs::path& path) {
   }
   throw std::runtime_error(path.string() +
                            ": holds no trajectory.tum, no .frames and no .pose files");
+}
+
+NumberedPoses Renumbered(const NumberedPoses& poses, const std::vector<double>& numbers) {
+  double count = 0.0;
+  const bool are_counted =
+      std::ranges::all_of(poses, [&](const auto& pose) { return pose.first == count++; });
+  if (!are_counted || poses.size() != numbers.size()) return poses;
+  NumberedPoses renumbered;
+  for (auto number = numbers.begin(); const auto& [counted, pose] : poses) {
+    renumbered.emplace(*number++, pose);
+  }
+  return renumbered;
 }
 
 }  // namespace slam6d::io

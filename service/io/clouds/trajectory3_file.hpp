@@ -35,4 +35,8 @@ void WriteKitti3(const std::filesystem::path& file, const std::vector<Pose3>& T_
 /// @throws std::runtime_error naming file and line where there are none.
 NumberedPoses ReadPoses(const std::filesystem::path& file_or_folder);
 
+/// Poses that are only counted, 0 to N - 1, by as many numbers in order: they are of the
+/// same scans. All others stay as they are.
+NumberedPoses Renumbered(const NumberedPoses& poses, const std::vector<double>& numbers);
+
 }  // namespace slam6d::io

@@ -37,6 +37,12 @@ std::vector<PosePair3> PairUp(const io::NumberedPoses& estimate, const io::Numbe
   return pairs;
 }
 
+std::vector<double> NumbersIn(const io::NumberedPoses& poses) {
+  std::vector<double> numbers;
+  for (const auto& [number, pose] : poses) numbers.push_back(number);
+  return numbers;
+}
+
 /// Every tenth pose of a drive covers it; the first tenth of its poses does not.
 double CoveredShare(const io::NumberedPoses& estimate, const io::NumberedPoses& truth) {
   const double all = truth.rbegin()->first - truth.begin()->first;
@@ -69,9 +75,11 @@ Pose3 AlignmentOf(const std::vector<PosePair3>& pairs, PoseAlignment alignment) 
 
 }  // namespace
 
-PoseErrors Compare(const io::NumberedPoses& estimate,
-                   const io::NumberedPoses& truth,
+PoseErrors Compare(const io::NumberedPoses& estimated,
+                   const io::NumberedPoses& true_poses,
                    PoseAlignment alignment) {
+  const io::NumberedPoses truth = io::Renumbered(true_poses, NumbersIn(estimated));
+  const io::NumberedPoses estimate = io::Renumbered(estimated, NumbersIn(truth));
   const std::vector<PosePair3> pairs = PairUp(estimate, truth);
   const Pose3 T_truth_estimate = AlignmentOf(pairs, alignment);
   PoseErrors errors{

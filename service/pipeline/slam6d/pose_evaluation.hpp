@@ -31,10 +31,11 @@ struct PoseErrors {
   double max_rad = 0.0;
 };
 
-/// Compares the poses that both trajectories have.
+/// Compares the poses that both trajectories have, by their numbers; where one is only counted and
+/// the other has as many, by their order.
 /// @throws std::runtime_error where there are none, or too few to align.
-PoseErrors Compare(const io::NumberedPoses& estimate,
-                   const io::NumberedPoses& truth,
+PoseErrors Compare(const io::NumberedPoses& estimated,
+                   const io::NumberedPoses& true_poses,
                    PoseAlignment alignment);
 
 /// One trajectory and how good it is.

@@ -154,7 +154,7 @@ ScanSeries::ScanSeries(std::vector<ScanPlace> places,
                        const options::RegistrationOptions& options)
     : places_(std::move(places)),
       numbers_(NumbersOf(places_)),
-      starts_(std::move(starts)),
+      starts_(io::Renumbered(starts, {numbers_.begin(), numbers_.end()})),
       options_(options) {}
 
 std::optional<LoadedScan> ScanSeries::Next() {

@@ -54,8 +54,8 @@ struct LoadedScan {
 class ScanSeries {
  public:
   /// Gives scans in the order of their places.
-  /// @param starts poses by the numbers of the scans; empty: from `NAME.pose` beside each file, or
-  ///        the odometry of the bag.
+  /// @param starts poses by the numbers of the scans, or as many that are only counted; empty: from
+  ///        `NAME.pose` beside each file, or the odometry of the bag.
   ScanSeries(std::vector<ScanPlace> places,
              io::NumberedPoses starts,
              const options::RegistrationOptions& options);
