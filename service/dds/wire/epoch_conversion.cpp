@@ -75,7 +75,7 @@ std::string_view ObjectionTo(const wire::MapEpoch& sample) {
     return objection;
   }
   if (*sample.origin == '\0' || IsTooLong(sample.origin)) return "it names no service";
-  if (sample.number > team::kMostEpochs) return "its number is higher than any count";
+  if (sample.number >= team::kMostEpochs) return "its number is higher than any count";
   for (const wire::MovedScan& scan : ScansOf(sample)) {
     if (IsTooLong(scan.origin) || IsTooLong(scan.robot)) return "a name in it is too long";
     if (!team::IsRobotName(scan.robot)) return "a robot's name in it is no namespace";

@@ -28,7 +28,7 @@ void RequireRobotName(std::string_view name) {
 }
 
 std::vector<io::JournaledPose> PosesFromJournal(const io::JournalEntry& entry) {
-  if (entry.sequence > kMostEpochs) throw io::BinaryError("its number is higher than any count");
+  if (entry.sequence >= kMostEpochs) throw io::BinaryError("its number is higher than any count");
   std::vector<io::JournaledPose> poses = io::DecodeEpoch(entry.contents);
   for (const io::JournaledPose& pose : poses) RequireRobotName(pose.component);
   return poses;

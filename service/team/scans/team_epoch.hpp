@@ -22,8 +22,7 @@ struct MovedScan {
   UncertainPose2 map_robot{};
 };
 
-/// More corrections than there can ever be: one each second for a hundred years. Who takes in a
-/// higher number cannot count on from there.
+/// Corrections are numbered below: one each second for a hundred years.
 inline constexpr std::uint64_t kMostEpochs = 1ULL << 32U;
 
 /// Which of two corrections counts, wherever they were found: the greater.
