@@ -178,7 +178,7 @@ void RobotTracker::LearnMotion(const Sighting& sighting, std::size_t scans) {
   apart_.reset();
 }
 
-// Where the robot would be if it had moved as before the scan may agree with the map much better.
+// Where the robot would be if it had moved as before, the scan may agree with the map much better.
 // @return whether it does, and odometry is not believed.
 bool RobotTracker::DropFailedOdometry(const ScanMap& map,
                                       const Observation& observation,

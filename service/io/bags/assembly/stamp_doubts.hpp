@@ -17,7 +17,8 @@ void DoubtStampsThatFallBack(const std::string& topic,
                              std::span<const MessagePlace> places,
                              BagFaults& faults);
 
-/// Tells of scans that no odometry is near to in time. @param stamps of all scans, in order.
+/// Tells of scans that no odometry is near to in time, if these are more than a few.
+/// @param scans all of them, in the order of their stamps.
 void DoubtScansWithoutOdometry(std::span<const MessagePlace> scans,
                                const OdometryTrack& odometry,
                                BagFaults& faults);
