@@ -26,8 +26,11 @@ inline PosePrediction Fused(const PosePrediction& predicted, const UncertainPose
 /// all of them say that scanned within the time between two scans of one.
 ///
 /// Each scan is matched at its own time, and is fused with what the others' last scans told alone,
-/// moved along by odometry. No scan counts twice, and none is favoured; a laser that is heard no
-/// more is forgotten within a period. Lasers are told apart by where they sit on the robot.
+/// moved along by odometry. What they told is in the answer before as well, from which the scan's
+/// pose is predicted: that it counts twice there makes up for odometry that is thought to be worse
+/// than it is between two lasers. In what is learned of the motion each scan counts once. A laser
+/// that is heard no more is forgotten within a period. Lasers are told apart by where they sit on
+/// the robot.
 class LaserTurns {
  public:
   explicit LaserTurns(const MotionNoise& noise = {});
