@@ -66,12 +66,19 @@ TEST_F(Bag, TellsOnceThatBearingsContradictEachOther) {
 
 TEST_F(Bag, SaysHowToMendRangesThatNoLaserHas) {
   std::vector<MadeMessage> drive = Drive(Ros::k1);
-  PutInScans(drive, ScanField::kMax, std::numeric_limits<float>::infinity());
+  PutInScans(drive, ScanField::kMax, 30'000.0F);
   EXPECT_TRUE(ReadRos1(drive).scans.empty());
-  EXPECT_NE(told_.find("they are 0.1 and inf; --set log.range_max_m="), std::string::npos) << told_;
+  EXPECT_NE(told_.find("they are 0.1 and 30000; --set log.range_max_m="), std::string::npos) << told_;
   LogOptions options;
   options.range_max_m = 30.0F;
   EXPECT_EQ(ReadRos1(drive, "none", options).scans.size(), 4U);
+}
+
+TEST_F(Bag, TakesScansOfARangeWithoutLimit) {
+  std::vector<MadeMessage> drive = Drive(Ros::k1);
+  PutInScans(drive, ScanField::kMax, std::numeric_limits<float>::infinity());
+  EXPECT_EQ(ReadRos1(drive).scans.size(), 4U);
+  EXPECT_EQ(told_, "");
 }
 
 TEST_F(Bag, OfSeveralFilesOfOneRecordingSaysOnceWhereTheLaserSits) {

@@ -3,9 +3,20 @@
 #include "qwsm/sensor/scan_limits.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace qwsm {
+
+float RangeMaximumOf_m(float stated_m) {
+  return stated_m == std::numeric_limits<float>::infinity() ? kLongestRange_m : stated_m;
+}
+
+std::chrono::nanoseconds StatedSweep(double stated_s) {
+  constexpr double kLongestSweep_s = 1.0;
+  if (!(stated_s > 0.0 && stated_s <= kLongestSweep_s)) return {};
+  return std::chrono::round<std::chrono::nanoseconds>(std::chrono::duration<double>(stated_s));
+}
 
 bool IsMounting(const Pose2& T_robot_laser) {
   return IsFinite(T_robot_laser) &&

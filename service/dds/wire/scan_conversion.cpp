@@ -3,7 +3,6 @@
 #include "service/dds/wire/scan_conversion.hpp"
 
 #include <cstring>
-#include <limits>
 #include <vector>
 
 #include "qwsm/geometry/position.hpp"
@@ -37,22 +36,7 @@ std::vector<float> Copy(const dds_sequence_float& ranges) {
   return {ranges._buffer, ranges._buffer + ranges._length};
 }
 
-// A scan that takes longer is none of a robot's, or its unit is not the second.
-constexpr double kLongestSweep_s = 1.0;
-
 double GapsOf(std::size_t beams) { return beams > 1 ? static_cast<double>(beams - 1) : 1.0; }
-
-std::chrono::nanoseconds SweepOf(const wire::LaserScan& sample) {
-  const double sweep_s = static_cast<double>(sample.time_increment) * GapsOf(sample.ranges._length);
-  return sweep_s > 0.0 && sweep_s <= kLongestSweep_s ? Nanoseconds(sweep_s)
-                                                     : std::chrono::nanoseconds{};
-}
-
-// By an infinite one drivers and simulators mean that there is no limit.
-float RangeMaximumOf_m(const wire::LaserScan& sample) {
-  return sample.range_max == std::numeric_limits<float>::infinity() ? kLongestRange_m
-                                                                    : sample.range_max;
-}
 
 }  // namespace
 
@@ -80,10 +64,11 @@ LaserScan FromWire(const wire::LaserScan& sample, const Pose2& T_robot_laser) {
           .geometry = {.first_bearing_rad = sample.angle_min,
                        .bearing_step_rad = sample.angle_increment,
                        .range_min_m = sample.range_min,
-                       .range_max_m = RangeMaximumOf_m(sample),
+                       .range_max_m = RangeMaximumOf_m(sample.range_max),
                        .T_robot_laser = T_robot_laser},
           .ranges_m = Copy(sample.ranges),
-          .sweep = SweepOf(sample)};
+          .sweep = StatedSweep(static_cast<double>(sample.time_increment) *
+                               GapsOf(sample.ranges._length))};
 }
 
 wire::RelevantScan ToWire(const team::TeamScan& scan, const std::string& map_frame) {

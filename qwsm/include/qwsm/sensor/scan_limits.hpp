@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <string_view>
 
@@ -16,6 +17,13 @@ inline constexpr std::size_t kMostBeams = 100'000;
 
 /// No laser looks more finely from beam to beam: a smaller step is a mistake.
 inline constexpr float kLeastBearingStep_rad = 1e-6F;
+
+/// The range maximum that a driver states: by an infinite one it means that there is no limit.
+float RangeMaximumOf_m(float stated_m);
+
+/// Time from the first beam to the last that a driver states; 0 where no robot's scan takes as
+/// long, or its unit is not the second.
+std::chrono::nanoseconds StatedSweep(double stated_s);
 
 /// Whether a laser may sit there on its robot.
 bool IsMounting(const Pose2& T_robot_laser);

@@ -24,7 +24,7 @@ LaserScan ScanOf(LaserScanMessage message, const LaserChoice& laser) {
           .geometry = {.first_bearing_rad = side * message.first_bearing_rad,
                        .bearing_step_rad = side * BearingStepOf(message),
                        .range_min_m = message.range_min_m,
-                       .range_max_m = message.range_max_m,
+                       .range_max_m = RangeMaximumOf_m(message.range_max_m),
                        .T_robot_laser = laser.T_robot_laser},
           .ranges_m = std::move(message.ranges_m)};
 }
@@ -32,13 +32,10 @@ LaserScan ScanOf(LaserScanMessage message, const LaserChoice& laser) {
 /// Time from the first beam to the last, as the message or the options tell, who are taken as
 /// exactly as a message tells it; 0 where none does.
 std::chrono::nanoseconds SweepOf(const LaserScanMessage& message, const LogOptions& options) {
-  constexpr double kLongestSweep_s = 1.0;
   const double gaps = static_cast<double>(message.ranges_m.size()) - 1.0;
   const float step_s =
       options.sweep_s ? static_cast<float>(*options.sweep_s / gaps) : message.time_step_s;
-  const double sweep_s = static_cast<double>(step_s) * gaps;
-  if (!(sweep_s > 0.0 && sweep_s <= kLongestSweep_s)) return {};
-  return std::chrono::round<std::chrono::nanoseconds>(std::chrono::duration<double>(sweep_s));
+  return StatedSweep(static_cast<double>(step_s) * gaps);
 }
 
 /// What mends range limits that no laser has; nothing where they are right.
