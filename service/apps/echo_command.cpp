@@ -44,7 +44,7 @@ std::string TextOf(const dds::MatchReport& report) {
       "{:<10} {:.6f}  {:9.3f} m {:9.3f} m {:8.2f} deg  {:<13} {:3.0f} % of {:4} pairs  {:.2f} "
       "ms{}\n",
       team::DisplayName(report.robot),
-      std::chrono::duration<double>(report.stamp).count(),
+      Seconds(report.stamp),
       pose.x_m,
       pose.y_m,
       RadiansToDegrees(pose.theta_rad),
@@ -59,7 +59,7 @@ std::string JsonOf(const dds::MatchReport& report) {
   const Pose2& pose = report.map_robot.T_a_b;
   pipeline::Json json;
   json["robot"] = report.robot;
-  json["stamp_s"] = std::chrono::duration<double>(report.stamp).count();
+  json["stamp_s"] = Seconds(report.stamp);
   json["x_m"] = pose.x_m;
   json["y_m"] = pose.y_m;
   json["theta_rad"] = pose.theta_rad;

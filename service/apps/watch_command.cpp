@@ -33,7 +33,7 @@ struct WatchArguments {
   NetworkArguments network;
 };
 
-Clock::duration Seconds(double seconds) {
+Clock::duration DurationOf(double seconds) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
@@ -64,14 +64,14 @@ ExitCode RunWatch(const WatchArguments& arguments) {
   pipeline::TeamTable table;
   Screen screen;
   const auto begin = Clock::now();
-  auto next = begin + Seconds(arguments.period_s);
+  auto next = begin + DurationOf(arguments.period_s);
   while (!interruption.requested()) {
     for (const dds::MatchReport& report : reports.Take(100ms)) table.Take(report, Clock::now());
     const auto now = Clock::now();
-    const bool is_over = arguments.duration_s && now - begin > Seconds(*arguments.duration_s);
+    const bool is_over = arguments.duration_s && now - begin > DurationOf(*arguments.duration_s);
     if (now >= next || is_over) {
       screen.Show(table.empty() ? "nobody is reported on yet\n" : table.Text(now));
-      next = now + Seconds(arguments.period_s);
+      next = now + DurationOf(arguments.period_s);
     }
     if (is_over) break;
   }

@@ -37,8 +37,6 @@ double PitchAt(double time_s) {
   return kLean_rad * std::sin(2.0 * std::numbers::pi * phase_s / kOverThreshold_s);
 }
 
-double SecondsOf(Timestamp stamp) { return std::chrono::duration<double>(stamp).count(); }
-
 /// A cheap sensor on a shaking robot, mounted half a degree off.
 class ShakenImu {
  public:
@@ -46,7 +44,7 @@ class ShakenImu {
 
   ImuReading Read(Timestamp stamp) {
     constexpr double kStep_s = 1e-3;
-    const double time_s = SecondsOf(stamp);
+    const double time_s = Seconds(stamp);
     const double pitch_rad = PitchAt(time_s) + kMounting_rad;
     const double rate_rad_s = (PitchAt(time_s + kStep_s) - PitchAt(time_s)) / kStep_s;
     ImuReading reading{.stamp = stamp};
@@ -109,7 +107,7 @@ Counts DriveOverThresholds(int seed) {
     const Timestamp stamp = reading->scan.stamp;
     for (; felt <= stamp; felt += 10ms) tilts.Add(imu.Read(felt));
     std::array<LaserScan, 3> scans{reading->scan, reading->scan, reading->scan};
-    const std::vector<bool> meets = MeetFloor(PitchAt(SecondsOf(stamp)), scans[1]);
+    const std::vector<bool> meets = MeetFloor(PitchAt(Seconds(stamp)), scans[1]);
     scans[2] = scans[1];
     const std::optional<Tilt> tilt = tilts.At(stamp);
     if (tilt) LeaveOutFloor(*tilt, kHeight_m, scans[2]);

@@ -3,7 +3,6 @@
 #include "qwsm/mapping/gyro_odometry.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace qwsm {
@@ -21,8 +20,7 @@ constexpr double kMostSigmas = 3.0;             // One wrong match is not to mov
 
 std::optional<GyroOdometry::Turn> GyroOdometry::TurnSince(const Observation& observation) const {
   if (!observation.gyro_rad || !gyro_last_rad_ || !T_wheels_last_) return std::nullopt;
-  const double duration_s =
-      std::chrono::duration<double>(observation.scan.stamp - stamp_last_).count();
+  const double duration_s = Seconds(observation.scan.stamp - stamp_last_);
   if (!(duration_s >= 0.0 && duration_s <= kLongestGap_s)) return std::nullopt;
   return Turn{.by_wheels_rad =
                   NormalizeAngle(observation.T_odom_robot->theta_rad - T_wheels_last_->theta_rad),

@@ -15,13 +15,9 @@ namespace {
 constexpr double kSteadyFor_s = 2.0;    // Over which a velocity stays about the same.
 constexpr double kMostSigmasOff = 3.0;  // One wrong match, or odometry that jumps, moves it so far.
 
-double SecondsIn(std::chrono::nanoseconds duration) {
-  return std::chrono::duration<double>(duration).count();
-}
-
 // How far a velocity carries the robot, as the pose after it.
 Pose2 MotionIn(std::chrono::nanoseconds time, const Eigen::Vector3d& velocity) {
-  const Eigen::Vector3d moved = SecondsIn(time) * velocity;
+  const Eigen::Vector3d moved = Seconds(time) * velocity;
   return {moved.x(), moved.y(), moved.z()};
 }
 
@@ -62,7 +58,7 @@ void SlipEstimator::Learn(const Observation& observation,
   if (step.closed_loop) Interrupt();
   const std::optional<Look> before = std::exchange(last_, LookOf(observation, *velocity, step));
   if (!before || !last_) return;
-  const double elapsed_s = SecondsIn(last_->stamp - before->stamp);
+  const double elapsed_s = Seconds(last_->stamp - before->stamp);
   if (elapsed_s > 0.0 && elapsed_s <= kSteadyFor_s) Learn(*before, *last_, elapsed_s);
 }
 

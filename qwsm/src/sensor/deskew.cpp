@@ -3,7 +3,6 @@
 #include "qwsm/sensor/deskew.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -31,7 +30,7 @@ struct MovedHit {
 // Odometry that began anew within a scan tells of no motion. Nor does any robot turn back half as
 // fast as the mirror of its laser turns on.
 bool IsMotionOfRobot(const LaserScan& scan, const Pose2& T_first_last) {
-  const double farthest_m = kFastest_mps * std::chrono::duration<double>(SweepOf(scan)).count();
+  const double farthest_m = kFastest_mps * Seconds(SweepOf(scan));
   const double seen_rad = scan.geometry.Bearing(scan.size() - 1) - scan.geometry.Bearing(0);
   const double turned_on_rad =
       std::copysign(T_first_last.theta_rad, T_first_last.theta_rad * seen_rad);

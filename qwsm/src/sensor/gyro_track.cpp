@@ -11,10 +11,6 @@ namespace {
 // A gyro that is silent for longer has missed turns.
 constexpr std::chrono::nanoseconds kLongestSilence = std::chrono::milliseconds(200);
 
-double SecondsOf(std::chrono::nanoseconds duration) {
-  return std::chrono::duration<double>(duration).count();
-}
-
 }  // namespace
 
 bool GyroTrack::Add(const ImuReading& reading) {
@@ -22,7 +18,7 @@ bool GyroTrack::Add(const ImuReading& reading) {
   if (!readings_.empty()) {
     const Turn& before = readings_.back();
     if (reading.stamp <= before.stamp) return false;
-    turned_rad_ += 0.5 * (before.rate_rad_s + rate_rad_s) * SecondsOf(reading.stamp - before.stamp);
+    turned_rad_ += 0.5 * (before.rate_rad_s + rate_rad_s) * Seconds(reading.stamp - before.stamp);
   }
   readings_.push_back(
       {.stamp = reading.stamp, .rate_rad_s = rate_rad_s, .turned_rad = turned_rad_});
@@ -41,7 +37,7 @@ std::optional<double> GyroTrack::At(Timestamp stamp) const {
   if (after == readings_.begin()) return std::nullopt;
   const Turn& before = *(after - 1);
   if (after->stamp - before.stamp > kLongestSilence) return std::nullopt;
-  const double share = SecondsOf(stamp - before.stamp) / SecondsOf(after->stamp - before.stamp);
+  const double share = Seconds(stamp - before.stamp) / Seconds(after->stamp - before.stamp);
   return before.turned_rad + share * (after->turned_rad - before.turned_rad);
 }
 

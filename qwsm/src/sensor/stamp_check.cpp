@@ -65,8 +65,6 @@ std::optional<double> TurnBetween(const LaserScan& before, const LaserScan& now)
   return -shift * step_rad;  // What stands still is seen further to the right after a left turn.
 }
 
-double SecondsAt(Timestamp stamp) { return std::chrono::duration<double>(stamp).count(); }
-
 }  // namespace
 
 void StampCheck::Add(const LaserScan& scan, const std::optional<Pose2>& T_odom_robot) {
@@ -74,7 +72,7 @@ void StampCheck::Add(const LaserScan& scan, const std::optional<Pose2>& T_odom_r
     return;
   }
   if (last_ && last_->geometry.T_robot_laser != scan.geometry.T_robot_laser) return;
-  Heading now{.time_s = SecondsAt(scan.stamp), .by_odometry_rad = 0.0, .turn_by_scan_rad = {}};
+  Heading now{.time_s = Seconds(scan.stamp), .by_odometry_rad = 0.0, .turn_by_scan_rad = {}};
   if (last_) {
     const Heading& before = headings_.back();
     if (now.time_s <= before.time_s) return;

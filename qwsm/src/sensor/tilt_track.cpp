@@ -18,10 +18,6 @@ constexpr double kLearningShare = 0.01;  // Share of the last reading in what is
 // A sensor that is silent for longer has missed how the robot leans.
 constexpr std::chrono::nanoseconds kLongestWithoutTilt = std::chrono::milliseconds(200);
 
-double InSeconds(std::chrono::nanoseconds duration) {
-  return std::chrono::duration<double>(duration).count();
-}
-
 /// The third row of the rotation: what is up in a level frame, seen from the robot.
 Eigen::Vector3d UpOf(const Quaternion& q) {
   return Eigen::Vector3d(2.0 * (q.x * q.z - q.y * q.w),
@@ -49,7 +45,7 @@ bool TiltTrack::Add(const ImuReading& reading) {
   } else {
     const std::chrono::nanoseconds since = reading.stamp - entries_.back().stamp;
     if (since.count() <= 0) return false;
-    Turn(reading.turn_rate_rad_s, InSeconds(since));
+    Turn(reading.turn_rate_rad_s, Seconds(since));
     Draw(*felt);
   }
   readings_ += 1.0;
@@ -94,7 +90,7 @@ std::optional<Tilt> TiltTrack::At(Timestamp stamp) const {
   if (after == entries_.begin()) return std::nullopt;
   const Entry& before = *(after - 1);
   if (after->stamp - before.stamp > kLongestWithoutTilt) return std::nullopt;
-  const double share = InSeconds(stamp - before.stamp) / InSeconds(after->stamp - before.stamp);
+  const double share = Seconds(stamp - before.stamp) / Seconds(after->stamp - before.stamp);
   const Eigen::Vector3d& up_before = before.tilt.up_robot;
   return Tilt{.up_robot = (up_before + share * (after->tilt.up_robot - up_before)).normalized(),
               .sigma_rad = std::max(before.tilt.sigma_rad, after->tilt.sigma_rad)};

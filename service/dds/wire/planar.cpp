@@ -29,10 +29,6 @@ wire::Time ToWire(Timestamp stamp) {
           .nanosec = static_cast<std::uint32_t>((stamp - seconds).count())};
 }
 
-double Seconds(std::chrono::nanoseconds duration) {
-  return std::chrono::duration<double>(duration).count();
-}
-
 std::chrono::nanoseconds Nanoseconds(double duration_s) {
   constexpr double kDay_s = 86400.0;
   if (!(std::abs(duration_s) < kDay_s)) return {};

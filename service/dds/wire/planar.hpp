@@ -17,7 +17,6 @@ namespace qwsm::dds {
 std::optional<Timestamp> FromWire(const wire::Time& time);
 /// The time of a stamp on the wire. @pre the stamp is within 2^31 seconds.
 wire::Time ToWire(Timestamp stamp);
-double Seconds(std::chrono::nanoseconds duration);
 /// A duration in nanoseconds; 0 where there is no such duration: a day and more.
 std::chrono::nanoseconds Nanoseconds(double duration_s);
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -20,10 +19,6 @@ namespace {
 
 /// Larger maps are shown with cells put together.
 constexpr int kMostCellsAcross = 3000;
-
-double SecondsSince(Timestamp stamp, Timestamp first) {
-  return std::chrono::duration<double>(stamp - first).count();
-}
 
 /// Cells put together, `step` by `step`, each as its most telling one; rows from the top.
 std::vector<std::uint8_t> CellsFromTop(const OccupancyGrid& grid, int step) {
@@ -113,11 +108,11 @@ Json ScansJson(const MapReport& report) {
   Json json;
   json["count"] = path.size();
   json["stride"] = stride;
-  json["first_stamp_s"] = path.empty() ? 0.0 : SecondsSince(path.front().stamp, Timestamp{});
+  json["first_stamp_s"] = path.empty() ? 0.0 : Seconds(path.front().stamp);
   Json& columns = json["columns"];
   columns["number"] = Column(rows, [](std::size_t row) { return row; });
-  columns["time_s"] = Column(
-      rows, [&](std::size_t row) { return SecondsSince(path[row].stamp, path.front().stamp); });
+  columns["time_s"] =
+      Column(rows, [&](std::size_t row) { return Seconds(path[row].stamp - path.front().stamp); });
   columns["status"] =
       Column(rows, [&](std::size_t row) { return static_cast<int>(path[row].status); });
   columns["residual_mm"] = Column(rows, [&](std::size_t row) { return report.residuals_mm[row]; });
@@ -145,7 +140,7 @@ Json LoopsJson(const MapReport& report) {
   Json json = Json::Array();
   const std::vector<Loop>& loops = report.correction->loops;
   const auto time_s = [&](NodeId node) {
-    return SecondsSince(report.relevant[node].scan.stamp, report.overlay.path.front().stamp);
+    return Seconds(report.relevant[node].scan.stamp - report.overlay.path.front().stamp);
   };
   for (std::size_t i = 0; i < loops.size(); ++i) {
     const io::LoopLine& line = report.overlay.loops[i];
@@ -177,7 +172,7 @@ Json DoubtfulJson(const MapReport& report) {
     }
     Json scan;
     scan["number"] = doubtful.number;
-    scan["time_s"] = SecondsSince(pose.stamp, report.overlay.path.front().stamp);
+    scan["time_s"] = Seconds(pose.stamp - report.overlay.path.front().stamp);
     scan["status"] = Name(doubtful.status);
     scan["reason"] = doubtful.reason;
     scan["residual_mm"] = 1e3 * doubtful.residual_m;

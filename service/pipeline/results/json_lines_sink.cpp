@@ -16,7 +16,7 @@ void JsonLinesSink::Take(const TimedStep& timed) {
   const MappingStep& step = timed.step;
   const Pose2& T_map_robot = step.map_robot.T_a_b;
   Json json;
-  json["stamp_s"] = std::chrono::duration<double>(step.stamp).count();
+  json["stamp_s"] = Seconds(step.stamp);
   json["x_m"] = T_map_robot.x_m;
   json["y_m"] = T_map_robot.y_m;
   json["theta_rad"] = T_map_robot.theta_rad;

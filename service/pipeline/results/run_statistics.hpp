@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -30,7 +29,7 @@ class RunStatistics final : public StepSink {
   double MeanTrace_m2() const;
   double total_time_s() const { return 1e-3 * time_sum_ms_; }
   /// Time from the first scan to the last, by their stamps.
-  double drive_time_s() const { return std::chrono::duration<double>(last_ - first_).count(); }
+  double drive_time_s() const { return Seconds(last_ - first_); }
   /// Whether a robot would have outrun the mapping.
   bool is_outrun() const { return drive_time_s() > 0.0 && total_time_s() > drive_time_s(); }
   /// Quantile of the time per scan: 0.5 is the median. @pre scans() > 0.

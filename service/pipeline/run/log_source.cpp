@@ -103,7 +103,7 @@ void LogSource::CheckOrder(Timestamp stamp) {
         fmt::format("{}: begins {:.1f} s before {} ends: give parts of one recording in the order "
                     "they were recorded in, and map others one by one, with --continue",
                     readers_[current_]->report().name,
-                    std::chrono::duration<double>(*last_stamp_ - stamp).count(),
+                    Seconds(*last_stamp_ - stamp),
                     readers_[last_log_]->report().name));
   }
   last_log_ = current_;

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 
 #include "service/pipeline/text/json.hpp"
@@ -12,9 +11,7 @@
 namespace qwsm::pipeline {
 namespace {
 
-double SimulatedTime_s(const sim::Simulation& simulation) {
-  return std::chrono::duration<double>(simulation.now()).count();
-}
+double SimulatedTime_s(const sim::Simulation& simulation) { return Seconds(simulation.now()); }
 
 }  // namespace
 

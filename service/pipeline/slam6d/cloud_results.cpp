@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <utility>
 
 #include "service/pipeline/slam6d/registration_results.hpp"
@@ -20,7 +19,7 @@ void CloudResults::Keep(const qwsm::team::CloudAnswer& answer) {
                    .T_odom_scan = answer.step.T_odom_sensor,
                    .cloud = WithinRange(answer.step.scan->cloud, options_.slam),
                    .step = answer.step.registration,
-                   .time_s = std::chrono::duration<double>(answer.matching).count()});
+                   .time_s = qwsm::Seconds(answer.matching)});
 }
 
 void CloudResults::Finish(qwsm::team::CloudService& service) {

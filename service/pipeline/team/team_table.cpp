@@ -14,10 +14,6 @@
 namespace qwsm::pipeline {
 namespace {
 
-double Seconds(std::chrono::nanoseconds duration) {
-  return std::chrono::duration<double>(duration).count();
-}
-
 std::string Milliseconds(std::chrono::nanoseconds duration) {
   return fmt::format("{:.2f}", 1e3 * Seconds(duration));
 }

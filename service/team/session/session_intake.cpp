@@ -298,7 +298,7 @@ void SessionIntake<Kind>::WatchOdometry(Work& work) {
   work.odometry_goes_on = work.T_odom_robot && T_odom_last_;
   if (work.odometry_goes_on) {
     const Pose moved = T_odom_last_->Inverse() * *work.T_odom_robot;
-    const double elapsed_s = std::abs(std::chrono::duration<double>(stamp - last_stamp_).count());
+    const double elapsed_s = std::abs(Seconds(stamp - last_stamp_));
     work.odometry_jumped = LengthM(moved) > kJump_m + options_.max_speed_mps * elapsed_s ||
                            TurnRad(moved) > kJump_rad + options_.max_turn_rate_radps * elapsed_s;
     if (work.odometry_jumped) ++counts_.odometry_jumps;

@@ -9,11 +9,9 @@
 #include <vector>
 
 #include "qwsm/geometry/pose2.hpp"
+#include "qwsm/sensor/timestamp.hpp"
 
 namespace qwsm {
-
-/// Time since the epoch of whoever measured. Nanoseconds hold a log's microseconds exactly.
-using Timestamp = std::chrono::nanoseconds;
 
 /// Where the beams of a scan point. Single precision, as sensors and sensor_msgs/LaserScan have it,
 /// so that a scan survives the wire bit for bit.

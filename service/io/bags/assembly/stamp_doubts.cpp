@@ -17,7 +17,7 @@ constexpr std::ptrdiff_t kScansWithOdometry = 10;
 
 std::string SecondsText(Timestamp time) {
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.1f s", std::chrono::duration<double>(time).count());
+  std::snprintf(text.data(), text.size(), "%.1f s", Seconds(time));
   return text.data();
 }
 

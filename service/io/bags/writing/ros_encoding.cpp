@@ -83,7 +83,7 @@ std::string EncodeLaserScan(const LaserScan& scan, std::string_view frame) {
   fields.Add(static_cast<float>(scan.size() > 0 ? geometry.Bearing(scan.size() - 1) : 0.0));
   fields.Add(geometry.bearing_step_rad);
   const double gaps = scan.size() > 1 ? static_cast<double>(scan.size() - 1) : 1.0;
-  fields.Add(static_cast<float>(std::chrono::duration<double>(scan.sweep).count() / gaps));
+  fields.Add(static_cast<float>(Seconds(scan.sweep) / gaps));
   fields.Add(0.0F);  // Time between scans.
   fields.Add(geometry.range_min_m);
   fields.Add(geometry.range_max_m);
