@@ -7,17 +7,6 @@
 #include <cmath>
 
 namespace sim {
-namespace {
-
-/// The pose a share of the way from a to b, turning the short way.
-qwsm::Pose2 Blend(const qwsm::Pose2& a, const qwsm::Pose2& b, double share) {
-  return {
-      std::lerp(a.x_m, b.x_m, share),
-      std::lerp(a.y_m, b.y_m, share),
-      qwsm::NormalizeAngle(a.theta_rad + share * qwsm::NormalizeAngle(b.theta_rad - a.theta_rad))};
-}
-
-}  // namespace
 
 qwsm::LaserGeometry GeometryOf(const LaserOptions& options) {
   const double step_rad = options.beams > 1 ? options.field_of_view_rad / (options.beams - 1) : 0.0;
@@ -54,7 +43,7 @@ void Laser::Continue(const PhysicsWorld& world, BodyId robot, qwsm::Timestamp no
     const std::chrono::duration<double> step = now - last_time_;
     const double share = step.count() > 0.0 ? since_last / step : 1.0;
     const qwsm::Pose2 T_world_laser =
-        Blend(last_T_world_robot_, T_world_robot, share) * scan_.geometry.T_robot_laser;
+        Between(last_T_world_robot_, T_world_robot, share) * scan_.geometry.T_robot_laser;
     scan_.ranges_m.push_back(Measure(world, robot, T_world_laser, beam));
   }
   last_time_ = now;

@@ -32,6 +32,15 @@ TEST(Pose2, MapsPointsFromChildToParent) {
   EXPECT_NEAR(p_map.y(), 5.0, 1e-12);
 }
 
+TEST(Pose2, LiesBetweenTwoOthersByTheShorterTurn) {
+  const Pose2 a{1.0, 2.0, 3.0};
+  const Pose2 b{3.0, -2.0, -3.0};
+  ExpectNear(Between(a, b, 0.0), a, 0.0);
+  ExpectNear(Between(a, b, 0.5), {2.0, 0.0, pi}, 1e-12);
+  ExpectNear(Between(a, b, 1.0), b, 1e-12);
+  ExpectNear(Between(a, b, 1.5), {4.0, -4.0, -3.0 + 0.5 * (2.0 * pi - 6.0)}, 1e-12);
+}
+
 TEST(Pose2, ObeysTheGroupLaws) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> position_m(-1e3, 1e3);

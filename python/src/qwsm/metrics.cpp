@@ -8,7 +8,6 @@
 #include "python/src/arrays.hpp"
 #include "python/src/qwsm/bindings.hpp"
 #include "python/src/qwsm/lists.hpp"
-#include "qwsm/metrics/pose_lookup.hpp"
 #include "qwsm/metrics/trajectory_error.hpp"
 #include "service/io/trajectories/relations_file.hpp"
 #include "service/io/trajectories/trajectory_file.hpp"

@@ -5,17 +5,6 @@
 #include "qwsm/geometry/frame_covariance.hpp"
 
 namespace qwsm {
-namespace {
-
-// The part of the way from one pose to another that is near to it.
-Pose2 Between(const Pose2& a, const Pose2& b, double share) {
-  return {
-      .x_m = a.x_m + share * (b.x_m - a.x_m),
-      .y_m = a.y_m + share * (b.y_m - a.y_m),
-      .theta_rad = NormalizeAngle(a.theta_rad + share * NormalizeAngle(b.theta_rad - a.theta_rad))};
-}
-
-}  // namespace
 
 void AnchoredPath::Take(const MappingStep& step, const std::optional<UncertainPose2>& map_last) {
   const double strain = StrainOf(step, map_last);

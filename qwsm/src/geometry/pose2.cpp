@@ -29,6 +29,13 @@ Eigen::Vector2d operator*(const Pose2& T_a_b, const Eigen::Vector2d& p_b_m) {
   return {T_a_b.x_m + c * p_b_m.x() - s * p_b_m.y(), T_a_b.y_m + s * p_b_m.x() + c * p_b_m.y()};
 }
 
+Pose2 Between(const Pose2& a, const Pose2& b, double share) {
+  const double turn_rad = NormalizeAngle(b.theta_rad - a.theta_rad);
+  return {.x_m = a.x_m + share * (b.x_m - a.x_m),
+          .y_m = a.y_m + share * (b.y_m - a.y_m),
+          .theta_rad = NormalizeAngle(a.theta_rad + share * turn_rad)};
+}
+
 Pose2 WithTurn(const Pose2& motion, double turn_rad) {
   const Pose2 half{.theta_rad = 0.5 * NormalizeAngle(turn_rad - motion.theta_rad)};
   const Eigen::Vector2d way_m = half * motion.translation_m();

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "qwsm/metrics/pose_lookup.hpp"
-
 namespace qwsm {
 namespace {
 

@@ -30,13 +30,6 @@ Trajectory SortedByStamp(Trajectory trajectory) {
   return trajectory;
 }
 
-Pose2 Between(const Pose2& a, const Pose2& b, double share) {
-  const double turn_rad = NormalizeAngle(b.theta_rad - a.theta_rad);
-  return {.x_m = a.x_m + share * (b.x_m - a.x_m),
-          .y_m = a.y_m + share * (b.y_m - a.y_m),
-          .theta_rad = NormalizeAngle(a.theta_rad + share * turn_rad)};
-}
-
 std::optional<std::size_t> NearestIndex(const Trajectory& sorted,
                                         Timestamp stamp,
                                         std::chrono::nanoseconds tolerance) {

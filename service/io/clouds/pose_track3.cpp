@@ -19,7 +19,7 @@ std::optional<Pose3> PoseTrack3::At(qwsm::Timestamp stamp) const {
   if (has_before && has_after && after->stamp - before->stamp <= qwsm::io::kLongestGap) {
     const double share = static_cast<double>((stamp - before->stamp).count()) /
                          static_cast<double>((after->stamp - before->stamp).count());
-    return before->pose * ScaledMotion(before->pose.Inverse() * after->pose, share);
+    return Between(before->pose, after->pose, share);
   }
   if (has_before && stamp - before->stamp <= qwsm::io::kLongestReach) return before->pose;
   if (has_after && after->stamp - stamp <= qwsm::io::kLongestReach) return after->pose;

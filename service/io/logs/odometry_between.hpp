@@ -19,11 +19,7 @@ inline Pose2 Between(const OdometryReading& before, const OdometryReading& after
   if (span == Timestamp::zero()) return before.T_odom_robot;
   const double share =
       static_cast<double>((stamp - before.stamp).count()) / static_cast<double>(span.count());
-  const Pose2& a = before.T_odom_robot;
-  const Pose2& b = after.T_odom_robot;
-  return {a.x_m + share * (b.x_m - a.x_m),
-          a.y_m + share * (b.y_m - a.y_m),
-          NormalizeAngle(a.theta_rad + share * NormalizeAngle(b.theta_rad - a.theta_rad))};
+  return qwsm::Between(before.T_odom_robot, after.T_odom_robot, share);
 }
 
 }  // namespace qwsm::io

@@ -10,7 +10,6 @@
 #include <optional>
 
 #include "qwsm/geometry/angle.hpp"
-#include "qwsm/metrics/pose_lookup.hpp"
 
 namespace qwsm::team {
 namespace {

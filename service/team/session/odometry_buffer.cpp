@@ -9,27 +9,6 @@
 #include "slam6d/geometry/position.hpp"
 
 namespace qwsm::team {
-namespace {
-
-// On the straight line from a to b, the heading along the shorter turn; beyond b for share > 1.
-Pose2 Interpolate(const Pose2& a, const Pose2& b, double share) {
-  return {a.x_m + share * (b.x_m - a.x_m),
-          a.y_m + share * (b.y_m - a.y_m),
-          NormalizeAngle(a.theta_rad + share * NormalizeAngle(b.theta_rad - a.theta_rad))};
-}
-
-slam6d::Pose3 Interpolate(const slam6d::Pose3& a, const slam6d::Pose3& b, double share) {
-  const Eigen::Vector3d turn_rad =
-      slam6d::RotationVector(slam6d::NearestRotation(a.rotation.transpose() * b.rotation));
-  return {.rotation = a.rotation * slam6d::RotationFromVector(share * turn_rad),
-          .translation_m = a.translation_m + share * (b.translation_m - a.translation_m)};
-}
-
-double Seconds(std::chrono::nanoseconds duration) {
-  return std::chrono::duration<double>(duration).count();
-}
-
-}  // namespace
 
 template <class Pose>
 bool OdometryBuffer<Pose>::Add(Timestamp stamp, const Pose& T_odom_robot) {
@@ -79,18 +58,18 @@ std::optional<Pose> OdometryBuffer<Pose>::At(Timestamp stamp) const {
   const auto before = std::prev(after);
   if (after != readings_.end()) {
     if (after->stamp - before->stamp > kMaxGap) return std::nullopt;
-    return Interpolate(before->T_odom_robot,
-                       after->T_odom_robot,
-                       Seconds(stamp - before->stamp) / Seconds(after->stamp - before->stamp));
+    return Between(before->T_odom_robot,
+                   after->T_odom_robot,
+                   Seconds(stamp - before->stamp) / Seconds(after->stamp - before->stamp));
   }
   if (stamp - before->stamp > kMaxLead) return std::nullopt;
   if (before == readings_.begin()) return before->T_odom_robot;
   const auto earlier = std::prev(before);
   const auto step = before->stamp - earlier->stamp;
   if (step > kMaxGap) return before->T_odom_robot;
-  return Interpolate(earlier->T_odom_robot,
-                     before->T_odom_robot,
-                     1.0 + Seconds(stamp - before->stamp) / Seconds(step));
+  return Between(earlier->T_odom_robot,
+                 before->T_odom_robot,
+                 1.0 + Seconds(stamp - before->stamp) / Seconds(step));
 }
 
 template class OdometryBuffer<Pose2>;

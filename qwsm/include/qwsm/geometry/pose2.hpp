@@ -40,6 +40,10 @@ inline Pose2 Shifted(const Pose2& pose, const Eigen::Vector3d& difference) {
           NormalizeAngle(pose.theta_rad + difference.z())};
 }
 
+/// The pose at `share` of the way from a (0) to b (1): straight ahead, turning the shorter way
+/// round.
+Pose2 Between(const Pose2& a, const Pose2& b, double share);
+
 /// The motion with another turn, along an arc as long.
 Pose2 WithTurn(const Pose2& motion, double turn_rad);
 

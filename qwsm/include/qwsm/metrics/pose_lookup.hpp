@@ -20,10 +20,6 @@ std::optional<std::size_t> NearestIndex(const Trajectory& sorted,
                                         Timestamp stamp,
                                         std::chrono::nanoseconds tolerance);
 
-/// Interpolates the pose at `share` of the way from a (0) to b (1): straight ahead, turning the
-/// shorter way round.
-Pose2 Between(const Pose2& a, const Pose2& b, double share);
-
 /// Interpolates the pose at `stamp`, on the straight line between the poses before and after it;
 /// before the first and after the last pose theirs, as far as `tolerance`. O(log n).
 /// @pre `sorted` has rising stamps.

@@ -67,6 +67,11 @@ Eigen::Vector4d QuaternionOf(const Eigen::Matrix3d& rotation);
 /// scaled.
 Pose3 ScaledMotion(const Pose3& motion, double share);
 
+/// The pose at `share` of the way from a (0) to b (1), by even motion.
+inline Pose3 Between(const Pose3& a, const Pose3& b, double share) {
+  return a * ScaledMotion(a.Inverse() * b, share);
+}
+
 /// Whether all numbers are finite.
 bool IsFinite(const Pose3& pose);
 
