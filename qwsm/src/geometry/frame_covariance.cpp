@@ -42,11 +42,17 @@ double FrameCovariance::PositionVariance(const Eigen::Vector2d& p_m) const {
   return 0.5 * (xx + yy);
 }
 
+// Seen from where the robot is: about an origin that is far away, the rounding errors of the
+// difference are larger.
+UncertainPose2 Without(const FrameCovariance& part, const UncertainPose2& map_robot) {
+  return {
+      .T_a_b = map_robot.T_a_b,
+      .covariance = PositivePart(map_robot.covariance - part.At(map_robot.T_a_b.translation_m()))};
+}
+
 UncertainPose2 Since(const UncertainPose2& map_earlier, const UncertainPose2& map_robot) {
-  const FrameCovariance known = FrameCovariance::Of(map_earlier);
-  UncertainPose2 since = map_robot;
-  since.covariance = PositivePart(since.covariance - known.At(since.T_a_b.translation_m()));
-  return UncertainPose2{.T_a_b = map_earlier.T_a_b.Inverse()} * since;
+  return UncertainPose2{.T_a_b = map_earlier.T_a_b.Inverse()} *
+         Without(FrameCovariance::Of(map_earlier), map_robot);
 }
 
 UncertainPose2 About(const Pose2& T_a_b, const UncertainPose2& estimate) {

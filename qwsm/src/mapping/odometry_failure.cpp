@@ -52,10 +52,12 @@ double OdometryFailure::LeastToShow() const {
 // The map calls the robot to the same place, wherever it is expected.
 bool OdometryFailure::IsShownBy(const MatchResult& other) const {
   if (doubt_.may_have_begun_anew) return other.overlap >= by_odometry_.overlap;
-  const bool is_better = IsConvincinglyBetter(points_, other.overlap, by_odometry_.overlap);
-  if (HasMatched(by_odometry_)) return is_better;
+  const auto is_better = [&] {
+    return IsConvincinglyBetter(points_, other.overlap, by_odometry_.overlap);
+  };
+  if (HasMatched(by_odometry_)) return is_better();
   if (!HasMatched(other)) return false;
-  return (HasJumped() && is_better) || !IsFarFrom(other.pose(), by_odometry_.pose());
+  return (HasJumped() && is_better()) || !IsFarFrom(other.pose(), by_odometry_.pose());
 }
 
 }  // namespace qwsm

@@ -14,14 +14,6 @@ constexpr double kReferenceSpacing_m = 0.3;  // Enough to tell which scans they 
 // shapes. Measured by the NEES of many simulated drives (evaluate_covariance).
 constexpr double kIndependentShare = 0.55;
 
-// What is left of a pose's covariance beside a part of it; nothing is negative. Seen from where the
-// robot is: about an origin that is far away, the rounding errors of the difference are larger.
-FrameCovariance Without(const FrameCovariance& part, UncertainPose2 map_robot) {
-  map_robot.covariance =
-      PositivePart(map_robot.covariance - part.At(map_robot.T_a_b.translation_m()));
-  return FrameCovariance::Of(map_robot);
-}
-
 bool IsNewSurface(const SurfaceMap& surfaces,
                   const Eigen::Vector2d& p_map_m,
                   const ScanMapOptions& options) {
@@ -67,7 +59,10 @@ MapAddition ScanMap::Prepare(LaserScan scan,
                              const UncertainPose2& map_robot) const {
   MapAddition addition{
       .scan = std::move(scan), .map_robot = map_robot, .points = {}, .own_error = {}};
-  if (!empty()) addition.own_error = Without(CovarianceUnder(points, map_robot.T_a_b), map_robot);
+  if (!empty()) {
+    addition.own_error =
+        FrameCovariance::Of(Without(CovarianceUnder(points, map_robot.T_a_b), map_robot));
+  }
   addition.points = PointsToStore(surfaces_, points, map_robot, options_);
   return addition;
 }
@@ -77,7 +72,7 @@ ScanId ScanMap::Add(MapAddition addition) {
   // Only now: the density that keeps points out is that of older scans.
   for (const MapPoint& point : addition.points) surfaces_.Insert(point, id);
   const FrameCovariance own{kIndependentShare * addition.own_error.about_origin};
-  errors_.push_back({.shared = Without(own, addition.map_robot), .own = own});
+  errors_.push_back({.shared = FrameCovariance::Of(Without(own, addition.map_robot)), .own = own});
   scans_.push_back({.id = id, .scan = std::move(addition.scan), .map_robot = addition.map_robot});
   return id;
 }

@@ -26,6 +26,10 @@ struct FrameCovariance {
   double PositionVariance(const Eigen::Vector2d& p_m) const;
 };
 
+/// What is left of a pose's covariance beside a part that it shares with others; nothing is
+/// negative.
+UncertainPose2 Without(const FrameCovariance& part, const UncertainPose2& map_robot);
+
 /// A pose of the map as seen from an earlier one, as uncertain as it is more than that one.
 UncertainPose2 Since(const UncertainPose2& map_earlier, const UncertainPose2& map_robot);
 
