@@ -67,7 +67,7 @@ TEST(NodeMaker, CountsTheMotionSinceAScanThatWaited) {
   nodes.Take(robot.Step(true, true));
   nodes.Take(robot.Step(false, true));
   MappingStep late = robot.Step(true, false);
-  late.relevant_scan.stamp -= std::chrono::seconds(1);
+  late.relevant_is_before = true;
   EXPECT_NEAR(nodes.Take(late)->T_last_node->x_m, kToldAhead_m, 1e-12);
   MappingStep next = robot.Step(true, true);
   next.map_relevant.T_a_b.x_m = late.map_relevant.T_a_b.x_m + kAnsweredAhead_m;

@@ -9,7 +9,7 @@ namespace qwsm {
 void AnchoredPath::Take(const MappingStep& step, const std::optional<UncertainPose2>& map_last) {
   const double strain = StrainOf(step, map_last);
   const double since_last = answers_.empty() ? 0.0 : answers_.back().strain;
-  const bool is_node = step.relevant && step.map_relevant.T_a_b == step.map_robot.T_a_b;
+  const bool is_node = step.relevant && !step.relevant_is_before;
   if (step.relevant) {
     anchors_.push_back({.T_last_this = {}, .strain = since_last + (is_node ? strain : 0.0)});
     if (map_last && !step.closed_loop) {

@@ -63,7 +63,7 @@ AnchoredPath Hang(std::span<const StampedAnswer> answers, std::span<const Releva
     MappingStep step{.stamp = answer.stamp, .map_robot = answer.map_robot};
     if (next != scans.end() && next->scan.stamp <= answer.stamp) {
       step.relevant = true;
-      step.relevant_scan.stamp = next->scan.stamp;
+      step.relevant_is_before = next->scan.stamp != answer.stamp;
       step.map_relevant = next->map_robot;
       ++next;
     }

@@ -12,8 +12,7 @@ void NodeMaker::GoOn(const MappingStep& step) {
 }
 
 std::optional<ScanNode> NodeMaker::Take(const MappingStep& step) {
-  // Where lasers take turns, the relevant scan is the one before.
-  const bool is_before = step.relevant && step.relevant_scan.stamp != step.stamp;
+  const bool is_before = step.relevant && step.relevant_is_before;
   if (!is_before) GoOn(step);
   if (!step.relevant) return std::nullopt;
   const Motion motion = std::exchange(since_, {});

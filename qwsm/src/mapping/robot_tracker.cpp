@@ -136,9 +136,8 @@ void RobotTracker::Locate(const ScanMap& map, Sighting& sighting) const {
                                   ? PosePrediction::Unmoved()
                                   : motion_.Predict(observation.T_odom_robot, share);
   // No robot drives out of all maps: its odometry has failed.
-  if (!IsPosition((map_last_ * last_robot.conservative).T_a_b)) {
-    last_robot = PosePrediction::Unmoved();
-  }
+  const bool is_in_map = IsPosition((map_last_ * last_robot.conservative).T_a_b);
+  if (!is_in_map) last_robot = PosePrediction::Unmoved();
   step.match = LocateNear(map, observation, points, PathOfMatches() * last_robot);
   sighting.dropped_odometry = DropFailedOdometry(map, observation, points, last_robot, step);
   if (!sighting.dropped_odometry) {
@@ -347,6 +346,7 @@ void RobotTracker::Extend(bool extends,
   std::optional<HeldScan> held = std::exchange(held_, std::nullopt);
   if (step.closed_loop) held.reset();  // It was seen from a pose that has just been corrected.
   if (held) held->map_robot.T_a_b = lasers_.WithHindsight(held->local, held->observation).T_a_b;
+  step.relevant_is_before = held.has_value();
   if (extends) {
     auto passing = seen_free_.MovingAmong(points, step.map_robot.T_a_b);
     bodies_.MarkPassing(points, passing);

@@ -39,8 +39,10 @@ struct MappingStep {
   bool closed_loop = false;   ///< The pose does not continue the one before.
   int epoch = 0;              ///< How often the map was corrected before this scan.
   bool relevant = false;      ///< Whether the map is to be extended with `relevant_scan`.
-  /// The scan without the beams that ended on what moves; empty unless it is relevant. Of a robot
-  /// with several lasers the scan before this one, of which this one has told more.
+  /// Whether that is the scan before this one, of which this one has told more: where lasers take
+  /// turns.
+  bool relevant_is_before = false;
+  /// The scan without the beams that ended on what moves; empty unless it is relevant.
   LaserScan relevant_scan{};
   UncertainPose2 map_relevant{};           ///< Where the relevant scan was taken.
   std::optional<Pose2> T_odom_relevant{};  ///< Odometry at its stamp.
