@@ -89,37 +89,6 @@ TEST(SurfaceMap, ForMatchingHasTheSameSurfacesAndMakesTheLikelihoodWhenAsked) {
   }
 }
 
-TEST(SurfaceMap, AfterAScanIsRemovedIsWhatItWouldHaveBeenWithoutIt) {
-  for (unsigned seed = 0; seed < 5; ++seed) {
-    SCOPED_TRACE(seed);
-    Random random(seed);
-    const auto points = AnyScans(random, 4);
-    SurfaceMap with;
-    SurfaceMap without;
-    for (const auto& [point, scan] : points) {
-      with.Insert(point, scan);
-      if (scan != 2) without.Insert(point, scan);
-    }
-    with.RemoveScan(2);
-    ExpectSurfacesOfBruteForce(with);
-    ASSERT_EQ(with.quadtree().size(), without.quadtree().size());
-    without.quadtree().ForEach([&](PointId id, const Eigen::Vector2d& p_m) {
-      const auto same = with.quadtree().Nearest(p_m, 1e-6);
-      ASSERT_TRUE(same);
-      const Surface surface = without.SurfaceAt({.id = id, .position_m = p_m});
-      EXPECT_NEAR((with.SurfaceAt(*same).mean_m - surface.mean_m).norm(), 0.0, 1e-5);
-      EXPECT_EQ(with.DriftCode(same->id), without.DriftCode(id));
-    });
-    for (int x = -20; x < 20; ++x) {
-      for (int y = -20; y < 20; ++y) {
-        // Stored positions are rounded to a micrometre, likelihoods to a 255th.
-        EXPECT_NEAR(
-            with.likelihood().LikelihoodAt(0, x, y), without.likelihood().LikelihoodAt(0, x, y), 1);
-      }
-    }
-  }
-}
-
 TEST(SurfaceMap, AWallIsALineAcrossItsNormal) {
   Random random(1);
   std::normal_distribution<double> noise_m(0.0, 0.004);
@@ -175,8 +144,6 @@ TEST(SurfaceMap, TheSidesOfAThinWallAreTwoSurfaces) {
 TEST(SurfaceMap, RefusesWhatIsNoPlace) {
   SurfaceMap map;
   EXPECT_FALSE(map.Insert({.p_map_m = {std::nan(""), 0.0}}, 0));
-  EXPECT_TRUE(map.empty());
-  map.RemoveScan(0);
   EXPECT_TRUE(map.empty());
 }
 

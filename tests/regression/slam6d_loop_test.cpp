@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <string>
 
 #include "service/io/clouds/uos_scan.hpp"
 #include "slam6d/graph/ceres_loop_closer.hpp"
@@ -47,8 +48,8 @@ class Loop24 : public ::testing::Test {
     const graph::CeresLoopCloser closer;
     Slam slam({.refinement = {.enabled = true}}, closer);
     Slam chain({.references = 1, .loop = {.enabled = false}}, closer);
-    for (const std::string& number : io::ListUosScans(kFolder)) {
-      const fs::path name = "scan" + number;
+    for (int scan = 0; scan < kScans; ++scan) {
+      const fs::path name = (scan < 10 ? "scan00" : "scan0") + std::to_string(scan);
       odometry_.push_back(io::ReadUosPose((kFolder / name).replace_extension(".pose")));
       truth_.push_back(io::ReadUosPose((kFolder / "gt" / name).replace_extension(".pose")));
       const PointCloud cloud = io::ReadUosPoints((kFolder / name).replace_extension(".3d")).cloud;
@@ -65,6 +66,7 @@ class Loop24 : public ::testing::Test {
     if (!fs::exists(kFolder)) GTEST_SKIP() << "no scans in " << kFolder;
   }
 
+  static constexpr int kScans = 24;
   static inline const fs::path kFolder = fs::path(QWSM_DATA_DIR) / "scans3d/loop24";
   static inline std::vector<Pose3> truth_;
   static inline std::vector<Pose3> odometry_;

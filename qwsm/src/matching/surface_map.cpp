@@ -95,23 +95,6 @@ bool SurfaceMap::Insert(const MapPoint& point, ScanId scan) {
   return true;
 }
 
-void SurfaceMap::RemoveScan(ScanId scan) {
-  if (quadtree_.RemoveScan(scan) == 0) return;
-  quadtree_.ForEach([this](PointId id, const Eigen::Vector2d& p_m) {
-    Neighborhood& own = neighborhoods_[id];
-    own = {.spacing_m = own.spacing_m,
-           .own_normal_x = own.own_normal_x,
-           .own_normal_y = own.own_normal_y,
-           .drift_code = own.drift_code};
-    ForEachNeighbor({.id = id, .position_m = p_m},
-                    options_.neighborhood_radius_m,
-                    [&](PointId other, const Eigen::Vector2d& other_m) {
-                      if (other != id) own.Add((other_m - p_m).cast<float>());
-                    });
-  });
-  if (likelihood_) likelihood_ = MakeLikelihood();
-}
-
 LikelihoodPyramid SurfaceMap::MakeLikelihood() const {
   LikelihoodPyramid likelihood(options_.likelihood);
   quadtree_.ForEach([&](PointId id, const Eigen::Vector2d& p_m) {

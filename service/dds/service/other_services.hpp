@@ -18,7 +18,6 @@ struct Claim {
   std::uint64_t since_ns = 0;  ///< When the robot was found, since 1970; 0: it was told by name.
   Guid service{};              ///< The service's participant.
 
-  bool is_by_name() const { return since_ns == 0; }
   std::strong_ordering operator<=>(const Claim&) const = default;
 };
 

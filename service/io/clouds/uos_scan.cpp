@@ -3,12 +3,14 @@
 #include "service/io/clouds/uos_scan.hpp"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "service/io/clouds/text_points.hpp"
 #include "service/io/files/atomic_file.hpp"
@@ -155,18 +157,6 @@ void WriteUosFrames(const std::filesystem::path& file, const Pose3& before, cons
   AppendFrame(before, kStartStep, text);
   AppendFrame(after, kMatchedStep, text);
   qwsm::io::WriteTextFile(file, text);
-}
-
-std::vector<std::string> ListUosScans(const std::filesystem::path& folder) {
-  std::vector<std::string> numbers;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const std::string stem = entry.path().stem().string();
-    if (entry.path().extension() == ".3d" && stem.starts_with("scan")) {
-      numbers.push_back(stem.substr(4));
-    }
-  }
-  std::sort(numbers.begin(), numbers.end());
-  return numbers;
 }
 
 }  // namespace slam6d::io

@@ -3,8 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <vector>
 
 #include "service/io/clouds/scan_points.hpp"
 #include "slam6d/geometry/pose3.hpp"
@@ -39,8 +37,5 @@ void WriteUosPose(const std::filesystem::path& file, const Pose3& pose);
 
 /// Writes a pose as 3DTK's viewer reads it: two lines, as it shows where a scan was and is.
 void WriteUosFrames(const std::filesystem::path& file, const Pose3& before, const Pose3& after);
-
-/// The numbers NNN of the `scanNNN.3d` in a folder, ascending.
-std::vector<std::string> ListUosScans(const std::filesystem::path& folder);
 
 }  // namespace slam6d::io

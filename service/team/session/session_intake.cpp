@@ -308,12 +308,6 @@ void SessionIntake<Kind>::WatchOdometry(Work& work) {
 }
 
 template <class Kind>
-void SessionIntake<Kind>::NoteUnplaced() {
-  const std::lock_guard lock(mutex_);
-  ++counts_.unplaced;
-}
-
-template <class Kind>
 void SessionIntake<Kind>::NoteContradictedPose() {
   const std::lock_guard lock(mutex_);
   ++counts_.contradicted_poses;

@@ -90,8 +90,6 @@ class SessionIntake {
   /// The oldest scan that waits and can be used. To be called by one thread at a time.
   std::optional<Work> Take();
 
-  /// Notes that nobody knows where the robot is: its scan was left unanswered.
-  void NoteUnplaced();
   /// Notes that the robot's scans contradict where it was told to be.
   void NoteContradictedPose();
   /// Notes that the robot's scans contradict where its sensor was said to sit.

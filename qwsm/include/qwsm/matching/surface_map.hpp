@@ -78,7 +78,7 @@ struct Surface {
 inline double UniformVariance(double length_m) { return length_m * length_m / 12.0; }
 
 /// What scans are matched against: points in a quadtree, each with the moments of its
-/// neighbourhood, kept up to date as points come and go. A thin wall has two surfaces, one on each
+/// neighbourhood, kept up to date as points come. A thin wall has two surfaces, one on each
 /// side: points that were seen from opposite sides do not share a neighbourhood.
 ///
 /// Const members may be called from several threads at once.
@@ -92,8 +92,6 @@ class SurfaceMap {
   /// Stores a point. Complexity: logarithmic, plus linear in the points of the neighbourhood.
   /// @return false if the quadtree refused it, being not finite or too far away.
   bool Insert(const MapPoint& point, ScanId scan);
-  /// Takes out what a scan contributed. Complexity: linear in the map.
-  void RemoveScan(ScanId scan);
 
   bool empty() const { return quadtree_.empty(); }
   const PointQuadtree& quadtree() const { return quadtree_; }
