@@ -4,9 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <charconv>
 #include <fstream>
-#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -14,21 +12,13 @@
 #include "service/io/files/atomic_file.hpp"
 #include "service/io/files/file_error.hpp"
 #include "service/io/files/number_text.hpp"
+#include "service/io/files/numbered_name.hpp"
 #include "service/io/files/table_file.hpp"
 
 namespace slam6d::io {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The number at the end of a name: 7 for "scan007".
-std::optional<double> NumberAtEnd(const std::string& name) {
-  const std::size_t start = name.find_last_not_of("0123456789") + 1;
-  unsigned long number = 0;
-  const char* const end = name.data() + name.size();
-  if (std::from_chars(name.data() + start, end, number).ec != std::errc{}) return std::nullopt;
-  return static_cast<double>(number);
-}
 
 NumberedPoses ReadTum3(const fs::path& file) {
   NumberedPoses poses;
@@ -52,9 +42,10 @@ NumberedPoses ReadFolder(const fs::path& folder, const std::string& ending) {
   NumberedPoses poses;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() != ending) continue;
-    const std::optional<double> number = NumberAtEnd(entry.path().stem().string());
+    const auto number = qwsm::io::NumberedName::Of(entry.path().stem().string()).Number();
     if (!number) continue;
-    poses[*number] = ending == ".frames" ? ReadUosFrames(entry.path()) : ReadUosPose(entry.path());
+    poses[static_cast<double>(*number)] =
+        ending == ".frames" ? ReadUosFrames(entry.path()) : ReadUosPose(entry.path());
   }
   return poses;
 }

@@ -7,42 +7,26 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <stdexcept>
-#include <tuple>
 
 #include "service/io/clouds/uos_scan.hpp"
+#include "service/io/files/numbered_name.hpp"
 
 namespace slam6d::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
 
+using qwsm::io::NumberedName;
+
 /// Scans read before the first is given out, so that one in other units is told from the others.
 constexpr std::size_t kReadAhead = 3;
 
-/// A name and the number at its end, without zeros before it.
-struct NumberedName {
-  std::string name;
-  std::string number;
-  bool has_number;
-};
-
-NumberedName SplitNumber(const std::string& name) {
-  const std::size_t length = name.find_last_not_of("0123456789") + 1;
-  const std::string digits = name.substr(length);
-  return {.name = name.substr(0, length),
-          .number = digits.substr(std::min(digits.find_first_not_of('0'), digits.size())),
-          .has_number = !digits.empty()};
-}
-
-/// Names in the order of the numbers at their ends: scan9 before scan10.
+/// Names in the order of the numbers at their ends.
 bool ByNumber(const fs::path& a, const fs::path& b) {
-  const auto key = [](const fs::path& file) {
-    const NumberedName split = SplitNumber(io::ScanName(file));
-    return std::tuple(split.name, split.number.size(), split.number);
-  };
-  return key(a) < key(b);
+  return NumberedName::Of(io::ScanName(a)).Order() < NumberedName::Of(io::ScanName(b)).Order();
 }
 
 /// Every scan leaves files under its name: where two have the same, all are called by their place.
@@ -63,10 +47,11 @@ std::vector<std::size_t> NumbersOf(const std::vector<ScanPlace>& places) {
   std::vector<std::size_t> numbers;
   std::set<std::string> names;
   for (const ScanPlace& place : places) {
-    const NumberedName split = SplitNumber(place.name);
+    const NumberedName split = NumberedName::Of(place.name);
     names.insert(split.name);
-    if (!split.has_number || split.number.size() > kMostDigits || names.size() > 1) return counted;
-    numbers.push_back(split.number.empty() ? 0 : std::stoul(split.number));
+    const std::optional<std::uint64_t> number = split.Number();
+    if (!number || split.digits.size() > kMostDigits || names.size() > 1) return counted;
+    numbers.push_back(*number);
   }
   const bool all_differ = std::set(numbers.begin(), numbers.end()).size() == numbers.size();
   return all_differ ? numbers : counted;

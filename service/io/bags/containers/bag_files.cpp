@@ -17,6 +17,7 @@
 #include "service/io/bags/containers/sqlite_bag.hpp"
 #include "service/io/files/byte_source.hpp"
 #include "service/io/files/file_error.hpp"
+#include "service/io/files/numbered_name.hpp"
 
 namespace qwsm::io {
 namespace {
@@ -73,11 +74,7 @@ bool IsBagFile(const fs::path& path) {
 /// The number at the end of a file's name, as in drive_12.db3.zstd.
 std::uint64_t NumberInName(const fs::path& file) {
   const std::string name = file.filename().string();
-  const std::string stem = name.substr(0, name.find('.'));
-  const std::size_t digits = stem.find_last_not_of("0123456789") + 1;
-  std::uint64_t number = 0;
-  std::from_chars(stem.data() + digits, stem.data() + stem.size(), number);
-  return number;
+  return NumberedName::Of(name.substr(0, name.find('.'))).Number().value_or(0);
 }
 
 std::vector<fs::path> BagFilesIn(const fs::path& folder) {
