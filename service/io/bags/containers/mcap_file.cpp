@@ -6,14 +6,12 @@
 #include <cstring>
 
 #include "service/io/bags/containers/chunk_codec.hpp"
+#include "service/io/bags/containers/mcap_format.hpp"
 #include "service/io/files/binary.hpp"
 
 namespace qwsm::io {
 namespace {
 
-using std::literals::operator""sv;
-
-constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n"sv;
 constexpr std::size_t kRecordHead = 9;  // Opcode and length.
 constexpr std::size_t kChunkHead = 40;  // Fields of a chunk but the name of its compression.
 constexpr std::size_t kFooterSize = 20;
@@ -21,14 +19,9 @@ constexpr std::size_t kLongestName = 8;
 constexpr std::uint64_t kMostRecordBytes = std::uint64_t{256} << 20;
 constexpr std::uint64_t kDirect = ~std::uint64_t{0};  // An address outside of all chunks.
 
-enum McapOpcode : std::uint8_t {
-  kFooter = 0x02,
-  kSchema = 0x03,
-  kChannel = 0x04,
-  kMessage = 0x05,
-  kChunk = 0x06,
-  kDataEnd = 0x0F,
-};
+bool DescribesTopic(std::uint8_t opcode) {
+  return opcode == mcap::kSchema || opcode == mcap::kChannel;
+}
 
 struct ChunkFields {
   std::uint64_t plain_size = 0;
@@ -55,28 +48,28 @@ std::uint64_t LengthOfRecord(std::string_view head) {
 }  // namespace
 
 bool McapFile::Recognizes(std::string_view first_bytes) {
-  return first_bytes.starts_with(kMcapMagic);
+  return first_bytes.starts_with(mcap::kMagic);
 }
 
 McapFile::McapFile(const std::filesystem::path& path, TellDamage tell)
-    : ChunkedBag(path, std::move(tell), kMcapMagic.size()) {
+    : ChunkedBag(path, std::move(tell), mcap::kMagic.size()) {
   ReadSummary();
 }
 
 /// Takes the channels at the end of the file: they are known even where their chunk is damaged.
 void McapFile::ReadSummary() {
-  constexpr std::uint64_t kEnd = kRecordHead + kFooterSize + kMcapMagic.size();
+  constexpr std::uint64_t kEnd = kRecordHead + kFooterSize + mcap::kMagic.size();
   if (file_.size() < kEnd) return;
   const std::uint64_t end = file_.size() - kEnd;
   const std::string_view footer = file_.At(end, kRecordHead + kFooterSize);
-  if (static_cast<std::uint8_t>(footer[0]) != kFooter) return;
+  if (static_cast<std::uint8_t>(footer[0]) != mcap::kFooter) return;
   std::uint64_t offset = BinaryReader(footer.substr(kRecordHead)).Unsigned64();
   while (offset >= next_ && offset < end) {
     const std::string_view head = file_.At(offset, kRecordHead);
     if (offset + kRecordHead > end) return;
     const auto opcode = static_cast<std::uint8_t>(head[0]);
     const std::uint64_t length = LengthOfRecord(head);
-    if (length > end - offset - kRecordHead || (opcode != kSchema && opcode != kChannel)) return;
+    if (length > end - offset - kRecordHead || !DescribesTopic(opcode)) return;
     const std::string_view body = file_.At(offset + kRecordHead, static_cast<std::size_t>(length));
     Take({.opcode = opcode, .body = body}, {offset, kDirect});
     offset += kRecordHead + length;
@@ -113,16 +106,16 @@ std::optional<BagMessage> McapFile::NextInFile() {
   }
   const auto opcode = static_cast<std::uint8_t>(head[0]);
   const std::uint64_t length = LengthOfRecord(head);
-  if (opcode == kDataEnd || opcode == kFooter) {
+  if (opcode == mcap::kDataEnd || opcode == mcap::kFooter) {
     ended_ = true;
     return std::nullopt;
   }
   const bool fits = length <= file_.size() - offset - kRecordHead;
-  if (opcode == 0 || (!fits && opcode != kChunk)) {
+  if (opcode == 0 || (!fits && opcode != mcap::kChunk)) {
     GoAround(offset, "the file is cut off here, or damaged");
     return std::nullopt;
   }
-  if (opcode == kChunk) {
+  if (opcode == mcap::kChunk) {
     chunk_ = Chunk{.offset = offset};
     if (!fits) {
       GoAround(offset, "the file is cut off within this chunk, or the chunk is damaged");
@@ -130,7 +123,7 @@ std::optional<BagMessage> McapFile::NextInFile() {
     }
   }
   next_ = offset + kRecordHead + length;
-  if (opcode != kSchema && opcode != kChannel && opcode != kMessage) return std::nullopt;
+  if (!DescribesTopic(opcode) && opcode != mcap::kMessage) return std::nullopt;
   if (length > kMostRecordBytes) {
     tell_(offset, "a record of more than 256 MB is passed over");
     return std::nullopt;
@@ -141,9 +134,9 @@ std::optional<BagMessage> McapFile::NextInFile() {
 
 std::optional<BagMessage> McapFile::Take(const Record& record, const MessageAddress& address) {
   try {
-    if (record.opcode == kSchema) TakeSchema(record.body);
-    if (record.opcode == kChannel) TakeChannel(record.body);
-    if (record.opcode == kMessage) return TakeMessage(record.body, address);
+    if (record.opcode == mcap::kSchema) TakeSchema(record.body);
+    if (record.opcode == mcap::kChannel) TakeChannel(record.body);
+    if (record.opcode == mcap::kMessage) return TakeMessage(record.body, address);
   } catch (const BinaryError&) {
     tell_(address.container, "a record is too short for what it says to hold");
   }
@@ -227,7 +220,7 @@ std::string McapFile::LoadChunk(std::uint64_t offset) {
 bool McapFile::IsChunk(std::uint64_t offset, std::string_view start) const {
   try {
     BinaryReader fields(start);
-    if (fields.Unsigned8() != kChunk) return false;
+    if (fields.Unsigned8() != mcap::kChunk) return false;
     const std::uint64_t length = fields.Unsigned64();
     if (length < kChunkHead || length > file_.size() - offset - kRecordHead) return false;
     const ChunkFields chunk = TakeChunkFields(fields);
@@ -245,7 +238,7 @@ std::optional<std::uint64_t> McapFile::FindChunk(std::uint64_t from) {
   for (std::uint64_t begin = from; begin < file_.size(); begin += kPiece) {
     const std::string_view piece = file_.At(begin, kPiece + kHead);
     for (std::size_t i = 0; i < std::min(piece.size(), kPiece); ++i) {
-      if (piece[i] != kChunk) continue;
+      if (piece[i] != mcap::kChunk) continue;
       if (IsChunk(begin + i, piece.substr(i, kHead))) return begin + i;
     }
   }

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "service/io/bags/containers/chunk_codec.hpp"
+#include "service/io/bags/containers/mcap_format.hpp"
 #include "service/io/bags/writing/message_definitions.hpp"
 #include "service/io/files/binary.hpp"
 
@@ -14,24 +15,7 @@ namespace {
 
 using std::literals::operator""sv;
 
-constexpr std::string_view kMagicOfMcap = "\x89MCAP0\r\n"sv;
 constexpr std::size_t kFullChunkBytes = 768 * 1024;  // As rosbag2 has it.
-
-enum RecordCode : std::uint8_t {
-  kHeaderCode = 0x01,
-  kFooterCode = 0x02,
-  kSchemaCode = 0x03,
-  kChannelCode = 0x04,
-  kMessageCode = 0x05,
-  kChunkCode = 0x06,
-  kMessageIndexCode = 0x07,
-  kChunkIndexCode = 0x08,
-  kStatisticsCode = 0x0B,
-  kMetadataCode = 0x0C,
-  kMetadataIndexCode = 0x0D,
-  kSummaryOffsetCode = 0x0E,
-  kDataEndCode = 0x0F,
-};
 
 using Pairs = std::vector<std::pair<std::string, std::string>>;
 
@@ -57,12 +41,12 @@ std::uint16_t IdOf(std::size_t topic) { return static_cast<std::uint16_t>(topic 
 }  // namespace
 
 McapWriter::McapWriter(std::ostream& stream) : stream_(&stream) {
-  *stream_ << kMagicOfMcap;
-  offset_ = kMagicOfMcap.size();
+  *stream_ << mcap::kMagic;
+  offset_ = mcap::kMagic.size();
   BinaryWriter header;
   header.Add("ros2"sv);
   header.Add("qwsm"sv);
-  Append(kHeaderCode, header.bytes());
+  Append(mcap::kHeader, header.bytes());
 }
 
 void McapWriter::Append(std::uint8_t opcode, std::string_view body) {
@@ -74,8 +58,8 @@ void McapWriter::Append(std::uint8_t opcode, std::string_view body) {
 std::size_t McapWriter::AddTopic(const TopicToWrite& topic) {
   summary_.topics.push_back({.topic = topic, .messages = 0});
   const std::size_t number = summary_.topics.size() - 1;
-  chunk_ += RecordOf(kSchemaCode, SchemaRecord(number));
-  chunk_ += RecordOf(kChannelCode, ChannelRecord(number));
+  chunk_ += RecordOf(mcap::kSchema, SchemaRecord(number));
+  chunk_ += RecordOf(mcap::kChannel, ChannelRecord(number));
   return number;
 }
 
@@ -114,7 +98,7 @@ void McapWriter::Write(std::size_t topic, Timestamp stamp, std::string_view cdr)
   record.Add(time);  // Logged and published.
   record.Add(time);
   record.AddBytes(cdr);
-  chunk_ += RecordOf(kMessageCode, record.bytes());
+  chunk_ += RecordOf(mcap::kMessage, record.bytes());
   summary_.Count(topic, stamp);
   if (chunk_.size() >= kFullChunkBytes) EndChunk();
 }
@@ -135,7 +119,7 @@ void McapWriter::EndChunk() {
   index.offset = offset_;
   index.packed_size = packed.size();
   index.plain_size = chunk_.size();
-  Append(kChunkCode, record.bytes());
+  Append(mcap::kChunk, record.bytes());
   index.size = offset_ - index.offset;
   AppendIndexes(index);
   chunks_.push_back(index);
@@ -156,7 +140,7 @@ void McapWriter::AppendIndexes(ChunkIndex& chunk) {
     record.Add(topic);
     record.Add(std::string_view(entries.bytes()));
     chunk.index_offsets[topic] = offset_;
-    Append(kMessageIndexCode, record.bytes());
+    Append(mcap::kMessageIndex, record.bytes());
   }
   chunk.indexes_size = offset_ - begin;
 }
@@ -167,13 +151,13 @@ void McapWriter::Finish(const std::string& file_name) {
   BinaryWriter metadata;
   metadata.Add("rosbag2"sv);
   AddPairs(metadata, {{"serialized_metadata", MetadataYaml(summary_, storage(), file_name)}});
-  Append(kMetadataCode, metadata.bytes());
+  Append(mcap::kMetadata, metadata.bytes());
   const std::uint64_t metadata_size = offset_ - metadata_offset;
   BinaryWriter end;
   end.Add(std::uint32_t{0});  // No checksum: the chunks have their own.
-  Append(kDataEndCode, end.bytes());
+  Append(mcap::kDataEnd, end.bytes());
   AppendSummary(metadata_offset, metadata_size);
-  *stream_ << kMagicOfMcap;
+  *stream_ << mcap::kMagic;
 }
 
 void McapWriter::AppendSummary(std::uint64_t metadata_offset, std::uint64_t metadata_size) {
@@ -187,32 +171,32 @@ void McapWriter::AppendSummary(std::uint64_t metadata_offset, std::uint64_t meta
     record.Add(opcode);
     record.Add(group);
     record.Add(offset_ - group);
-    offsets.AddBytes(RecordOf(kSummaryOffsetCode, record.bytes()));
+    offsets.AddBytes(RecordOf(mcap::kSummaryOffset, record.bytes()));
   };
   const std::size_t topics = summary_.topics.size();
-  add_group(kSchemaCode, [&] {
-    for (std::size_t i = 0; i < topics; ++i) Append(kSchemaCode, SchemaRecord(i));
+  add_group(mcap::kSchema, [&] {
+    for (std::size_t i = 0; i < topics; ++i) Append(mcap::kSchema, SchemaRecord(i));
   });
-  add_group(kChannelCode, [&] {
-    for (std::size_t i = 0; i < topics; ++i) Append(kChannelCode, ChannelRecord(i));
+  add_group(mcap::kChannel, [&] {
+    for (std::size_t i = 0; i < topics; ++i) Append(mcap::kChannel, ChannelRecord(i));
   });
-  add_group(kStatisticsCode, [&] { Append(kStatisticsCode, StatisticsRecord()); });
-  add_group(kChunkIndexCode, [&] {
-    for (const ChunkIndex& chunk : chunks_) Append(kChunkIndexCode, ChunkIndexRecord(chunk));
+  add_group(mcap::kStatistics, [&] { Append(mcap::kStatistics, StatisticsRecord()); });
+  add_group(mcap::kChunkIndex, [&] {
+    for (const ChunkIndex& chunk : chunks_) Append(mcap::kChunkIndex, ChunkIndexRecord(chunk));
   });
-  add_group(kMetadataIndexCode, [&] {
+  add_group(mcap::kMetadataIndex, [&] {
     BinaryWriter record;
     record.Add(metadata_offset);
     record.Add(metadata_size);
     record.Add("rosbag2"sv);
-    Append(kMetadataIndexCode, record.bytes());
+    Append(mcap::kMetadataIndex, record.bytes());
   });
   BinaryWriter footer;
   footer.Add(begin);
   footer.Add(offset_);
   footer.Add(std::uint32_t{0});
   *stream_ << offsets.bytes();
-  Append(kFooterCode, footer.bytes());
+  Append(mcap::kFooter, footer.bytes());
 }
 
 std::string McapWriter::StatisticsRecord() const {
