@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <iterator>
 #include <string>
 
+#include "service/pipeline/slam6d/registration_page.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace slam6d::pipeline {
@@ -44,6 +46,26 @@ TEST(RegistrationResults, TellHowSurelyPosesAreKnown) {
   EXPECT_NE(SummaryText(registration).find("left open      1 of these"), std::string::npos);
   EXPECT_NE(MetricsOf(registration).Text().find("\"matched_with_open_motions\": 1"),
             std::string::npos);
+}
+
+// Of coordinates in 16 bits.
+TEST(RegistrationResults, HaveNoCoarserPageForAPointThatIsFarOff) {
+  const auto step_of = [](bool with_stray) {
+    Registration registration;
+    registration.scans = {ScanNamed("a", SlamStatus::kFirst)};
+    registration.T_map_scan.resize(1);
+    PointCloud& cloud = registration.scans[0].cloud;
+    for (int i = 0; i < 1000; ++i) cloud.push_back({0.01 * i, 1.0, 2.0});
+    if (with_stray) cloud.push_back({1e5, 0.0, 0.0});
+    const qwsm::test::TemporaryFolder folder;
+    WriteRegistrationPage(folder.path() / "report.html", {}, registration);
+    std::ifstream file(folder.path() / "report.html");
+    const std::string page(std::istreambuf_iterator<char>(file), {});
+    const std::size_t at = page.find("\"step_m\":");
+    return at == std::string::npos ? std::string() : page.substr(at, page.find(',', at) - at);
+  };
+  EXPECT_FALSE(step_of(false).empty());
+  EXPECT_EQ(step_of(true), step_of(false));
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include "service/pipeline/slam6d/registration_page.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -18,6 +17,10 @@ using qwsm::pipeline::Json;
 
 constexpr std::size_t kMostPoints = 150'000;
 constexpr double kMostSteps = 32'767.0;  ///< Of a coordinate, in 16 bits, to either side.
+/// Points are strays that are so many times as far off as all but this share of them.
+constexpr double kStrayTimes = 4.0;
+constexpr double kFarShare = 0.002;
+constexpr double kLeastExtent_m = 1e-3;
 
 /// Translation, and rotation row by row: twelve numbers.
 Json PoseJson(const Pose3& pose) {
@@ -29,30 +32,45 @@ Json PoseJson(const Pose3& pose) {
   return json;
 }
 
+/// The largest coordinate of points in the frames of their scans, but for strays, which would make
+/// the steps of all coordinates coarse.
 double FarthestCoordinate_m(const Registration& registration) {
-  double farthest_m = 1e-3;
+  std::vector<double> farthest_m;
   for (const RegisteredScan& scan : registration.scans) {
     for (std::size_t i = 0; i < scan.cloud.size(); ++i) {
-      farthest_m = std::max(farthest_m, scan.cloud[i].cwiseAbs().maxCoeff());
+      farthest_m.push_back(scan.cloud[i].cwiseAbs().maxCoeff());
     }
   }
-  return farthest_m;
+  if (farthest_m.empty()) return kLeastExtent_m;
+  const auto strays =
+      static_cast<std::ptrdiff_t>(kFarShare * static_cast<double>(farthest_m.size()));
+  const auto nearly_all = farthest_m.end() - 1 - strays;
+  std::ranges::nth_element(farthest_m, nearly_all);
+  const double no_stray_m = std::max(kLeastExtent_m, kStrayTimes * *nearly_all);
+  double largest_m = kLeastExtent_m;
+  for (const double one_m : farthest_m) {
+    if (one_m <= no_stray_m) largest_m = std::max(largest_m, one_m);
+  }
+  return largest_m;
 }
 
 void AddCoordinate(std::string& bytes, double steps) {
-  const auto whole = static_cast<std::int16_t>(std::lround(steps));
+  const auto whole = static_cast<std::int16_t>(steps);
   const auto bits = static_cast<std::uint16_t>(whole);
   bytes += static_cast<char>(bits & 0xFFU);
   bytes += static_cast<char>(bits >> 8U);
 }
 
-/// Points of a scan in its own frame, every so many: 16 bits per coordinate, little endian.
+/// Points of a scan in its own frame, every so many, without strays: 16 bits per coordinate, little
+/// endian.
 std::string PointsText(const PointCloud& cloud, double share, double step_m) {
   const auto count = static_cast<std::size_t>(share * static_cast<double>(cloud.size()));
   std::string bytes;
   for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Vector3d point_m = cloud[i * cloud.size() / count];
-    for (const double coordinate_m : point_m) AddCoordinate(bytes, coordinate_m / step_m);
+    const Eigen::Vector3d steps = (point_m / step_m).array().round();
+    if (steps.cwiseAbs().maxCoeff() > kMostSteps) continue;
+    for (const double coordinate : steps) AddCoordinate(bytes, coordinate);
   }
   return Base64(std::string_view(bytes));
 }
