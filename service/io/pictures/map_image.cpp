@@ -9,15 +9,12 @@
 #include <vector>
 
 #include "service/io/pictures/axis.hpp"
+#include "service/io/pictures/map_colors.hpp"
 
 namespace qwsm::io {
 namespace {
 
-constexpr Color kUnknownDark = FromBytes(226, 226, 227);
-constexpr Color kUnknownLight = FromBytes(237, 237, 238);
-constexpr Color kFree = FromBytes(255, 255, 255);
 constexpr Color kMeshLine = FromBytes(226, 230, 236);
-constexpr Color kWall = FromBytes(0, 40, 120);
 
 constexpr double kGridStep_px = 28.0;  // At least, between lines.
 constexpr double kLongerSide_px = 1400.0;
@@ -84,9 +81,10 @@ std::vector<Place> PlacesOf(int side_px, double first_m, double m_per_px, double
   return places;
 }
 
-constexpr std::uint32_t kWallPixel = ToPixel(kWall);
-constexpr std::array kFreePixels{ToPixel(kFree), ToPixel(kMeshLine)};
-constexpr std::array kUnknownPixels{ToPixel(kUnknownDark), ToPixel(kUnknownLight)};
+constexpr std::uint32_t kWallPixel = ToPixel(map_colors::kWall);
+constexpr std::array kFreePixels{ToPixel(map_colors::kFree), ToPixel(kMeshLine)};
+constexpr std::array kUnknownPixels{ToPixel(map_colors::kUnknownDark),
+                                    ToPixel(map_colors::kUnknownLight)};
 
 std::uint32_t PixelOf(CellState state, const Place& column, const Place& row) {
   switch (state) {

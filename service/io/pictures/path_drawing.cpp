@@ -5,10 +5,11 @@
 #include <array>
 #include <cmath>
 
+#include "service/io/pictures/map_colors.hpp"
+
 namespace qwsm::io {
 namespace {
 
-constexpr Color kStartFill = FromBytes(255, 200, 0);
 constexpr Color kStartEdge = FromBytes(90, 70, 0);
 
 // y points down on the canvas.
@@ -19,7 +20,7 @@ void DrawArrow(Canvas& canvas, const Eigen::Vector2d& at_px, double heading_rad)
                                                      at_px - 8.0 * ahead + 9.0 * left,
                                                      at_px - 4.0 * ahead,
                                                      at_px - 8.0 * ahead - 9.0 * left};
-  canvas.FillPolygon(corners_px, kStartFill);
+  canvas.FillPolygon(corners_px, map_colors::kStart);
   std::vector<Eigen::Vector2d> outline_px(corners_px.begin(), corners_px.end());
   outline_px.push_back(outline_px.front());
   canvas.Stroke(outline_px, {.color = kStartEdge, .width_px = 1.2});

@@ -9,17 +9,13 @@
 #include <stdexcept>
 
 #include "service/io/pictures/covariance_ellipse.hpp"
+#include "service/io/pictures/map_colors.hpp"
 #include "service/io/rescue/searched_area.hpp"
 
 namespace qwsm::io {
 namespace {
 
-constexpr Color kChequerDark = FromBytes(226, 226, 227);
-constexpr Color kChequerLight = FromBytes(237, 237, 238);
-constexpr Color kFreeFloor = FromBytes(255, 255, 255);
 constexpr Color kExploredGrid = FromBytes(190, 190, 191);
-constexpr Color kObstacle = FromBytes(0, 40, 120);
-constexpr Color kStartArrow = FromBytes(255, 200, 0);
 constexpr Color kRobotPath = FromBytes(120, 0, 140);
 constexpr Color kVictimMark = FromBytes(240, 10, 10);
 constexpr Color kHazardMark = FromBytes(255, 100, 30);
@@ -137,7 +133,7 @@ class CellPainter {
       const bool is_dark = (row.chequer + column.chequer) % 2 == 0;
       switch (StateAt(column.cell, row.cell)) {
         case CellState::kOccupied:
-          pixels.push_back(ToPixel(kObstacle));
+          pixels.push_back(ToPixel(map_colors::kWall));
           break;
         case CellState::kFree:
           pixels.push_back(ToPixel(row.is_line || column.is_line
@@ -145,7 +141,7 @@ class CellPainter {
                                        : FloorColor(LooksAt(column.cell, row.cell))));
           break;
         case CellState::kUnknown:
-          pixels.push_back(ToPixel(is_dark ? kChequerDark : kChequerLight));
+          pixels.push_back(ToPixel(is_dark ? map_colors::kUnknownDark : map_colors::kUnknownLight));
       }
     }
   }
@@ -154,7 +150,7 @@ class CellPainter {
   int LooksAt(int x, int y) const { return looks_.empty() ? 0 : looks_[grid_.Index(x, y)]; }
   /// The more often a place was searched, the greener it is.
   static Color FloorColor(int looks) {
-    if (looks == 0) return kFreeFloor;
+    if (looks == 0) return map_colors::kFree;
     const int red_and_blue = 180 - 50 * (looks - 1) / (kMostLooks - 1);
     return FromBytes(red_and_blue, 230, red_and_blue);
   }
@@ -207,7 +203,7 @@ class MarkPainter {
       const Eigen::Vector2d corner_robot_m = kArrowTip_m * Eigen::Vector2d(ahead, left);
       corners_px.push_back(picture_.ToPixel(start * corner_robot_m));
     }
-    canvas_.FillPolygon(corners_px, kStartArrow);
+    canvas_.FillPolygon(corners_px, map_colors::kStart);
   }
 
   void PaintMark(const PointOfInterest& point) {
