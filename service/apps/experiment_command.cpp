@@ -43,13 +43,12 @@ struct Experiment {
 /// The pictures of one seed under the names in Visser et al. (2009): both maps (Figure 3), both
 /// residuals (Figure 4).
 void CopyFigures(const fs::path& seed, const fs::path& folder) {
-  const auto copy = [&](const fs::path& from, const char* to) {
-    if (!fs::exists(seed / from)) return;
-    fs::copy_file(seed / from, folder / to, fs::copy_options::overwrite_existing);
+  const auto copy = [&](const fs::path& from, ResultFile to) {
+    if (fs::exists(from)) fs::copy_file(from, folder / to, fs::copy_options::overwrite_existing);
   };
-  copy("q-wsm/trajectory.png", "figure-3-q-wsm.png");
-  copy("wsm/trajectory.png", "figure-3-wsm.png");
-  copy("residual.png", "figure-4.png");
+  copy(seed / "q-wsm" / ResultFile::kTrajectoryPicture, ResultFile::kFigure3QWsm);
+  copy(seed / "wsm" / ResultFile::kTrajectoryPicture, ResultFile::kFigure3Wsm);
+  copy(seed / ResultFile::kResiduals, ResultFile::kFigure4);
 }
 
 Experiment RunSeeds(const ExperimentArguments& arguments,
@@ -61,7 +60,7 @@ Experiment RunSeeds(const ExperimentArguments& arguments,
   for (int i = 0; i < arguments.seeds && experiment.end == ReplayEnd::kExhausted; ++i) {
     scenario.seed = first + i;
     const ResultsFolder folder(session.folder() / fmt::format("seed-{}", scenario.seed), false);
-    io::WriteTextFile(folder / "scenario.yaml", ScenarioText(scenario));
+    io::WriteTextFile(folder / ResultFile::kScenario, ScenarioText(scenario));
     SimulatorSource source(scenario, 0);
     MatcherContest contest(options.mapper, kExperimentMatchers, folder);
     const std::string task = fmt::format("seed {} of {}", i + 1, arguments.seeds);
@@ -88,9 +87,9 @@ ExitCode RunExperiment(ExperimentArguments arguments) {
   const Experiment experiment = RunSeeds(arguments, options, session);
   const ResultsFolder& folder = session.folder();
   const std::string json = ExperimentJson(experiment.runs);
-  io::WriteTextFile(folder / "metrics.json", json);
-  io::WriteTextFile(folder / "table.csv", ExperimentCsv(experiment.runs));
-  io::WriteTextFile(folder / "table.md", ExperimentMarkdown(experiment.runs));
+  io::WriteTextFile(folder / ResultFile::kMetrics, json);
+  io::WriteTextFile(folder / ResultFile::kTable, ExperimentCsv(experiment.runs));
+  io::WriteTextFile(folder / ResultFile::kTableMarkdown, ExperimentMarkdown(experiment.runs));
   if (arguments.run.verbosity.json) {
     Print("{}", json);
   } else if (!arguments.run.verbosity.quiet) {

@@ -36,6 +36,9 @@
 namespace qwsm::apps {
 namespace {
 
+using pipeline::RenderOrWarn;
+using pipeline::ResultFile;
+
 struct MapArguments {
   RunArguments run;
   std::optional<std::string> matcher;
@@ -109,8 +112,6 @@ Origin OpenOrigin(const MapArguments& arguments, const options::LogOptions& log)
           .scenario = scenario};
 }
 
-constexpr const char* kAnswers = "answers.mcap";
-
 /// The page of the run; null where nobody wants to look.
 std::unique_ptr<pipeline::LiveRun> ShowLive(const MapArguments& arguments,
                                             const options::ProgramOptions& options) {
@@ -170,7 +171,7 @@ ExitCode MapAll(const MapArguments& arguments,
   Mapper incremental(options.mapper);
   pipeline::ResultsWriter results(
       session.folder(),
-      {.trajectory = correcting ? "trajectory_live.tum" : "trajectory.tum",
+      {.trajectory = correcting ? ResultFile::kLiveTrajectory : ResultFile::kTrajectory,
        .pictures = session.has_pictures()});
   pipeline::AnswerBag answers;
   pipeline::JournalMarks marks(arguments.run.logs);
@@ -199,7 +200,7 @@ ExitCode MapAll(const MapArguments& arguments,
   }
   const ScanMap& map = corrected ? corrected->map : mapper.map();
   if (arguments.bag) {
-    answers.Write(session.folder() / kAnswers, pipeline::RenderOrWarn(map, options.rendering));
+    answers.Write(session.folder() / ResultFile::kAnswers, RenderOrWarn(map, options.rendering));
   }
   const std::vector<team::Mark> of_log =
       marks.Placed(corrected ? corrected->correction.map_robot : std::vector<UncertainPose2>());
@@ -284,7 +285,7 @@ ExitCode RunMap(MapArguments arguments) {
 
   const RunSession session(arguments.run, options);
   if (origin.scenario) {
-    io::WriteTextFile(session.folder() / "scenario.yaml", ScenarioText(*origin.scenario));
+    io::WriteTextFile(session.folder() / ResultFile::kScenario, ScenarioText(*origin.scenario));
   }
   return known ? ContinueMap(arguments, options, *std::move(known), *origin.source, session)
                : MapAll(arguments, options, *origin.source, session);

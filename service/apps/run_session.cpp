@@ -86,9 +86,9 @@ RunSession::RunSession(const RunArguments& arguments, const options::ProgramOpti
                   ? ResultsFolder(*arguments.output, arguments.force, InputsOf(arguments))
                   : ResultsFolder::ForNow("results")),
       interruption_(std::make_shared<const Interruption>()) {
-  CopyMessagesTo(folder_ / "run.log");
+  CopyMessagesTo(folder_ / ResultFile::kLog);
   messages::Info("version {}", Version());
-  io::WriteTextFile(folder_ / "config.yaml", config::DumpOptions(options));
+  io::WriteTextFile(folder_ / ResultFile::kConfig, config::DumpOptions(options));
 }
 
 RunSession RunSession::Part(const std::string& name) const {

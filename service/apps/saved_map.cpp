@@ -128,7 +128,8 @@ ContinuedMap CorrectAfterFollowing(const RobotInMap& robot,
   Localizer& localizer = robot.localizer;
   const std::size_t scans_before = localizer.map().scans().size();
   pipeline::ResultsWriter results(
-      session.folder(), {.trajectory = "trajectory_live.tum", .pictures = session.has_pictures()});
+      session.folder(),
+      {.trajectory = pipeline::ResultFile::kLiveTrajectory, .pictures = session.has_pictures()});
   pipeline::LostAndFound lost_and_found(localizer, {&results, &robot.marks});
   const pipeline::ReplayResult end = session.Run(
       "map", source, std::bind_front(&Localizer::Process, &localizer), {&lost_and_found});

@@ -35,8 +35,8 @@ std::optional<pipeline::ResultsFolder> BeginResults(const ServeArguments& argume
   if (!arguments.output) return std::nullopt;
   const std::array inputs{arguments.journal};
   pipeline::ResultsFolder folder(*arguments.output, arguments.force, inputs);
-  CopyMessagesTo(folder / "run.log");
-  io::WriteTextFile(folder / "config.yaml", configuration);
+  CopyMessagesTo(folder / pipeline::ResultFile::kLog);
+  io::WriteTextFile(folder / pipeline::ResultFile::kConfig, configuration);
   return folder;
 }
 

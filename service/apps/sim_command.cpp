@@ -136,9 +136,9 @@ ExitCode RunSim(const SimArguments& arguments) {
   sim::Simulation simulation(scenario);
   const ResultsFolder folder = arguments.output ? ResultsFolder(*arguments.output, arguments.force)
                                                 : ResultsFolder::ForNow("results");
-  CopyMessagesTo(folder / "run.log");
+  CopyMessagesTo(folder / ResultFile::kLog);
   messages::Info("version {}", Version());
-  io::WriteTextFile(folder / "scenario.yaml", ScenarioText(scenario));
+  io::WriteTextFile(folder / ResultFile::kScenario, ScenarioText(scenario));
 
   const SimulatedLogs logs = OpenLogs(simulation, folder);
   SimulationProgress progress(simulation,
@@ -163,7 +163,7 @@ ExitCode RunSim(const SimArguments& arguments) {
                       logs[i]->paths());
   }
   const std::string json = SimulationJson(simulation, logs);
-  io::WriteTextFile(folder / "metrics.json", json);
+  io::WriteTextFile(folder / ResultFile::kMetrics, json);
   if (arguments.verbosity.json) {
     Print("{}", json);
   } else if (!arguments.verbosity.quiet) {

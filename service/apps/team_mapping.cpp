@@ -101,9 +101,10 @@ class TeamMapping {
                       .truth = {}};
     robot.results = std::make_unique<pipeline::ResultsWriter>(
         robot.session.folder(),
-        pipeline::ResultsOptions{
-            .trajectory = Corrects(options_) ? "trajectory_live.tum" : "trajectory.tum",
-            .pictures = session_.has_pictures()});
+        pipeline::ResultsOptions{.trajectory = Corrects(options_)
+                                                   ? pipeline::ResultFile::kLiveTrajectory
+                                                   : pipeline::ResultFile::kTrajectory,
+                                 .pictures = session_.has_pictures()});
     return robot;
   }
 
@@ -236,9 +237,9 @@ class TeamMapping {
   void WriteMap(const std::vector<team::Mark>& marks,
                 const std::optional<std::filesystem::path>& save_map) const {
     if (const auto grid = pipeline::RenderOrWarn(map_, options_.rendering)) {
-      io::WriteRosMap(session_.folder() / "map.yaml", *grid);
+      io::WriteRosMap(session_.folder() / pipeline::ResultFile::kMap, *grid);
       if (session_.has_pictures()) {
-        io::WriteTeamPicture(session_.folder() / "map.png", *grid, Paths());
+        io::WriteTeamPicture(session_.folder() / pipeline::ResultFile::kMapPicture, *grid, Paths());
       }
     }
     pipeline::WriteMarks(session_.folder().path(), marks);

@@ -53,8 +53,8 @@ ExitCode RunBench(const BenchArguments& arguments) {
   std::size_t wrong = 0;
   for (const pipeline::SearchTimes& t : times) wrong += t.wrong;
   if (folder) {
-    DrawSpeedUp(times, *folder / "speed_up.png");
-    DrawIterations(times[kShownSize], *folder / "iterations.png");
+    DrawSpeedUp(times, *folder / qwsm::pipeline::ResultFile::kSpeedUp);
+    DrawIterations(times[kShownSize], *folder / qwsm::pipeline::ResultFile::kIterations);
   }
   return wrong == 0 ? ExitCode::kDone : ExitCode::kFailed;
 }

@@ -28,6 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using options::RegistrationOptions;
+using qwsm::pipeline::ResultFile;
 using qwsm::pipeline::ResultsFolder;
 
 struct RegisterArguments {
@@ -67,9 +68,9 @@ ResultsFolder OpenResults(const RegisterArguments& arguments,
   ResultsFolder folder =
       arguments.output ? ResultsFolder(*arguments.output, arguments.force, InputsOf(arguments))
                        : ResultsFolder::ForNow("results");
-  qwsm::apps::CopyMessagesTo(folder / "run.log");
+  qwsm::apps::CopyMessagesTo(folder / ResultFile::kLog);
   qwsm::messages::Info("version {}", qwsm::apps::Version());
-  qwsm::io::WriteTextFile(folder / "config.yaml", qwsm::config::DumpOptions(options));
+  qwsm::io::WriteTextFile(folder / ResultFile::kConfig, qwsm::config::DumpOptions(options));
   return folder;
 }
 

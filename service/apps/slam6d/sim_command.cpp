@@ -51,7 +51,8 @@ ExitCode RunSim(SimArguments arguments) {
   if (arguments.stop_every_m) options.sim.stop_every_m = *arguments.stop_every_m;
   const qwsm::pipeline::ResultsFolder folder(arguments.output, arguments.force);
   fs::create_directories(folder / "gt");
-  qwsm::io::WriteTextFile(folder / "scenario.yaml", qwsm::apps::ScenarioText(scenario));
+  qwsm::io::WriteTextFile(folder / qwsm::pipeline::ResultFile::kScenario,
+                          qwsm::apps::ScenarioText(scenario));
   const qwsm::pipeline::Interruption interruption;
   qwsm::pipeline::StatusLine line(arguments.verbosity.quiet ? qwsm::pipeline::ProgressStyle::kNone
                                                             : qwsm::pipeline::StyleFor(stderr));

@@ -8,6 +8,7 @@
 #include "service/io/logs/evaluation_odometry.hpp"
 #include "service/io/trajectories/relations_file.hpp"
 #include "service/io/trajectories/trajectory_file.hpp"
+#include "service/pipeline/results/result_file.hpp"
 
 namespace qwsm::pipeline {
 
@@ -18,7 +19,7 @@ Evaluator::Evaluator(EvaluationOptions options) : options_(std::move(options)) {
 
 Evaluation Evaluator::Evaluate(const std::filesystem::path& file) const {
   const bool is_folder = std::filesystem::is_directory(file);
-  const Trajectory trajectory = io::ReadTumFile(is_folder ? file / "trajectory.tum" : file);
+  const Trajectory trajectory = io::ReadTumFile(is_folder ? file / ResultFile::kTrajectory : file);
   Evaluation evaluation{
       .trajectory = file.string(), .relations = {}, .absolute_m = {}, .relative = {}};
   if (options_.relations) {

@@ -8,6 +8,7 @@
 #include "service/io/files/atomic_file.hpp"
 #include "service/io/pictures/residual_plot.hpp"
 #include "service/pipeline/evaluation/comparison_report.hpp"
+#include "service/pipeline/results/result_file.hpp"
 #include "service/pipeline/results/run_report.hpp"
 
 namespace qwsm::pipeline {
@@ -41,9 +42,9 @@ void MatcherContest::Finish(const OccupancyGridOptions& rendering, const Traject
                      {.name = std::string(Name(contestant.matcher())),
                       .residual_mm = contestant.figures.Residuals_mm()});
   }
-  io::WriteResidualPlot(folder_ / "residual.png", residuals);
-  io::WriteTextFile(folder_ / "comparison.csv", ComparisonCsv(contestants_));
-  io::WriteTextFile(folder_ / "metrics.json", ComparisonJson(contestants_));
+  io::WriteResidualPlot(folder_ / ResultFile::kResiduals, residuals);
+  io::WriteTextFile(folder_ / ResultFile::kComparison, ComparisonCsv(contestants_));
+  io::WriteTextFile(folder_ / ResultFile::kMetrics, ComparisonJson(contestants_));
 }
 
 }  // namespace qwsm::pipeline

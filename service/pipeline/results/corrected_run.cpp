@@ -8,6 +8,7 @@
 #include "service/io/files/atomic_file.hpp"
 #include "service/io/files/csv_row.hpp"
 #include "service/io/trajectories/graph_file.hpp"
+#include "service/pipeline/results/result_file.hpp"
 #include "service/pipeline/run/parallel.hpp"
 
 namespace qwsm::pipeline {
@@ -62,17 +63,17 @@ CorrectedRun CorrectAtTheEnd(SelfCorrectingMapper& mapper) {
 void WriteLoops(const std::filesystem::path& folder,
                 const Correction& correction,
                 std::span<const RelevantScan> scans) {
-  io::AtomicFile table(folder / "loops.csv");
+  io::AtomicFile table(folder / ResultFile::kLoops);
   table.stream() << kLoopHeader;
   for (const Loop& loop : correction.loops) table.stream() << LineOf(loop, scans);
   table.Commit();
-  io::WriteG2oFile(folder / "graph.g2o", correction.graph);
-  io::WriteToroFile(folder / "graph.toro", correction.graph);
+  io::WriteG2oFile(folder / ResultFile::kGraphG2o, correction.graph);
+  io::WriteToroFile(folder / ResultFile::kGraphToro, correction.graph);
 }
 
 void WriteEpochs(const std::filesystem::path& folder, const CorrectedRun& run) {
   if (run.epochs.empty()) return;
-  io::AtomicFile table(folder / "epochs.csv");
+  io::AtomicFile table(folder / ResultFile::kEpochs);
   table.stream() << kEpochHeader;
   for (std::size_t i = 0; i < run.epochs.size(); ++i) {
     const MapEpoch& epoch = run.epochs[i];

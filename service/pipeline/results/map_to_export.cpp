@@ -19,6 +19,7 @@
 #include "service/pipeline/results/journal_marks.hpp"
 #include "service/pipeline/results/marks_list.hpp"
 #include "service/pipeline/results/marks_of_map.hpp"
+#include "service/pipeline/results/result_file.hpp"
 #include "service/pipeline/results/results_writer.hpp"
 #include "service/pipeline/text/messages.hpp"
 
@@ -42,18 +43,19 @@ void AddPath(const fs::path& file, MapToExport& map) {
 
 /// The map, and the paths of one robot in the folder itself and of others in folders of their name.
 MapToExport LoadResults(const fs::path& folder) {
-  if (!fs::exists(folder / "map.yaml")) {
+  if (!fs::exists(folder / ResultFile::kMap)) {
     throw std::runtime_error(folder.string() + ": holds no map.yaml; name " +
                              std::string(kWhatIsTaken));
   }
-  MapToExport map{.grid = io::ReadRosMap(folder / "map.yaml"), .paths = {}, .start = {}};
+  MapToExport map{.grid = io::ReadRosMap(folder / ResultFile::kMap), .paths = {}, .start = {}};
   std::vector<fs::path> folders{folder};
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (entry.is_directory()) folders.push_back(entry.path());
   }
   std::ranges::sort(folders);
-  for (const fs::path& one : folders) AddPath(one / "trajectory.tum", map);
-  if (fs::exists(folder / kMarksFile)) map.marks = io::ReadPointsOfInterest(folder / kMarksFile);
+  for (const fs::path& one : folders) AddPath(one / ResultFile::kTrajectory, map);
+  if (fs::exists(folder / ResultFile::kMarks))
+    map.marks = io::ReadPointsOfInterest(folder / ResultFile::kMarks);
   return map;
 }
 

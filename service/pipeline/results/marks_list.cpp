@@ -10,6 +10,8 @@
 #include <ctime>
 #include <string>
 
+#include "service/pipeline/results/result_file.hpp"
+
 namespace qwsm::pipeline {
 
 std::vector<io::PointOfInterest> PointsOf(std::span<const team::Mark> marks) {
@@ -31,7 +33,7 @@ std::vector<io::PointOfInterest> PointsOf(std::span<const team::Mark> marks) {
 
 void WriteMarks(const std::filesystem::path& folder, std::span<const team::Mark> marks) {
   const std::vector<io::PointOfInterest> points = PointsOf(marks);
-  if (!points.empty()) io::WritePointsOfInterest(folder / kMarksFile, {}, points);
+  if (!points.empty()) io::WritePointsOfInterest(folder / ResultFile::kMarks, {}, points);
 }
 
 }  // namespace qwsm::pipeline

@@ -11,9 +11,6 @@
 
 namespace qwsm::pipeline {
 
-/// Name of the list of marks in a folder of results.
-inline constexpr const char* kMarksFile = "marks.csv";
-
 /// The marks that are there still, as the RoboCup Rescue League lists them, by their numbers, of
 /// which each is given once; times are UTC.
 std::vector<io::PointOfInterest> PointsOf(std::span<const team::Mark> marks);

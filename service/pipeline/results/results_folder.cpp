@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <ctime>
@@ -31,46 +30,6 @@ void ThrowIf(const std::error_code& error, const fs::path& path, std::string_vie
   if (error) throw Refused(path, fmt::format("cannot {}: {}", what, error.message()));
 }
 
-// What programs leave in a folder of results, but for maps that --save-map was asked for and logs
-// of simulated robots: these are kept until others of the same name are written.
-constexpr std::array<std::string_view, 35> kNames = {
-    "answers.mcap",
-    "comparison.csv",
-    "config.yaml",
-    "epochs.csv",
-    "figure-3-q-wsm.png",
-    "figure-3-wsm.png",
-    "figure-4.png",
-    "graph.g2o",
-    "graph.toro",
-    "iterations.png",
-    "loops.csv",
-    "map.pgm",
-    "map.png",
-    "map.yaml",
-    "map_live.png",
-    "marks.csv",
-    "metrics.json",
-    "model.ply",
-    "report.html",
-    "residual.png",
-    "run.log",
-    "scans.csv",
-    "scenario.yaml",
-    "side_after.png",
-    "side_before.png",
-    "speed_up.png",
-    "table.csv",
-    "table.md",
-    "top_after.png",
-    "top_before.png",
-    "trajectory.kitti",
-    "trajectory.png",
-    "trajectory.tum",
-    "trajectory_live.tum",
-    "truth.tum",
-};
-
 /// Whether a file is one of a series of scans in 3D: scan007.3d, its pose or its frames.
 bool IsNumberedScan(const fs::path& name) {
   const std::string stem = name.stem().string();
@@ -83,7 +42,7 @@ bool IsNumberedScan(const fs::path& name) {
 /// Whether programs give files of results that name, when they are complete or before.
 bool IsOfResults(fs::path name) {
   if (name.extension() == ".part") name = name.stem();
-  return std::ranges::find(kNames, name.string()) != kNames.end() || IsNumberedScan(name);
+  return IsResultFile(name.string()) || IsNumberedScan(name);
 }
 
 /// Whatever else is in the folder is somebody else's.

@@ -6,6 +6,8 @@
 #include <span>
 #include <string_view>
 
+#include "service/pipeline/results/result_file.hpp"
+
 namespace qwsm::pipeline {
 
 /// A folder that takes the results of one run.
@@ -31,6 +33,7 @@ class ResultsFolder {
 
   const std::filesystem::path& path() const { return folder_; }
   std::filesystem::path operator/(std::string_view name) const { return folder_ / name; }
+  std::filesystem::path operator/(ResultFile file) const { return folder_ / file; }
 
  private:
   std::filesystem::path folder_;

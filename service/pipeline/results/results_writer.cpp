@@ -17,8 +17,6 @@
 namespace qwsm::pipeline {
 namespace {
 
-constexpr const char* kKittiFile = "trajectory.kitti";
-
 void Correct(std::vector<io::PathPose>& path, const Correction& correction) {
   for (std::size_t i = 0; i < path.size(); ++i) path[i].map_robot = correction.map_robot[i];
 }
@@ -29,7 +27,7 @@ ResultsWriter::ResultsWriter(const ResultsFolder& folder, const ResultsOptions& 
     : folder_(folder),
       has_pictures_(options.pictures),
       trajectory_(folder / options.trajectory),
-      table_(folder / "scans.csv") {}
+      table_(folder / ResultFile::kScans) {}
 
 void ResultsWriter::Take(const TimedStep& timed) {
   trajectory_.Take(timed);
@@ -47,7 +45,7 @@ void ResultsWriter::Finish(const ScanMap& map,
   table_.Commit();
   Drawing drawing{.map = map, .overlay = std::move(history_).Overlay()};
   const std::vector<io::PathPose>& path = drawing.overlay.path;
-  io::WriteKittiFile(folder_ / kKittiFile, io::TrajectoryOf(path));
+  io::WriteKittiFile(folder_ / ResultFile::kTrajectoryKitti, io::TrajectoryOf(path));
   WriteFigures({.map = map, .matcher = matcher, .path = path, .loops = {}}, truth);
   Draw(std::move(drawing), rendering);
 }
@@ -68,10 +66,10 @@ void ResultsWriter::Finish(const ScanMap& map_live,
   overlay.loops = LoopLines(correction);
   const std::vector<std::optional<UncertainPose2>> corrected_poses(correction.map_robot.begin(),
                                                                    correction.map_robot.end());
-  AddCorrectedPoses(folder_ / "scans.csv", corrected_poses);
+  AddCorrectedPoses(folder_ / ResultFile::kScans, corrected_poses);
   const Trajectory trajectory = io::TrajectoryOf(overlay.path);
-  io::WriteTumFile(folder_ / "trajectory.tum", trajectory);
-  io::WriteKittiFile(folder_ / kKittiFile, trajectory);
+  io::WriteTumFile(folder_ / ResultFile::kTrajectory, trajectory);
+  io::WriteKittiFile(folder_ / ResultFile::kTrajectoryKitti, trajectory);
   WriteLoops(folder_.path(), correction, corrected.map.scans());
   WriteEpochs(folder_.path(), corrected);
   WriteFigures({.map = corrected.map,
@@ -88,30 +86,30 @@ void ResultsWriter::WriteFigures(const Outcome& outcome, const Trajectory& truth
   if (T_world_map_) truth_in_map_ = TruthInMap(truth, *T_world_map_);
   truth_report_ = CompareWithTruth(outcome.path, truth_in_map_);
   loops_ = outcome.loops;
-  if (!truth_in_map_.empty()) io::WriteTumFile(folder_ / "truth.tum", truth_in_map_);
+  if (!truth_in_map_.empty()) io::WriteTumFile(folder_ / ResultFile::kTruth, truth_in_map_);
   metrics_ = MetricsJson(statistics_, outcome.map, outcome.matcher, truth_report_, outcome.loops);
-  io::WriteTextFile(folder_ / "metrics.json", metrics_.Text());
+  io::WriteTextFile(folder_ / ResultFile::kMetrics, metrics_.Text());
   if (!has_pictures_) return;
   const std::array<io::ResidualSeries, 1> series{
       {{.name = std::string(Name(outcome.matcher)), .residual_mm = history_.residuals_mm()}}};
-  io::WriteResidualPlot(folder_ / "residual.png", series);
+  io::WriteResidualPlot(folder_ / ResultFile::kResiduals, series);
 }
 
 void ResultsWriter::Draw(Drawing drawing, const OccupancyGridOptions& rendering) const {
   drawing.overlay.truth = truth_in_map_;
   const std::optional<OccupancyGrid> grid = RenderOrWarn(drawing.map, rendering);
-  if (grid) io::WriteRosMap(folder_ / "map.yaml", *grid);
+  if (grid) io::WriteRosMap(folder_ / ResultFile::kMap, *grid);
   if (!has_pictures_) return;
   if (grid) {
-    io::WriteMapPicture(folder_ / "map.png", *grid);
-    io::WriteTrajectoryPicture(folder_ / "trajectory.png", *grid, drawing.overlay);
+    io::WriteMapPicture(folder_ / ResultFile::kMapPicture, *grid);
+    io::WriteTrajectoryPicture(folder_ / ResultFile::kTrajectoryPicture, *grid, drawing.overlay);
   }
-  if (drawing.before) io::WriteMapPicture(folder_ / "map_live.png", *drawing.before);
+  if (drawing.before) io::WriteMapPicture(folder_ / ResultFile::kLiveMapPicture, *drawing.before);
   if (title_) WriteReport(drawing, grid ? &*grid : nullptr);
 }
 
 void ResultsWriter::WriteReport(const Drawing& drawing, const OccupancyGrid* grid) const {
-  WriteMapReport(folder_ / "report.html",
+  WriteMapReport(folder_ / ResultFile::kReport,
                  *title_,
                  {.metrics = metrics_,
                   .map = grid,

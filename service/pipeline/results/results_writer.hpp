@@ -24,8 +24,8 @@ namespace qwsm::pipeline {
 
 /// What a run is to leave, and under which names.
 struct ResultsOptions {
-  /// Name of the file for the poses as they were answered.
-  std::string_view trajectory = "trajectory.tum";
+  /// That for the poses as they were answered.
+  ResultFile trajectory = ResultFile::kTrajectory;
   /// Whether pictures are drawn and a report is written.
   bool pictures = true;
 };

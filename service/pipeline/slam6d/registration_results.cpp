@@ -12,10 +12,13 @@
 #include "service/io/clouds/uos_scan.hpp"
 #include "service/io/files/atomic_file.hpp"
 #include "service/io/pictures/cloud_picture.hpp"
+#include "service/pipeline/results/result_file.hpp"
 #include "service/pipeline/slam6d/registration_page.hpp"
 
 namespace slam6d::pipeline {
 namespace {
+
+using qwsm::pipeline::ResultFile;
 
 /// The scans as odometry puts them, the first where the map has it.
 std::vector<Pose3> PosesBefore(const Registration& registration) {
@@ -47,10 +50,10 @@ void DrawViews(const io::CloudScene& before,
                const qwsm::pipeline::ResultsFolder& folder) {
   const io::CloudWindow top = io::WindowOf(after, io::CloudView::kTop);
   const io::CloudWindow side = io::WindowOf(after, io::CloudView::kSide);
-  io::WriteCloudPicture(folder / "top_before.png", before, io::CloudView::kTop, top);
-  io::WriteCloudPicture(folder / "top_after.png", after, io::CloudView::kTop, top);
-  io::WriteCloudPicture(folder / "side_before.png", before, io::CloudView::kSide, side);
-  io::WriteCloudPicture(folder / "side_after.png", after, io::CloudView::kSide, side);
+  io::WriteCloudPicture(folder / ResultFile::kTopBefore, before, io::CloudView::kTop, top);
+  io::WriteCloudPicture(folder / ResultFile::kTopAfter, after, io::CloudView::kTop, top);
+  io::WriteCloudPicture(folder / ResultFile::kSideBefore, before, io::CloudView::kSide, side);
+  io::WriteCloudPicture(folder / ResultFile::kSideAfter, after, io::CloudView::kSide, side);
 }
 
 std::string LoopsText(const std::vector<std::size_t>& loops) {
@@ -124,20 +127,21 @@ void WriteResults(const Registration& registration,
   const std::vector<Pose3>& after = registration.T_map_scan;
   std::vector<qwsm::Timestamp> stamps;
   for (const RegisteredScan& scan : registration.scans) stamps.push_back(scan.stamp);
-  io::WriteTum3(folder / "trajectory.tum", after, stamps);
-  io::WriteKitti3(folder / "trajectory.kitti", after);
+  io::WriteTum3(folder / ResultFile::kTrajectory, after, stamps);
+  io::WriteKitti3(folder / ResultFile::kTrajectoryKitti, after);
   for (std::size_t i = 0; i < after.size(); ++i) {
     io::WriteUosFrames(folder / (registration.scans[i].name + ".frames"), before[i], after[i]);
   }
-  qwsm::io::WriteTextFile(folder / "scans.csv", Table(registration));
-  qwsm::io::WriteTextFile(folder / "metrics.json", MetricsOf(registration).Text());
+  qwsm::io::WriteTextFile(folder / ResultFile::kScans, Table(registration));
+  qwsm::io::WriteTextFile(folder / ResultFile::kMetrics, MetricsOf(registration).Text());
   const PointCloud merged = Merge(registration, after);
-  io::WritePly(folder / "model.ply", Reduce(merged, options.model));
+  io::WritePly(folder / ResultFile::kModel, Reduce(merged, options.model));
   if (!pictures.drawn) return;
   DrawViews({Merge(registration, before), PathOf(before), "before: as odometry has it"},
             {merged, PathOf(after), "after registration"},
             folder);
-  if (pictures.title) WriteRegistrationPage(folder / "report.html", *pictures.title, registration);
+  if (pictures.title)
+    WriteRegistrationPage(folder / ResultFile::kReport, *pictures.title, registration);
 }
 
 }  // namespace slam6d::pipeline

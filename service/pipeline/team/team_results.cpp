@@ -104,8 +104,9 @@ class TeamResults::RobotResults {
     if (error) throw io::WriteError(folder_.string() + ": cannot be created: " + error.message());
     files_ = std::make_unique<std::pair<TrajectorySink, ScanTableSink>>(
         std::piecewise_construct,
-        std::forward_as_tuple(folder_ / (corrects_ ? "trajectory_live.tum" : "trajectory.tum")),
-        std::forward_as_tuple(folder_ / "scans.csv"));
+        std::forward_as_tuple(folder_ /
+                              (corrects_ ? ResultFile::kLiveTrajectory : ResultFile::kTrajectory)),
+        std::forward_as_tuple(folder_ / ResultFile::kScans));
   }
 
   fs::path folder_;
@@ -134,21 +135,21 @@ struct TeamResults::FinalMap {
 void TeamResults::RobotResults::Finish(const FinalMap& map) {
   if (has_failed_ || !files_) return;
   if (corrects_) {
-    AddCorrectedPoses(folder_ / "scans.csv", map_robot_);
+    AddCorrectedPoses(folder_ / ResultFile::kScans, map_robot_);
     const Trajectory trajectory = io::TrajectoryOf(placed_);
-    io::WriteTumFile(folder_ / "trajectory.tum", trajectory);
-    io::WriteKittiFile(folder_ / "trajectory.kitti", trajectory);
+    io::WriteTumFile(folder_ / ResultFile::kTrajectory, trajectory);
+    io::WriteKittiFile(folder_ / ResultFile::kTrajectoryKitti, trajectory);
   }
   const team::TeamMap::State::View known = map.known->Read();
   std::optional<LoopCounts> loops;
   if (map.correction) loops = CountLoops(*map.correction, known->epoch);
   io::WriteTextFile(
-      folder_ / "metrics.json",
+      folder_ / ResultFile::kMetrics,
       MetricsJson(statistics_, known->map, MatcherKind::kQWsm, std::nullopt, loops).Text());
   if (!map.grid) return;
   io::MapOverlay overlay = OverlayOf(std::move(placed_), map.known->VersionOf(*known).map);
   if (map.correction) overlay.loops = LoopLines(*map.correction);
-  io::WriteTrajectoryPicture(folder_ / "trajectory.png", *map.grid, overlay);
+  io::WriteTrajectoryPicture(folder_ / ResultFile::kTrajectoryPicture, *map.grid, overlay);
 }
 
 TeamResults::TeamResults(const ResultsFolder& folder, const TeamResultsOptions& options)
@@ -207,11 +208,14 @@ void TeamResults::Finish(team::TeamService& service) {
       tasks.push_back([&map] { WriteLoops(map.folder, *map.correction, map.scans); });
     }
     if (map.before) {
-      tasks.push_back([&map] { io::WriteMapPicture(map.folder / "map_live.png", *map.before); });
+      tasks.push_back(
+          [&map] { io::WriteMapPicture(map.folder / ResultFile::kLiveMapPicture, *map.before); });
     }
     if (!map.grid) continue;
-    tasks.push_back([&map] { io::WriteRosMap(map.folder / "map.yaml", *map.grid); });
-    tasks.push_back([&map] { io::WriteTeamPicture(map.folder / "map.png", *map.grid, map.paths); });
+    tasks.push_back([&map] { io::WriteRosMap(map.folder / ResultFile::kMap, *map.grid); });
+    tasks.push_back([&map] {
+      io::WriteTeamPicture(map.folder / ResultFile::kMapPicture, *map.grid, map.paths);
+    });
   }
   RunInParallel(tasks);
 }
