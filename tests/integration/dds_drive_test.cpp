@@ -71,17 +71,8 @@ TEST_F(DdsDrive, SimulatedRobotGoesWhereItsOperatorWants) {
                                       "robots:\n"
                                       "  - name: robot1\n"
                                       "    driver: {kind: external}\n";
-  Daemon simulator({"sim",
-                    Path("hall.yaml"),
-                    "--duration",
-                    "3600",
-                    "--dds",
-                    "--network",
-                    "interface=lo",
-                    "--network",
-                    "tag=" + network_.tag(),
-                    "--output",
-                    Path("drive")});
+  Daemon simulator(network_.JoinSimulator(
+      {"sim", Path("hall.yaml"), "--duration", "3600", "--dds", "--output", Path("drive")}));
   Operator joystick(network_, "robot1");
   const auto goes_ahead = [](const dds::wire::Pose& pose) { return pose.position.x > 0.3; };
   const auto has_turned = [](const dds::wire::Pose& pose) { return pose.orientation.z > 0.2; };

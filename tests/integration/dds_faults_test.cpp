@@ -6,7 +6,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -22,6 +21,7 @@
 #include "service/dds/wire/robot_names.hpp"
 #include "service/dds/wire/scan_conversion.hpp"
 #include "service/dds/wire/transform_sample.hpp"
+#include "tests/support/demo_log.hpp"
 #include "tests/support/hostile_peer.hpp"
 #include "tests/support/network.hpp"
 #include "tests/support/process_state.hpp"
@@ -42,11 +42,7 @@ int RelevantScans(const Outcome& served) {
 
 class DdsFaults : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const std::string generator = ProgramPath().parent_path() / "generate_demo_log";
-    const std::string command = generator + " two-rooms " + Log() + " 2>/dev/null";
-    ASSERT_EQ(std::system(command.c_str()), 0);
-  }
+  void SetUp() override { WriteDemoLog(Log()); }
 
   std::string Log() const { return Path("two-rooms.log"); }
   std::string Path(const char* name) const { return folder_.path() / name; }

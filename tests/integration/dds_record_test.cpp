@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -15,6 +14,7 @@
 
 #include "service/dds/entities/writer.hpp"
 #include "service/io/bags/containers/bag_files.hpp"
+#include "tests/support/demo_log.hpp"
 #include "tests/support/network.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/two_lasers.hpp"
@@ -42,9 +42,8 @@ class DdsRecord : public testing::Test {
 class DdsRecordOfEachForm : public DdsRecord, public testing::WithParamInterface<const char*> {};
 
 TEST_P(DdsRecordOfEachForm, GivesTheDriveBitForBit) {
-  const std::string generator = ProgramPath().parent_path() / "generate_demo_log";
   const std::string log = Path("drive.log");
-  ASSERT_EQ(std::system((generator + " two-rooms " + log + " 2>/dev/null").c_str()), 0);
+  WriteDemoLog(log);
   const std::filesystem::path recording = Path(GetParam());
   Daemon recorder(network_.Join({"record", recording, "--verbose"}));
   ASSERT_TRUE(recorder.WaitUntilItSays("recording"));
@@ -85,17 +84,8 @@ TEST_F(DdsRecord, LeavesOutOtherRobots) {
   const std::filesystem::path recording = Path("one.mcap");
   Daemon recorder(network_.Join({"record", recording, "--robot", "robot_1", "--verbose"}));
   ASSERT_TRUE(recorder.WaitUntilItSays("recording"));
-  const Outcome simulated = RunProgram({"sim",
-                                        "team",
-                                        "--duration",
-                                        "3",
-                                        "--dds",
-                                        "--network",
-                                        "interface=lo",
-                                        "--network",
-                                        "tag=" + network_.tag(),
-                                        "--output",
-                                        Path("drive")});
+  const Outcome simulated = RunProgram(network_.JoinSimulator(
+      {"sim", "team", "--duration", "3", "--dds", "--output", Path("drive")}));
   EXPECT_EQ(simulated.exit_code, 0) << simulated.errors;
   const Outcome recorded = recorder.End(SIGINT);
   EXPECT_EQ(recorded.exit_code, 0) << recorded.errors;

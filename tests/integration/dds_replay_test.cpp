@@ -17,6 +17,7 @@
 
 #include "service/dds/service/mark_exchange.hpp"
 #include "service/io/trajectories/trajectory_file.hpp"
+#include "tests/support/demo_log.hpp"
 #include "tests/support/network.hpp"
 #include "tests/support/replay.hpp"
 
@@ -28,11 +29,7 @@ using namespace std::chrono_literals;
 
 class DdsReplay : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const std::string generator = ProgramPath().parent_path() / "generate_demo_log";
-    const std::string command = generator + " two-rooms " + Log() + " 2>/dev/null";
-    ASSERT_EQ(std::system(command.c_str()), 0);
-  }
+  void SetUp() override { WriteDemoLog(Log()); }
 
   std::string Log() const { return Path("two-rooms.log"); }
   std::string Path(const char* name) const { return folder_.path() / name; }

@@ -32,19 +32,10 @@ class DdsTeam : public ::testing::Test {
 
   std::vector<std::string> Simulator(const std::string& scenario,
                                      const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments{"sim",
-                                       scenario,
-                                       "--output",
-                                       Path("driven"),
-                                       "--quiet",
-                                       "--dds",
-                                       "--wait-for-answers",
-                                       "--network",
-                                       "interface=lo",
-                                       "--network",
-                                       "tag=" + network_.tag()};
+    std::vector<std::string> arguments{
+        "sim", scenario, "--output", Path("driven"), "--quiet", "--dds", "--wait-for-answers"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
+    return network_.JoinSimulator(std::move(arguments));
   }
 
   /// Where a robot was last in a file of its poses.

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The log of the demonstration: generated, mapped by the program, and compared with the truth.
+#include "tests/support/demo_log.hpp"
+
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 
@@ -22,10 +23,7 @@ TEST(DemoLog, IsMappedToWithinCentimetresOfTheTruth) {
   const fs::path log = folder.path() / "demo.log";
   const fs::path truth = folder.path() / "truth.tum";
   const fs::path results = folder.path() / "results";
-  const fs::path generator = ProgramPath().parent_path() / "generate_demo_log";
-  const std::string command =
-      generator.string() + " two-rooms " + log.string() + " " + truth.string();
-  ASSERT_EQ(std::system(command.c_str()), 0);
+  WriteDemoLog(log, truth);
   ASSERT_EQ(RunProgram({"map", log, "--output", results}).exit_code, 0);
 
   const std::vector<PosePair> pairs =

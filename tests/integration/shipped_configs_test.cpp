@@ -9,6 +9,7 @@
 #include <fstream>
 #include <string>
 
+#include "tests/support/demo_log.hpp"
 #include "tests/support/network.hpp"
 
 namespace qwsm::test {
@@ -70,8 +71,7 @@ TEST_F(ShippedConfigs, OfSecurityLetMembersInAndKeepOthersOut) {
   const std::string make_keys = kConfigs / "dds/make_keys";
   ASSERT_EQ(std::system((make_keys + " " + keys + " 2>/dev/null").c_str()), 0);
   const std::string log = Path("two-rooms.log");
-  const std::string generator = ProgramPath().parent_path() / "generate_demo_log";
-  ASSERT_EQ(std::system((generator + " two-rooms " + log + " 2>/dev/null").c_str()), 0);
+  WriteDemoLog(log);
 
   Configure(Replaced(ReadFile(kConfigs / "dds/security.xml"), "/etc/qwsm/security", keys));
   Daemon service(network_.JoinService({"serve", "--verbose"}));

@@ -212,18 +212,14 @@ TEST_F(View, ShowingALogChangesNothingOfItsPath) {
 
 TEST_F(View, ShowsASimulatorThatNobodyAnswers) {
   const TemporaryFolder folder;
-  std::vector<std::string> arguments{"sim",
-                                     "team",
-                                     "--view",
-                                     "--verbose",
-                                     "--page",
-                                     "port=0",
-                                     "--output",
-                                     folder.path() / "drive"};
-  for (const std::string& setting : {std::string("interface=lo"), "tag=" + network_.tag()}) {
-    arguments.insert(arguments.end(), {"--network", setting});
-  }
-  ViewedService simulator(arguments);
+  ViewedService simulator(network_.JoinSimulator({"sim",
+                                                  "team",
+                                                  "--view",
+                                                  "--verbose",
+                                                  "--page",
+                                                  "port=0",
+                                                  "--output",
+                                                  folder.path() / "drive"}));
   Onlooker onlooker(simulator.port());
   ASSERT_TRUE(onlooker.Subscribe("/robot_1/ground_truth", 1));
   ASSERT_TRUE(onlooker.Subscribe("/robot_1/scan", 2));

@@ -25,9 +25,13 @@ class PrivateNetwork {
   const std::string& tag() const { return tag_; }
 
   std::vector<std::string> Join(std::vector<std::string> arguments) const {
-    for (const std::string& setting : {std::string("interface=lo"), "tag=" + tag_}) {
-      arguments.insert(arguments.end(), {"--set", "network." + setting});
-    }
+    arguments.insert(arguments.end(),
+                     {"--set", "network.interface=lo", "--set", "network.tag=" + tag_});
+    return arguments;
+  }
+  /// Of the simulator, whose --set takes options of the scenario.
+  std::vector<std::string> JoinSimulator(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.end(), {"--network", "interface=lo", "--network", "tag=" + tag_});
     return arguments;
   }
   /// Joins a service that waits for odometry however busy the machine is.
