@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstddef>
 #include <map>
 #include <optional>
 #include <set>
@@ -17,8 +16,6 @@ namespace qwsm::dds {
 /// Finds out which robots there are, by who publishes on a topic such as `/robot1/scan`.
 class RobotDiscovery {
  public:
-  static constexpr std::size_t kMaxRobots = 256;  ///< Most robots of a team; more are an attack.
-
   struct Changes {
     std::vector<std::string> joined;  ///< Names of robots, as in RobotNames.
     std::vector<std::string> left;    ///< Names of robots for which nobody publishes any more.

@@ -10,6 +10,7 @@
 
 #include "service/dds/service/service_inbox.hpp"
 #include "service/dds/wire/wire_kind.hpp"
+#include "service/team/scans/robot_name.hpp"
 
 namespace qwsm::dds {
 
@@ -107,7 +108,7 @@ void ServiceInbox<Session>::ShareRobots() {
   }
   for (const std::string& robot : claimed) Leave(robot);
   for (const std::string& robot : publishers_) {
-    if (robots_.size() >= RobotDiscovery::kMaxRobots) return;
+    if (robots_.size() >= team::kMaxRobots) return;
     if (!robots_.contains(robot) && !others_.Answer(robot)) Join(robot, NanosecondsNow());
   }
 }

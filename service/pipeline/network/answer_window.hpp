@@ -11,6 +11,9 @@
 
 namespace qwsm::pipeline {
 
+/// So long a service may leave scans unanswered, or what else it is sent unacknowledged.
+inline constexpr auto kPatience = std::chrono::seconds(10);
+
 /// Keeps a publisher of scans from outrunning the service: only so many scans are on their way
 /// before one of them is answered.
 /// @tparam Kind of the scans: team::Planar or team::Spatial.

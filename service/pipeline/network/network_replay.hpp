@@ -101,7 +101,6 @@ class NetworkReplay {
 
   // Most scans on their way; the service's queue holds more than this.
   static constexpr std::size_t kScansOnTheirWay = 4;
-  static constexpr auto kPatience = std::chrono::seconds(10);
   static constexpr auto kLook = std::chrono::milliseconds(200);
 
   static bool HasImu(const Source& source) {

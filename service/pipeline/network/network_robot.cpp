@@ -11,7 +11,6 @@ namespace qwsm::pipeline {
 namespace {
 
 constexpr std::size_t kScansOnTheirWay = 3;
-constexpr auto kPatience = std::chrono::seconds(10);
 // Of a team; measured before the start, say.
 constexpr double kStartSigma_m = 0.03;
 constexpr double kStartSigma_rad = 0.01;

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "qwsm/mapping/view_break.hpp"
+
 namespace qwsm::team {
 namespace {
 
-// A wrong pose explains by chance about half of what the right one does: half way between them.
-constexpr double kStillExplained = 0.75;
 // What a robot saw last lies in the map where it was tracked, and flatters that place by so much.
 constexpr double kFlattery = 0.1;
 // After so many relevant scans that fit both alike nothing is to be expected of the next.
@@ -62,7 +62,7 @@ double TrackingTrial::EvidenceOf(const MappingStep& step) const {
   const auto most = static_cast<std::size_t>(rival_.options().locator.search.independent_points);
   const auto independent = static_cast<double>(std::min(of_rival_.points.size(), most));
   const double by_rival = ExplainedShare(of_rival_.step);
-  if (by_rival < kStillExplained * overlap_) return -independent * (overlap_ - by_rival);
+  if (!ViewBreak::IsAsBefore(by_rival, overlap_)) return -independent * (overlap_ - by_rival);
   const double more = by_rival - ExplainedShare(step);
   return independent * std::max(std::min(more, 0.0), more - kFlattery * by_rival);
 }

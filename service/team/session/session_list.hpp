@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "service/team/scans/robot_name.hpp"
 #include "service/team/session/robot_listener.hpp"
 #include "service/team/session/worker_pool.hpp"
 #include "service/team/sinks/team_status.hpp"
@@ -123,8 +124,6 @@ class SessionList final : public RobotListener<typename Session::Kind> {
   }
 
  private:
-  static constexpr std::size_t kMaxRobots = 256;  // More come from a mistake or an attack.
-
   std::shared_ptr<Session> Find(std::string_view robot) const {
     const std::lock_guard lock(mutex_);
     const auto found = sessions_.find(robot);
