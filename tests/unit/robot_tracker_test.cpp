@@ -144,5 +144,59 @@ TEST(RobotTracker, FollowsTheMapWhereOdometryIsLate) {
   }
 }
 
+/// A robot that stands and sees somebody walk by, until it is known that he moves.
+class SomebodyWalksBy : public ::testing::Test {
+ protected:
+  SomebodyWalksBy() {
+    tracker_.PlaceAt(UncertainPose2::WithSigmas(kStart, 0.01, 0.001), Pose2{});
+    for (int i = 0; i < 12; ++i) {
+      somebody_m_ = {2.0 + 0.1 * i, 0.5};
+      World room = Room();
+      room.columns.push_back({.center_m = somebody_m_, .radius_m = 0.2});
+      Look(kStart, room, Pose2{});
+    }
+  }
+
+  /// @return how many points of the first pillar the robot makes use of.
+  int Look(const Pose2& T_map_robot, const World& world, const Pose2& T_odom_robot) {
+    LaserScan scan = ScanFrom(T_map_robot, world);
+    scan.stamp = stamp_ += std::chrono::milliseconds(100);
+    const TrackedScan tracked = tracker_.Track(map_, {.scan = scan, .T_odom_robot = T_odom_robot});
+    int of_pillar = 0;
+    for (const ScanPoint& point : tracked.points) {
+      const Column pillar = Room().columns.front();
+      const double off_m = (T_map_robot * point.p_robot_m - pillar.center_m).norm();
+      of_pillar += off_m < pillar.radius_m + 0.1 ? 1 : 0;
+    }
+    return of_pillar;
+  }
+
+  /// Odometry that begins anew where the pillar is to the robot where somebody just was.
+  Pose2 OdometryThatMistakesThePillar(const Pose2& T_map_robot) const {
+    const Eigen::Vector2d p_odom_m = kStart.Inverse() * somebody_m_;
+    const Eigen::Vector2d p_robot_m = T_map_robot.Inverse() * Room().columns.front().center_m;
+    return {p_odom_m.x() - p_robot_m.x(), p_odom_m.y() - p_robot_m.y(), 0.0};
+  }
+
+  ScanMap map_ = MapFrom(kStart);
+  RobotTracker tracker_;
+  Timestamp stamp_{};
+  Eigen::Vector2d somebody_m_ = Eigen::Vector2d::Zero();
+};
+
+TEST_F(SomebodyWalksBy, AndIsNotTakenForWhatStandsWhereTheRobotIsPutElsewhere) {
+  const Pose2 elsewhere{6.0, 2.5, -2.0};
+  const Pose2 T_odom_robot = OdometryThatMistakesThePillar(elsewhere);
+  tracker_.PlaceAt(UncertainPose2::WithSigmas(elsewhere, 0.01, 0.001), T_odom_robot);
+  EXPECT_GT(Look(elsewhere, Room(), T_odom_robot), 3);
+}
+
+TEST_F(SomebodyWalksBy, AndIsNotTakenForWhatStandsWhereOdometryBeginsAnew) {
+  const Pose2 T_odom_robot = OdometryThatMistakesThePillar(kStart);
+  tracker_.SuspectOdometryReset();
+  Look(kStart, Room(), T_odom_robot);  // By this scan it is found out.
+  EXPECT_GT(Look(kStart, Room(), T_odom_robot), 3);
+}
+
 }  // namespace
 }  // namespace qwsm::test

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "odometry_failure.hpp"
 #include "pose_in_map.hpp"
@@ -39,12 +38,12 @@ void RobotTracker::PlaceAt(const UncertainPose2& map_robot,
   calibration_.Restart(T_odom_robot);
   slip_.Interrupt();
   LeavePath();
-  map_last_ = map_robot;
-  local_last_ = map_robot;
+  map_last_ = local_last_ = map_robot;
   lasers_.Clear();
   has_initial_pose_ = true;
   stands_at_initial_pose_ = !T_odom_robot;
   held_.reset();
+  bodies_.Forget();
 }
 
 void RobotTracker::FollowCorrection(const UncertainPose2& map_robot) {
@@ -72,7 +71,8 @@ TrackedScan RobotTracker::Track(const ScanMap& map, const Observation& told) {
   MappingStep& step = sighting.step;
   const Observation& still = sighting.observation;
   LearnMotion(sighting, map.scans().size());
-  bodies_.Place(step.map_robot.T_a_b);
+  const bool odometry_is_new = is_odometry_suspect_ && sighting.dropped_odometry;
+  odometry_is_new ? bodies_.Forget() : bodies_.Place(step.map_robot.T_a_b);
   // A scan whose pose is dead-reckoned extends the map like any other once the robot has moved on:
   // beyond the surfaces mapped so far no scan can be matched, and the map would end there for good.
   // The covariance of the pose goes with its points.
