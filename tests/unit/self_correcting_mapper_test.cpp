@@ -3,6 +3,7 @@
 #include "qwsm/correction/self_correcting_mapper.hpp"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <future>
 #include <memory>
@@ -120,6 +121,32 @@ TEST(SelfCorrectingMapper, DoesNotDependOnThreadsWhenTheRobotIsLost) {
     EXPECT_EQ(one.status, other.status);
     EXPECT_EQ(one.map_robot.T_a_b, other.map_robot.T_a_b);
   }
+}
+
+std::size_t BytesOnTheHeap() {
+  const struct mallinfo2 heap = mallinfo2();
+  return heap.uordblks + heap.hblkhd;
+}
+
+TEST(SelfCorrectingMapper, KeepsRelevantScansOnlyOfARobotThatIsLost) {
+  const DriveOptions options{.laser = {.beams = 1081}};
+  std::vector<Observation> drive = DriveThrough(FurnishedRoom(), options).observations;
+  const std::vector<Observation> elsewhere = DriveThrough(OfficeLoop(), options).observations;
+  const LogGap to_elsewhere{.first = drive.size(), .scans = 1};
+  drive.insert(drive.end(), elsewhere.begin(), elsewhere.end());
+  drive = Carried(std::move(drive), to_elsewhere);
+  SelfCorrectingMapper mapper;
+  auto next = drive.begin();
+  while (mapper.belief() == nullptr && next != drive.end()) mapper.Process(*next++);
+  ASSERT_NE(mapper.belief(), nullptr);
+  for (int i = 0; i < 100; ++i) mapper.Process(*next);
+
+  constexpr std::size_t kStanding = 500;
+  const std::size_t before = BytesOnTheHeap();
+  for (std::size_t i = 0; i < kStanding; ++i) mapper.Process(*next);
+  const std::size_t of_scans = kStanding * next->scan.ranges_m.size() * sizeof(float);
+  EXPECT_NE(mapper.belief(), nullptr);
+  EXPECT_LT(BytesOnTheHeap(), before + of_scans);
 }
 
 }  // namespace

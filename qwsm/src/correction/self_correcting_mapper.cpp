@@ -59,7 +59,8 @@ void SelfCorrectingMapper::Note(const Observation& observation, std::size_t answ
     doubtful_ = {};
     return;
   }
-  if (doubtful_.observations.empty()) doubtful_.answers_before = answers_before;
+  const bool begins = doubtful_.observations.empty() && !doubtful_.lost;
+  if (begins) doubtful_.answers_before = answers_before;
   doubtful_.observations.push_back(observation);
 }
 
@@ -77,20 +78,29 @@ MappingStep SelfCorrectingMapper::Lose() {
   ++losses_;
   const bool was_found = watch_.is_asking_of_found_place();
   lost_ ? GiveUp() : TakeBack(static_cast<ScanId>(watch_.scans_before()));
-  lost_.emplace(options_);
-  since_lost_.clear();
+  Doubtful doubtful = std::exchange(doubtful_, {});
+  BeginLost(doubtful);
   watch_.BeginAnew(lost_->local().map());
   MappingStep step;
-  const Doubtful doubtful = std::exchange(doubtful_, {});
   for (const Observation& observation : doubtful.observations) {
     step = was_found ? FollowLost(observation) : Process(observation);
   }
   return step;
 }
 
+// Who was found where he is not goes on in what he had mapped.
+void SelfCorrectingMapper::BeginLost(Doubtful& doubtful) {
+  if (!doubtful.lost) {
+    lost_.emplace(options_);
+    return;
+  }
+  lost_ = std::move(doubtful.lost);
+  lost_->LookAnew();
+  lost_steps_ = std::move(doubtful.lost_steps);
+}
+
 // By these scans the robot was found where it is not: it is not looked for by them again.
 MappingStep SelfCorrectingMapper::FollowLost(const Observation& observation) {
-  since_lost_.push_back(observation);
   MappingStep step = lost_->Follow(observation);
   step.epoch = static_cast<int>(epochs_.size());
   lost_steps_.push_back(step);
@@ -133,16 +143,16 @@ MappingStep SelfCorrectingMapper::Search(const Observation& observation) {
   const PlaceDoubt doubt = watch_.Look(lost_->local().map(), observation.scan, step);
   Note(observation, lost_steps_.size());
   if (doubt == PlaceDoubt::kLost) return Lose();
-  since_lost_.push_back(observation);
-  if (lost_->is_found()) return Find(observation);
   lost_steps_.push_back(step);
+  if (lost_->is_found()) return Find(observation);
   return AsLost(std::move(step), lost_->belief());
 }
 
 // The place was found by a few points of the scan; all of them tell it better. It is as uncertain
 // as the part of the map that they fit.
 MappingStep SelfCorrectingMapper::Find(const Observation& observation) {
-  const LostRobot lost = *std::exchange(lost_, std::nullopt);
+  LostRobot lost = *std::exchange(lost_, std::nullopt);
+  std::vector<MappingStep> lost_steps = std::exchange(lost_steps_, {});
   const std::vector<ScanPoint> points = ToPoints(observation.scan);
   const MatchResult match =
       ScanLocator(options_.locator).Locate(mapper_.map(), points, lost.map_found());
@@ -151,24 +161,32 @@ MappingStep SelfCorrectingMapper::Find(const Observation& observation) {
       mapper_.map().CovarianceUnder(points, T_map_robot).At(T_map_robot.translation_m());
   const UncertainPose2 map_robot{.T_a_b = T_map_robot, .covariance = of_map + match.covariance};
   const std::size_t scans_before = mapper_.map().scans().size();
-  doubtful_ = {.answers_before = path_->size(), .observations = std::exchange(since_lost_, {})};
+  const std::size_t answers_before = path_->size();
   const ScanId beside = NearestScan(mapper_.map(), T_map_robot);
   const UncertainPose2 beside_map{.T_a_b = mapper_.map().scans()[beside].map_robot.T_a_b.Inverse()};
-  Join(lost.FrameFor(map_robot), {beside, beside_map * lost.FrameFor(match.pose())});
+  Join(std::span(lost_steps).first(lost_steps.size() - 1),
+       lost.FrameFor(map_robot),
+       {beside, beside_map * lost.FrameFor(match.pose())});
   mapper_.PlaceAt(match.pose());
   MappingStep step = mapper_.Process(observation);
   step.epoch = static_cast<int>(epochs_.size());
   Take(step);
   step.reason = "found again";
   watch_.AskOfFoundPlace(mapper_.map(), scans_before);
+  doubtful_ = {.answers_before = answers_before,
+               .observations = {},
+               .lost = std::move(lost),
+               .lost_steps = std::move(lost_steps)};
   return step;
 }
 
 // @param local the robot's own frame, as seen from a node of the map.
-void SelfCorrectingMapper::Join(const UncertainPose2& map_local, const FoundBeside& local) {
+void SelfCorrectingMapper::Join(std::span<const MappingStep> lost_steps,
+                                const UncertainPose2& map_local,
+                                const FoundBeside& local) {
   ++components_;
   bool begins = true;
-  for (MappingStep& step : std::exchange(lost_steps_, {})) {
+  for (MappingStep step : lost_steps) {
     std::optional<FoundBeside> found;
     if (std::exchange(begins, false)) {
       step.closed_loop = true;

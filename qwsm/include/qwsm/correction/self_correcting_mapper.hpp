@@ -68,11 +68,12 @@ class SelfCorrectingMapper {
   FinishedDrive Finish();
 
  private:
-  // What was answered since the view broke, or since a robot was lost that was found, and may be
-  // taken back.
+  // What was answered since the view broke, or since a robot was found, and may be taken back.
   struct Doubtful {
     std::size_t answers_before = 0;
     std::vector<Observation> observations;
+    std::optional<LostRobot> lost;  // As it was when it was found.
+    std::vector<MappingStep> lost_steps;
   };
 
   MappingStep Map(const Observation& observation);
@@ -82,11 +83,14 @@ class SelfCorrectingMapper {
   MappingStep Lose();
   void TakeBack(ScanId first);
   void GiveUp();
+  void BeginLost(Doubtful& doubtful);
   void TakeUnplaced();
   MappingStep FollowLost(const Observation& observation);
   MappingStep Search(const Observation& observation);
   MappingStep Find(const Observation& observation);
-  void Join(const UncertainPose2& map_local, const FoundBeside& local);
+  void Join(std::span<const MappingStep> lost_steps,
+            const UncertainPose2& map_local,
+            const FoundBeside& local);
 
   MapperOptions options_;
   Mapper mapper_;
@@ -97,7 +101,6 @@ class SelfCorrectingMapper {
   CarryWatch watch_;
   Doubtful doubtful_;
   std::optional<LostRobot> lost_;
-  std::vector<Observation> since_lost_;
   std::vector<MappingStep> lost_steps_;  // In the frame of a robot's own, while it is lost.
   std::size_t components_ = 1;
   std::size_t losses_ = 0;

@@ -18,6 +18,9 @@ class LostRobot {
   /// Looks for the robot in a map. @param step the answer to the scan.
   void LookFor(const ScanMap& map, const LaserScan& scan, const MappingStep& step);
 
+  /// Forgets what is known of the robot's place, but not what was mapped.
+  void LookAnew() { finder_ = PlaceFinder(local_.options()); }
+
   const PlaceBelief& belief() const { return finder_.belief(); }
   bool is_found() const { return belief().verdict == PlaceVerdict::kFound; }
   /// Where in the map the robot is. @pre is_found()
