@@ -74,6 +74,47 @@ TEST(MapCorrector, KeepsTheScansOfEachRobotInAChainOfItsOwn) {
   EXPECT_LT(WorstError_m(correction.map_node, T_map_true), 0.2 * before_m);
 }
 
+// The nodes of two robots in turns, in one chain each.
+std::vector<ScanNode> NodesOfTwo(const std::vector<MappingStep>& relevant) {
+  const std::size_t half = relevant.size() / 2;
+  std::array<NodeMaker, 2> makers;
+  std::vector<ScanNode> nodes;
+  for (std::size_t i = 0; i < half; ++i) {
+    for (std::size_t robot = 0; robot < 2; ++robot) {
+      nodes.push_back(*makers[robot].Take(relevant[robot * half + i]));
+      nodes.back().robot = robot;
+    }
+  }
+  return nodes;
+}
+
+void Add(std::span<const ScanNode> nodes, MapCorrector& corrector) {
+  for (const ScanNode& node : nodes) corrector.Add(node);
+}
+
+TEST(MapCorrector, ForgetsNodesAsIfTheyHadNeverBeenAdded) {
+  const std::vector<ScanNode> nodes = NodesOfTwo(BentOfficeLoop().steps);
+  MapCorrector unbroken;
+  Add(nodes, unbroken);
+  const Correction expected = unbroken.Correct();
+  const std::span<const ScanNode> all(nodes);
+  for (const NodeId first : {NodeId{0}, NodeId{1}, NodeId{2}, NodeId{33}, NodeId{70}}) {
+    SCOPED_TRACE(first);
+    MapCorrector forgetful;
+    Add(all.first(first), forgetful);
+    Add(all.last(40), forgetful);  // From elsewhere: they fit nothing.
+    forgetful.ForgetSince(first);
+    Add(all.subspan(first), forgetful);
+    const Correction correction = forgetful.Correct();
+    ASSERT_EQ(correction.map_node.size(), expected.map_node.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      EXPECT_EQ(correction.map_node[i].T_a_b, expected.map_node[i].T_a_b) << i;
+      EXPECT_EQ(correction.map_node[i].covariance, expected.map_node[i].covariance) << i;
+    }
+    EXPECT_EQ(correction.loops.size(), expected.loops.size());
+  }
+}
+
 // Where nothing lies between a submap's reference and its last scan, its frame is certain.
 TEST(MapCorrector, RecognisesARobotByWhatAnotherSawOfItsFirstScans) {
   Answers answers = Drive(OfficeLoop());

@@ -216,10 +216,8 @@ void MapCorrector::ForgetSince(NodeId first) {
            state.chains.submaps()[found.submap].nodes.back() >= first;
   });
   state.recent = {};
-  state.chains = ScanChains(state.options);
-  std::vector<ScanNode> nodes = std::exchange(state.nodes, {});
-  nodes.erase(nodes.begin() + first, nodes.end());
-  for (ScanNode& node : nodes) Add(std::move(node));
+  state.nodes.erase(state.nodes.begin() + first, state.nodes.end());
+  state.chains.ForgetSince(state.nodes);
   state.looked_for = std::min(state.looked_for, first);
   state.settled_loops = std::min(state.settled_loops, CountAccepted(state.loops));
 }

@@ -121,7 +121,60 @@ void ScanChains::Add(std::span<const ScanNode> nodes) {
     if (!hangs) NoteHold(attached, chain);
   }
   chain.nodes.push_back(id);
+  unmatched_.push_back(chain.unmatched);
   InsertIntoSubmaps(id, ToPoints(node.scan), chain);
+}
+
+void ScanChains::ForgetSince(std::span<const ScanNode> nodes) {
+  const auto first = static_cast<NodeId>(nodes.size());
+  ForgetSubmapsSince(first);
+  std::erase_if(matches_, [&](const SurfaceMatch& match) { return match.node >= first; });
+  std::erase_if(edges_, [&](const PoseEdge& edge) { return edge.to >= first; });
+  std::erase_if(motions_, [&](const PoseEdge& edge) { return edge.to >= first; });
+  T_chain_node_.resize(first);
+  position_.resize(first);
+  robot_.resize(first);
+  parts_.resize(first);
+  unmatched_.resize(first);
+  std::erase_if(chains_, [&](const auto& chain) { return chain.second.nodes.front() >= first; });
+  for (auto& [robot, chain] : chains_) {
+    if (chain.nodes.back() < first) continue;
+    std::erase_if(chain.nodes, [&](NodeId node) { return node >= first; });
+    GoOn(nodes, chain);
+  }
+}
+
+// What was begun first has the least number. The first node that was matched told how wrong the
+// surfaces lie.
+void ScanChains::ForgetSubmapsSince(NodeId first) {
+  std::erase_if(submaps_, [&](const RigidSubmap& one) { return one.nodes.front() >= first; });
+  for (RigidSubmap& submap : submaps_) {
+    if (submap.nodes.back() < first) continue;
+    std::erase_if(submap.nodes, [&](NodeId node) { return node >= first; });
+    const auto is_of_it = [&](const SurfaceMatch& match) {
+      return match.node < first && match.node > submap.nodes.front() &&
+             std::ranges::binary_search(submap.nodes, match.node);
+    };
+    if (std::ranges::none_of(matches_, is_of_it)) submap.error_of_surfaces.setZero();
+  }
+}
+
+// After the last node that is left. Submaps that still grew have it.
+void ScanChains::GoOn(std::span<const ScanNode> nodes, Chain& chain) {
+  const NodeId last = chain.nodes.back();
+  chain.unmatched = unmatched_[last];
+  chain.turns = {};
+  for (const NodeId id : chain.nodes) {
+    chain.turns.Take(id, nodes[id].scan.geometry.T_robot_laser);
+  }
+  std::erase_if(chain.submaps, [&](std::size_t index) { return index >= submaps_.size(); });
+  chain.last_surfaces.clear();
+  for (const std::size_t index : chain.submaps) {
+    const RigidSubmap& submap = submaps_[index];
+    if (submap.nodes.back() != last) continue;
+    SubmapSurfaces& grown = chain.last_surfaces.emplace_back(map_options_.surfaces, free_space_);
+    for (const NodeId id : submap.nodes) Insert(id, ToPoints(nodes[id].scan), grown);
+  }
 }
 
 // What is known of where a further robot came in: its pose in the map, or as seen from a node

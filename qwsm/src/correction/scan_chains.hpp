@@ -52,6 +52,10 @@ class ScanChains {
 
   /// Adds the last of the nodes to the chain of its robot. @pre all before were added
   void Add(std::span<const ScanNode> nodes);
+  /// Forgets the last nodes, as if they had never been added.
+  /// @param nodes those before, which are left.
+  /// Complexity: that of adding the submaps that still grow.
+  void ForgetSince(std::span<const ScanNode> nodes);
 
   /// Poses of the nodes, each in the frame of its chain.
   std::span<const Pose2> T_chain_node() const { return T_chain_node_; }
@@ -123,6 +127,8 @@ class ScanChains {
                                       const Pose2& T_chain_robot,
                                       std::span<const ScanNode> nodes) const;
   static void NoteHold(const Attachment& attached, Chain& chain);
+  void ForgetSubmapsSince(NodeId first);
+  void GoOn(std::span<const ScanNode> nodes, Chain& chain);
   void BeginSubmap(NodeId id, Chain& chain);
   void InsertIntoSubmaps(NodeId id, std::span<const ScanPoint> points, Chain& chain);
   void Insert(NodeId id, std::span<const ScanPoint> points, SubmapSurfaces& submap) const;
@@ -136,6 +142,7 @@ class ScanChains {
   std::vector<std::size_t> position_;   // By node.
   std::vector<std::size_t> robot_;      // By node.
   std::vector<ScanTurns::Part> parts_;  // By node.
+  std::vector<int> unmatched_;          // By node: of its chain then.
   std::vector<PoseEdge> edges_;         // To each node but the first.
   std::vector<PoseEdge> motions_;       // To each node but the first.
   std::vector<SurfaceMatch> matches_;
