@@ -10,6 +10,7 @@
 #include <limits>
 #include <vector>
 
+#include "qwsm/sensor/laser_mountings.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/simulated_drive.hpp"
 
@@ -154,6 +155,16 @@ TEST(LocalSubmap, KeepsMoreScansWhereLittleIsInView) {
                std::vector<ScanPoint>{{.p_robot_m = {2.0, 0.0}, .beam_robot = {1.0, 0.0}}});
   }
   EXPECT_EQ(submap.PointsAround({}).size(), 5U);
+}
+
+TEST(LocalSubmap, ForgetsScansOfALaserThatIsMountedAnewForEach) {
+  LocalSubmap submap({.count = 2, .points = 5, .spacing_m = 0.4});
+  for (int scan = 0; scan < 100; ++scan) {
+    submap.Add({1.0 * scan, 0.0, 0.0},
+               std::vector<ScanPoint>{{.p_robot_m = {2.0, 0.0}, .beam_robot = {1.0, 0.0}}},
+               {1e-6 * scan, 0.0, 0.0});
+  }
+  EXPECT_EQ(submap.PointsAround({}).size(), 2 * kMostMountings);
 }
 
 }  // namespace

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "qwsm/sensor/laser_mountings.hpp"
+
 namespace qwsm::test {
 namespace {
 
@@ -122,6 +124,18 @@ TEST_F(WhoWalksIn, IsLeftOut) {
 TEST_F(WhoWalksIn, IsForgottenAfterSoManyScans) {
   Enter(80, 10);
   for (int i = 0; i < FreeSpaceOptions{}.scans; ++i) seen_free_.Add(scan_, {});
+  EXPECT_EQ(seen_free_.WithoutMoving(ToPoints(scan_), {}).size(), scan_.size());
+}
+
+TEST_F(WhoWalksIn, IsForgottenOfALaserThatIsMountedAnewForEachScan) {
+  Enter(80, 10);
+  const auto scans = kMostMountings * static_cast<std::size_t>(FreeSpaceOptions{}.scans);
+  LaserScan scan = scan_;
+  for (std::size_t i = 0; i < scans; ++i) {
+    EXPECT_LT(seen_free_.WithoutMoving(ToPoints(scan_), {}).size(), scan_.size());
+    scan.geometry.T_robot_laser.x_m += 1e-6;
+    seen_free_.Add(scan, {});
+  }
   EXPECT_EQ(seen_free_.WithoutMoving(ToPoints(scan_), {}).size(), scan_.size());
 }
 

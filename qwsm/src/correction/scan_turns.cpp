@@ -6,20 +6,17 @@
 #include <iterator>
 #include <utility>
 
+#include "qwsm/sensor/laser_mountings.hpp"
+
 namespace qwsm {
-namespace {
-
-constexpr std::size_t kMostLasersInTurns = 16;  // More are one that is mounted anew.
-
-}  // namespace
 
 // A turn ends when one of its lasers scans again.
 ScanTurns::Part ScanTurns::Take(NodeId node, const Pose2& T_robot_laser) {
   auto laser = std::ranges::find(lasers_, T_robot_laser, &Laser::T_robot_laser);
   const bool is_known = laser != lasers_.end();
   Part part;
-  part.begins = lasers_.empty() || lasers_.size() == kMostLasersInTurns ||
-                (is_known && laser->node >= first_);
+  part.begins =
+      lasers_.empty() || lasers_.size() == kMostMountings || (is_known && laser->node >= first_);
   if (part.begins && !lasers_.empty()) {
     ++turn_;
     expected_ = std::exchange(scans_, 0);
@@ -31,7 +28,7 @@ ScanTurns::Part ScanTurns::Take(NodeId node, const Pose2& T_robot_laser) {
   for (laser = is_known ? laser : lasers_.begin(); laser != lasers_.end(); ++laser) {
     part.beside.push_back(laser->node);
   }
-  if (lasers_.size() == kMostLasersInTurns) lasers_.erase(lasers_.begin());
+  if (lasers_.size() == kMostMountings) lasers_.erase(lasers_.begin());
   lasers_.push_back({T_robot_laser, node});
   return part;
 }

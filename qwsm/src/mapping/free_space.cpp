@@ -9,6 +9,8 @@
 #include <numbers>
 #include <utility>
 
+#include "qwsm/sensor/laser_mountings.hpp"
+
 namespace qwsm {
 namespace {
 
@@ -153,7 +155,8 @@ void FreeSpace::Add(const LaserScan& scan, const Pose2& T_map_robot) {
   const Pose2& T_robot_laser = scan.geometry.T_robot_laser;
   images_.push_back({.T_robot_laser = T_robot_laser, .free = {scan, T_map_robot, options_, BeamsOf(scan)}});
   std::ptrdiff_t of_laser = std::ranges::count(images_, T_robot_laser, &Image::T_robot_laser);
-  for (; of_laser > options_.scans; images_.pop_front()) {
+  const std::size_t most = kMostMountings * static_cast<std::size_t>(options_.scans);
+  for (; of_laser > options_.scans || images_.size() > most; images_.pop_front()) {
     if (images_.front().T_robot_laser == T_robot_laser) --of_laser;
   }
 }

@@ -8,13 +8,13 @@
 
 #include "qwsm/geometry/angle.hpp"
 #include "qwsm/geometry/frame_covariance.hpp"
+#include "qwsm/sensor/laser_mountings.hpp"
 
 namespace qwsm {
 namespace {
 
-constexpr std::size_t kMostMountings = 16;  // More are mountings that change.
-constexpr double kPausePeriods = 2.0;       // Who is silent for longer has paused.
-constexpr double kLatePeriods = 1.5;        // Scans come a little later than they should.
+constexpr double kPausePeriods = 2.0;  // Who is silent for longer has paused.
+constexpr double kLatePeriods = 1.5;   // Scans come a little later than they should.
 // Between scans of two lasers odometry may prove to be far better than between those of one, of
 // which it is known to slip now and then.
 constexpr double kSmallestScale = 1e-3;

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "qwsm/sensor/laser_mountings.hpp"
+
 namespace qwsm {
 namespace {
 
@@ -29,8 +31,10 @@ void LocalSubmap::Add(const Pose2& T_map_robot,
                     .points = ThinOut(points, options_.spacing_m)});
   points_ += scans_.back().points.size();
   std::ptrdiff_t of_laser = std::ranges::count(scans_, T_robot_laser, &Scan::T_robot_laser);
+  const std::size_t most = kMostMountings * static_cast<std::size_t>(options_.count);
   const auto enough_points = static_cast<std::size_t>(options_.points);
-  while (of_laser > options_.count && points_ - scans_.front().points.size() >= enough_points) {
+  while ((of_laser > options_.count || scans_.size() > most) &&
+         points_ - scans_.front().points.size() >= enough_points) {
     if (scans_.front().T_robot_laser == T_robot_laser) --of_laser;
     points_ -= scans_.front().points.size();
     scans_.pop_front();
