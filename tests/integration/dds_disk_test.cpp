@@ -95,5 +95,14 @@ TEST_F(DdsDisk, JournalThatCannotBeBegunIsToldAndBegunOnceItCanBe) {
   EXPECT_EQ(service.End().exit_code, 0);
 }
 
+TEST_F(DdsDisk, ServiceThatIsStoppedWhileItsJournalCannotBeWrittenSaysSoInItsExitCode) {
+  RobotInRoom robot(network_);
+  Daemon service(Serve(folder_.path() / "nowhere" / "team.db"));
+  EXPECT_TRUE(robot.DriveUntil("qwsm: journal", "waiting", [](const std::string& scans) {
+    return !scans.empty() && scans != "0";
+  })) << service.ErrorsSoFar();
+  EXPECT_EQ(service.End().exit_code, 3);
+}
+
 }  // namespace
 }  // namespace qwsm::test

@@ -20,6 +20,7 @@
 #include "tests/support/demo_log.hpp"
 #include "tests/support/network.hpp"
 #include "tests/support/replay.hpp"
+#include "tests/support/room_log.hpp"
 
 namespace qwsm::test {
 namespace {
@@ -150,6 +151,18 @@ TEST_F(DdsReplay, SaysThatNobodyListens) {
   EXPECT_EQ(replay.exit_code, 1);
   EXPECT_NE(replay.errors.find("nobody listens to /robot7/scan"), std::string::npos)
       << replay.errors;
+}
+
+// Of so few scans no answer is waited for but the last.
+TEST_F(DdsReplay, SaysThatTheServiceHasHadItsScansBefore) {
+  WriteRoomLog(Path("short.log"), 3);
+  Daemon service(network_.JoinService({"serve"}));
+  ASSERT_EQ(network_.Run({"replay", Path("short.log"), "--rate", "max"}).exit_code, 0);
+  const Outcome again = network_.Run({"replay", Path("short.log"), "--rate", "max"});
+  EXPECT_EQ(again.exit_code, 1);
+  EXPECT_NE(again.errors.find("no scan was answered: a service takes none that is older"),
+            std::string::npos)
+      << again.errors;
 }
 
 TEST_F(DdsReplay, RefusesWhatItCannotDo) {
