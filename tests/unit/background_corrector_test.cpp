@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "qwsm/correction/node_maker.hpp"
@@ -63,6 +64,71 @@ TEST_P(BackgroundCorrectorCalledBack, PlacesAnewWhatCameMeanwhile) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, BackgroundCorrectorCalledBack, testing::Values(kSinceLook, 1));
+
+/// A team of which one robot drives, and the other one has told of a single scan. Looks are done at
+/// once.
+class TeamWithOneThatDrives : public testing::Test {
+ protected:
+  static constexpr std::size_t kRobots = 2;
+
+  TeamWithOneThatDrives() {
+    for (std::size_t robot = 0; robot < kRobots; ++robot) {
+      ScanNode node = *NodeMaker().Take(answers_.steps[robot]);
+      node.robot = robot;
+      corrector_.Add(std::move(node));
+    }
+    nodes_.Follow(answers_.steps.front().map_relevant);
+  }
+  void Drive() { corrector_.Add(*nodes_.Take(answers_.steps[next_++])); }
+  void Stand() {
+    corrector_.Add({.scan = answers_.steps[next_ - 1].relevant_scan,
+                    .map_robot = *nodes_.map_last(),
+                    .odometry = UncertainPose2::WithSigmas({}, 0.01, 0.003),
+                    .T_last_node = Pose2{}});
+  }
+  Pose2 LastAnswered() const { return nodes_.map_last()->T_a_b; }
+  /// Drives until a look has found something.
+  void DriveUntilFound() {
+    while (next_ < answers_.steps.size()) {
+      Drive();
+      if (!corrector_.IsLookDue()) continue;
+      EXPECT_FALSE(corrector_.LookAgain());
+      if (corrector_.IsLookDue()) return;
+    }
+    FAIL() << "nothing was found";
+  }
+
+  const Answers answers_ = BentOfficeLoop();
+  BackgroundCorrector corrector_;
+  NodeMaker nodes_;
+  std::size_t next_ = 1;
+};
+
+TEST_F(TeamWithOneThatDrives, TakesUpWhatWasFoundWithTheNextScan) {
+  DriveUntilFound();
+  Stand();
+  ASSERT_TRUE(corrector_.IsLookDue());
+  const std::optional<CorrectedMap> corrected = corrector_.LookAgain();
+  ASSERT_TRUE(corrected);
+  EXPECT_EQ(corrected->map_node.size(), corrector_.size());
+}
+
+TEST_F(TeamWithOneThatDrives, PlacesBesideWhatTakesLong) {
+  DriveUntilFound();
+  const std::size_t looked_at = corrector_.size();
+  for (std::size_t i = 0; i < 2 * kSinceLook; ++i) Stand();
+  EXPECT_FALSE(corrector_.LookAgain());
+  for (std::size_t i = 0; i < kSinceLook; ++i) Stand();
+  const std::optional<CorrectedMap> corrected = corrector_.LookAgain();
+  ASSERT_TRUE(corrected);
+  ASSERT_EQ(corrected->map_node.size(), looked_at + 3 * kSinceLook);
+  EXPECT_EQ(corrected->map.scans().size(), corrected->map_node.size());
+  const Pose2 T_map_last = corrected->map_node[looked_at - 1].T_a_b;
+  EXPECT_GT((T_map_last.Inverse() * LastAnswered()).translation_m().norm(), 0.1);
+  for (const UncertainPose2& standing : std::span(corrected->map_node).subspan(looked_at)) {
+    EXPECT_LT((T_map_last.Inverse() * standing.T_a_b).translation_m().norm(), 0.02);
+  }
+}
 
 TEST(BackgroundCorrector, KeepsItsScansOverACorrection) {
   const Answers answers = BentOfficeLoop();

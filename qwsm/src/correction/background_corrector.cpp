@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <map>
+#include <iterator>
 #include <utility>
 
 #include "qwsm/geometry/frame_covariance.hpp"
@@ -38,20 +38,26 @@ void BackgroundCorrector::Add(ScanNode node) {
 }
 
 bool BackgroundCorrector::IsLookDue() const {
-  const std::size_t robots = chains_of_ == ChainsOf::kTeam ? robots_.size() : 1;
-  if (news_.size() < kNodesOfALook * robots) return false;
-  return robots == 1 || !is_looking_;
+  if (IsOneRobots()) return news_.size() >= kNodesOfALook;
+  if (is_looking_) return false;
+  return proposal_ || news_.size() >= kNodesOfALook * robots_.size();
 }
 
 std::optional<CorrectedMap> BackgroundCorrector::LookAgain() {
   Finish();
-  auto proposal = std::exchange(proposal_, std::nullopt);
   // A robot that has recognised a place since is no longer beside the scans that were looked at:
   // the next look knows more.
   const bool is_outdated =
       std::ranges::any_of(news_, [](const ScanNode& node) { return !node.T_last_node; });
+  if (proposal_ && is_outdated) proposal_.reset();
+  const bool is_much_left =
+      proposal_ && proposal_->map_news.empty() && news_.size() > kNodesOfALook;
+  if (is_much_left && !IsOneRobots()) {
+    PlaceBeside();
+    return std::nullopt;
+  }
   std::optional<CorrectedMap> corrected;
-  if (proposal && !is_outdated) corrected = TakeUp(std::move(*proposal));
+  if (proposal_) corrected = TakeUp(*std::exchange(proposal_, std::nullopt));
   Look();
   return corrected;
 }
@@ -78,33 +84,60 @@ void BackgroundCorrector::Look() {
     for (ScanNode& node : under_look_) corrector_.Add(std::move(node));
     if (auto map_node = corrector_.Propose()) {
       ScanMap map = corrector_.MapAt(*map_node);
-      proposal_ = {.map_node = std::move(*map_node), .map = std::move(map)};
+      proposal_ = {.map_node = std::move(*map_node),
+                   .map = std::move(map),
+                   .map_news = {},
+                   .last_of_robot = {}};
     }
     is_looking_ = false;
   });
 }
 
+// Of many robots so much comes during a look that who adds the next scan is not to wait for it,
+// only for what comes while this is placed.
+void BackgroundCorrector::PlaceBeside() {
+  under_look_ = news_;
+  NoteLastBefore(under_look_, *proposal_);
+  is_looking_ = true;
+  wait_ = beside_([this] {
+    Place(under_look_, *proposal_);
+    is_looking_ = false;
+  });
+}
+
+CorrectedMap BackgroundCorrector::TakeUp(Proposal proposal) {
+  corrector_.Adopt(proposal.map_node);
+  const auto left = std::span(news_).subspan(proposal.map_news.size());
+  NoteLastBefore(left, proposal);
+  Place(left, proposal);
+  map_node_ = proposal.map_node;
+  for (std::size_t i = 0; i < news_.size(); ++i) news_[i].map_robot = proposal.map_news[i];
+  CorrectedMap corrected{.map_node = std::move(proposal.map_node), .map = std::move(proposal.map)};
+  std::ranges::copy(proposal.map_news, std::back_inserter(corrected.map_node));
+  return corrected;
+}
+
+// What scans that came since the look are placed beside, of robots of which none has been yet.
+void BackgroundCorrector::NoteLastBefore(std::span<const ScanNode> news, Proposal& proposal) const {
+  for (const ScanNode& node : news) {
+    const auto [last, is_first] = proposal.last_of_robot.try_emplace(node.robot);
+    if (!is_first) continue;
+    const std::size_t beside = LookedAtBeside(node);
+    last->second = {.before = map_node_[beside], .after = proposal.map_node[beside]};
+  }
+}
+
 // What came since the look is placed anew beside what was looked at: while a loop is open, answers
 // slide from one of its ends to the other.
-std::optional<CorrectedMap> BackgroundCorrector::TakeUp(Proposal proposal) {
-  corrector_.Adopt(proposal.map_node);
-  CorrectedMap corrected{.map_node = std::move(proposal.map_node), .map = std::move(proposal.map)};
-  std::map<std::size_t, MovedPose> last_of_robot;
-  for (ScanNode& node : news_) {
-    const auto [known, is_first] = last_of_robot.try_emplace(node.robot);
-    MovedPose& last = known->second;
-    if (is_first) {
-      const std::size_t beside = LookedAtBeside(node);
-      last = {.before = map_node_[beside], .after = corrected.map_node[beside]};
-    }
+void BackgroundCorrector::Place(std::span<const ScanNode> news, Proposal& proposal) const {
+  for (const ScanNode& node : news) {
+    MovedPose& last = proposal.last_of_robot.at(node.robot);
     const std::vector<ScanPoint> points = ToPoints(node.scan);
-    const UncertainPose2 placed = PlacedAnew(corrected.map, points, node, last);
-    corrected.map.Insert(node.scan, points, placed);
-    last = {.before = std::exchange(node.map_robot, placed), .after = placed};
+    const UncertainPose2 placed = PlacedAnew(proposal.map, points, node, last);
+    proposal.map.Insert(node.scan, points, placed);
+    proposal.map_news.push_back(placed);
+    last = {.before = node.map_robot, .after = placed};
   }
-  map_node_ = corrected.map_node;
-  for (const ScanNode& node : news_) corrected.map_node.push_back(node.map_robot);
-  return corrected;
 }
 
 // Where the scan is found near the robot's last node; if nowhere, it keeps its place beside that.

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -37,7 +38,8 @@ struct CorrectedMap {
 /// Looks for loops beside the robots' driving: every few relevant scans the last look is ended and
 /// the next one begun. So a look has as much time as these scans take to come, and what it finds
 /// takes effect at a scan that is fixed by the data, not by the time it took. Of several robots no
-/// order of scans is fixed anyway: there nobody waits for a look that takes longer.
+/// order of scans is fixed anyway: there nobody waits for a look that takes longer, nor for all
+/// that came meanwhile to find its place in the corrected map.
 class BackgroundCorrector {
  public:
   explicit BackgroundCorrector(const MapperOptions& options = {},
@@ -52,7 +54,8 @@ class BackgroundCorrector {
   /// Number of scans that were taken.
   std::size_t size() const { return map_node_.size() + news_.size(); }
 
-  /// Whether so many scans are new that it is time to look again.
+  /// Whether so many scans are new that it is time to look again, or of a team the last look has
+  /// found something.
   bool IsLookDue() const;
   /// Ends the last look and begins the next one.
   /// @return the map to go on in, if the last look found that it is drawn wrong.
@@ -73,21 +76,27 @@ class BackgroundCorrector {
   ScanMap MapAt(std::span<const UncertainPose2> map_node) &&;
 
  private:
-  // What a look comes to.
-  struct Proposal {
-    std::vector<UncertainPose2> map_node;
-    ScanMap map;
-  };
   // A pose in the map as it was, and as it is.
   struct MovedPose {
     UncertainPose2 before;
     UncertainPose2 after;
   };
+  // What a look comes to.
+  struct Proposal {
+    std::vector<UncertainPose2> map_node;
+    ScanMap map;
+    std::vector<UncertainPose2> map_news;  // What came since, as far as it has found its place.
+    std::map<std::size_t, MovedPose> last_of_robot;  // Of that, or of what was looked at.
+  };
 
   void Finish();
   void Look();
+  bool IsOneRobots() const { return chains_of_ == ChainsOf::kOneRobot || robots_.size() == 1; }
   std::vector<ScanNode> TakeNews();
-  std::optional<CorrectedMap> TakeUp(Proposal proposal);
+  CorrectedMap TakeUp(Proposal proposal);
+  void PlaceBeside();
+  void NoteLastBefore(std::span<const ScanNode> news, Proposal& proposal) const;
+  void Place(std::span<const ScanNode> news, Proposal& proposal) const;
   UncertainPose2 PlacedAnew(const ScanMap& map,
                             std::span<const ScanPoint> points,
                             const ScanNode& node,
@@ -98,7 +107,7 @@ class BackgroundCorrector {
   ChainsOf chains_of_;
   ScanLocator locator_;
   MapCorrector corrector_;            // Belongs to the look while there is one.
-  std::vector<ScanNode> under_look_;  // Likewise.
+  std::vector<ScanNode> under_look_;  // Likewise; or what is to find its place.
   std::optional<Proposal> proposal_;  // Likewise.
   std::atomic<bool> is_looking_ = false;
   std::function<void()> wait_;            // For the look, where there is one.
