@@ -13,28 +13,17 @@
 #include <system_error>
 #include <utility>
 
+#include "service/io/files/link_target.hpp"
+
 namespace qwsm::io {
 namespace {
+
+namespace fs = std::filesystem;
 
 std::string Reason(int error_number) { return std::generic_category().message(error_number); }
 
 WriteError CannotWrite(const std::filesystem::path& path, int error_number) {
   return WriteError(path.string() + ": cannot be written: " + Reason(error_number));
-}
-
-namespace fs = std::filesystem;
-
-constexpr int kMostLinks = 40;  // As the system has it.
-
-/// The file that a path leads to by symbolic links, whether there is one yet or not.
-fs::path TargetOf(fs::path path) {
-  std::error_code is_no_link;
-  for (int links = 0; links < kMostLinks; ++links) {
-    const fs::path target = fs::read_symlink(path, is_no_link);
-    if (is_no_link) break;
-    path = path.parent_path() / target;
-  }
-  return path;
 }
 
 /// Whether what stands at a path takes bytes one after the other and cannot be replaced.

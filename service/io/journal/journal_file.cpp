@@ -11,6 +11,7 @@
 
 #include "service/io/files/atomic_file.hpp"
 #include "service/io/files/file_lock.hpp"
+#include "service/io/files/link_target.hpp"
 #include "service/io/journal/journal_table.hpp"
 #include "service/io/journal/mark_table.hpp"
 #include "service/io/journal/sqlite_database.hpp"
@@ -90,13 +91,6 @@ void Begin(SqliteDatabase& database, std::string_view kind, std::string_view ide
 bool IsSound(SqliteDatabase& database) {
   SqliteStatement check = database.Prepare("PRAGMA integrity_check(1)");
   return check.Step() && check.Text(0) == "ok";
-}
-
-/// The file itself where its name is a link to it: SQLite puts its log there.
-std::filesystem::path TargetOf(const std::filesystem::path& file) {
-  std::error_code error;
-  std::filesystem::path target = std::filesystem::weakly_canonical(file, error);
-  return error ? file : target;
 }
 
 /// One service alone may write a journal, by whatever name.
