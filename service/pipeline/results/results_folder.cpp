@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "service/io/files/atomic_file.hpp"
+#include "service/io/files/numbered_name.hpp"
 
 namespace qwsm::pipeline {
 namespace {
@@ -32,10 +33,9 @@ void ThrowIf(const std::error_code& error, const fs::path& path, std::string_vie
 
 /// Whether a file is one of a series of scans in 3D: scan007.3d, its pose or its frames.
 bool IsNumberedScan(const fs::path& name) {
-  const std::string stem = name.stem().string();
+  const io::NumberedName stem = io::NumberedName::Of(name.stem().string());
   const fs::path ending = name.extension();
-  return stem.starts_with("scan") && stem.size() > 4 &&
-         stem.find_first_not_of("0123456789", 4) == std::string::npos &&
+  return stem.name == "scan" && stem.has_number &&
          (ending == ".3d" || ending == ".pose" || ending == ".frames");
 }
 
