@@ -29,6 +29,16 @@ std::string_view ObjectionToPose(const wire::Header& header, const wire::Pose& p
   return {};
 }
 
+/// Takes all samples, with who sent each: all zeros where it can be only one, who is not asked for.
+template <class Sample, class Take>
+void TakeAllFrom(const Reader<Sample>& reader, const Take& take) {
+  if (reader.writer_count() < 2) {
+    reader.TakeAll([&](const Sample& sample) { take(sample, Guid{}); });
+  } else {
+    reader.TakeAllWithSource(take);
+  }
+}
+
 std::string SeveralPublish(const std::string& what) {
   return "two participants publish " + what +
          " in turns, and what both say is mixed: each robot needs a namespace of its own, such as "
@@ -70,7 +80,11 @@ void BasicRobotInbox<Kind>::HoldScans() {
       scans_, [](const ScanTopic& topic) { return topic.reader.writer_count() > 0; });
   if (!std::exchange(has_publisher_, has_publisher) && has_publisher_) mountings_.clear();
   const auto held = static_cast<std::ptrdiff_t>(unplaced_.size());
-  for (const ScanTopic& topic : scans_) HearScans(topic);
+  for (const ScanTopic& topic : scans_) {
+    TakeAllFrom(topic.reader, [&](const typename OnWire<Kind>::Scan& sample, const Guid& source) {
+      HoldScan(topic, sample, source);
+    });
+  }
   if (scans_.size() < 2 || std::ssize(unplaced_) <= held) return;
   std::stable_sort(
       unplaced_.begin() + held, unplaced_.end(), [](const UnplacedScan& a, const UnplacedScan& b) {
@@ -95,14 +109,9 @@ void BasicRobotInbox<Kind>::Deliver(const BasicStaticTransforms<Kind>& transform
   DeliverPlacedScans(transforms, listener);
 }
 
-// Who sends is asked for only where several might.
 template <class Kind>
 void BasicRobotInbox<Kind>::HearOdometry(team::RobotListener<Kind>& listener) {
-  if (odometry_.writer_count() < 2) {
-    odometry_.TakeAll([&](const wire::Odometry& sample) { TakeOdometry(sample, listener); });
-    return;
-  }
-  odometry_.TakeAllWithSource([&](const wire::Odometry& sample, const Guid& source) {
+  TakeAllFrom(odometry_, [&](const wire::Odometry& sample, const Guid& source) {
     if (odometry_sources_.Note(source)) {
       refusals_.Tell(SeveralPublish(names_.Topic(kOdometryTopic)));
     }
@@ -119,17 +128,6 @@ void BasicRobotInbox<Kind>::TakeOdometry(const wire::Odometry& sample,
   if (length > 0 && length <= kMaxNameLength) robot_frame_ = sample.child_frame_id;
   listener.TakeOdometry(
       names_.name(), *FromWire(sample.header.stamp), OnWire<Kind>::PoseOf(sample.pose.pose));
-}
-
-template <class Kind>
-void BasicRobotInbox<Kind>::HearScans(const ScanTopic& topic) {
-  using Scan = typename OnWire<Kind>::Scan;
-  if (topic.reader.writer_count() < 2) {
-    topic.reader.TakeAll([&](const Scan& sample) { HoldScan(topic, sample, Guid{}); });
-    return;
-  }
-  topic.reader.TakeAllWithSource(
-      [&](const Scan& sample, const Guid& source) { HoldScan(topic, sample, source); });
 }
 
 /// @param source all zeros where it is not asked for.

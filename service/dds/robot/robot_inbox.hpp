@@ -57,7 +57,6 @@ class BasicRobotInbox {
   void HearOdometry(team::RobotListener<Kind>& listener);
   void TakeOdometry(const wire::Odometry& sample, team::RobotListener<Kind>& listener);
   struct ScanTopic;
-  void HearScans(const ScanTopic& topic);
   void HoldScan(const ScanTopic& topic,
                 const typename OnWire<Kind>::Scan& sample,
                 const Guid& source);
