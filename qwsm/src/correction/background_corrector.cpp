@@ -49,7 +49,7 @@ std::optional<CorrectedMap> BackgroundCorrector::LookAgain() {
   // the next look knows more.
   const bool is_outdated =
       std::ranges::any_of(news_, [](const ScanNode& node) { return !node.T_last_node; });
-  if (proposal_ && is_outdated) proposal_.reset();
+  if (is_outdated) proposal_.reset();
   const bool is_much_left =
       proposal_ && proposal_->map_news.empty() && news_.size() > kNodesOfALook;
   if (is_much_left && !IsOneRobots()) {

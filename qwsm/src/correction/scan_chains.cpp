@@ -172,8 +172,7 @@ void ScanChains::GoOn(std::span<const ScanNode> nodes, Chain& chain) {
   for (const std::size_t index : chain.submaps) {
     const RigidSubmap& submap = submaps_[index];
     if (submap.nodes.back() != last) continue;
-    SubmapSurfaces& grown = chain.last_surfaces.emplace_back(map_options_.surfaces, free_space_);
-    for (const NodeId id : submap.nodes) Insert(id, ToPoints(nodes[id].scan), grown);
+    chain.last_surfaces.push_back(Drawn(submap, nodes));
   }
 }
 
@@ -307,13 +306,16 @@ void ScanChains::Insert(NodeId id,
   }
 }
 
+SubmapSurfaces ScanChains::Drawn(const RigidSubmap& submap, std::span<const ScanNode> nodes) const {
+  SubmapSurfaces surfaces(map_options_.surfaces, free_space_);
+  for (const NodeId id : submap.nodes) Insert(id, ToPoints(nodes[id].scan), surfaces);
+  return surfaces;
+}
+
 SubmapSurfaces ScanChains::SurfacesOf(const RigidSubmap& submap,
                                       std::span<const ScanNode> nodes) const {
-  SubmapSurfaces surfaces(map_options_.surfaces, free_space_);
-  for (const NodeId id : submap.nodes) {
-    Insert(id, ToPoints(nodes[id].scan), surfaces);
-    surfaces.SeeFree(nodes[id].scan, T_chain_node_[id]);
-  }
+  SubmapSurfaces surfaces = Drawn(submap, nodes);
+  for (const NodeId id : submap.nodes) surfaces.SeeFree(nodes[id].scan, T_chain_node_[id]);
   return surfaces;
 }
 

@@ -132,6 +132,7 @@ class ScanChains {
   void BeginSubmap(NodeId id, Chain& chain);
   void InsertIntoSubmaps(NodeId id, std::span<const ScanPoint> points, Chain& chain);
   void Insert(NodeId id, std::span<const ScanPoint> points, SubmapSurfaces& submap) const;
+  SubmapSurfaces Drawn(const RigidSubmap& submap, std::span<const ScanNode> nodes) const;
 
   ScanMapOptions map_options_;
   FreeSpaceOptions free_space_;
