@@ -7,6 +7,7 @@
 
 #include "service/io/pictures/axis.hpp"
 #include "service/io/pictures/canvas.hpp"
+#include "slam6d/cloud/bounds.hpp"
 
 namespace slam6d::io {
 namespace {
@@ -30,18 +31,6 @@ constexpr std::size_t kWindowSample = 50'000;
 
 Eigen::Vector2d Seen(const Eigen::Vector3d& point_m, CloudView view) {
   return {point_m.x(), view == CloudView::kTop ? point_m.y() : point_m.z()};
-}
-
-/// The values between which all but the stray ones lie.
-Eigen::Vector2d Bounds(std::vector<double> values) {
-  if (values.empty()) return {0.0, 0.0};
-  const auto stray = static_cast<std::ptrdiff_t>(kStrayShare * static_cast<double>(values.size()));
-  const auto low = values.begin() + stray;
-  std::nth_element(values.begin(), low, values.end());
-  const double low_value = *low;
-  const auto high = values.end() - 1 - stray;
-  std::nth_element(values.begin(), high, values.end());
-  return {low_value, *high};
 }
 
 /// A window as pixels.
@@ -124,10 +113,10 @@ CloudWindow WindowOf(const CloudScene& scene, CloudView view) {
     across.push_back(seen.x());
     up.push_back(seen.y());
   }
-  const Eigen::Vector2d bounds_across = Bounds(std::move(across));
-  const Eigen::Vector2d bounds_up = Bounds(std::move(up));
-  CloudWindow window{.low_m = {bounds_across.x(), bounds_up.x()},
-                     .high_m = {bounds_across.y(), bounds_up.y()}};
+  const Bounds bounds_across = BoundsOf(std::move(across), kStrayShare);
+  const Bounds bounds_up = BoundsOf(std::move(up), kStrayShare);
+  CloudWindow window{.low_m = {bounds_across.low, bounds_up.low},
+                     .high_m = {bounds_across.high, bounds_up.high}};
   for (const Eigen::Vector3d& stop_m : scene.path_m) {
     window.low_m = window.low_m.cwiseMin(Seen(stop_m, view));
     window.high_m = window.high_m.cwiseMax(Seen(stop_m, view));

@@ -7,6 +7,8 @@
 #include <cassert>
 #include <numeric>
 
+#include "slam6d/cloud/bounds.hpp"
+
 namespace slam6d {
 namespace {
 
@@ -55,15 +57,12 @@ constexpr double kStrayShare = 0.025;
 Extent WithoutStrays(const PointCloud& cloud, const Extent& all) {
   Extent extent = all;
   std::vector<double> along_m(all.points.size());
-  const auto strays =
-      static_cast<std::ptrdiff_t>(kStrayShare * static_cast<double>(along_m.size()));
   for (int axis = 0; axis < 3; ++axis) {
     std::ranges::transform(
         all.points, along_m.begin(), [&](std::uint32_t point) { return cloud[point](axis); });
-    std::ranges::nth_element(along_m, along_m.begin() + strays);
-    extent.low_m(axis) = along_m[static_cast<std::size_t>(strays)];
-    std::ranges::nth_element(along_m, along_m.end() - 1 - strays);
-    extent.high_m(axis) = *(along_m.end() - 1 - strays);
+    const Bounds bounds_m = BoundsOf(along_m, kStrayShare);
+    extent.low_m(axis) = bounds_m.low;
+    extent.high_m(axis) = bounds_m.high;
   }
   return extent;
 }
