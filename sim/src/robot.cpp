@@ -104,8 +104,7 @@ void Robot::ReadGyro(const PhysicsWorld& world,
   const double turned_before_rad = gyro_.turned_rad();
   gyro_.Advance(world.TwistOf(body_).yaw_rate_rad_s, step);
   if (!options_.gyro.enabled) return;
-  const double rate_rad_s =
-      (gyro_.turned_rad() - turned_before_rad) / std::chrono::duration<double>(step).count();
+  const double rate_rad_s = (gyro_.turned_rad() - turned_before_rad) / qwsm::Seconds(step);
   imu_.push_back({.stamp = now, .turn_rate_rad_s = {0.0, 0.0, rate_rad_s}});
 }
 

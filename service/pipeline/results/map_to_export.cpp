@@ -54,8 +54,8 @@ MapToExport LoadResults(const fs::path& folder) {
   }
   std::ranges::sort(folders);
   for (const fs::path& one : folders) AddPath(one / ResultFile::kTrajectory, map);
-  if (fs::exists(folder / ResultFile::kMarks))
-    map.marks = io::ReadPointsOfInterest(folder / ResultFile::kMarks);
+  const fs::path marks = folder / ResultFile::kMarks;
+  if (fs::exists(marks)) map.marks = io::ReadPointsOfInterest(marks);
   return map;
 }
 

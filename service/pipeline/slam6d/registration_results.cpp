@@ -76,8 +76,9 @@ std::string CovarianceHeader() {
 std::string CovarianceText(const Matrix6d& covariance) {
   std::string text;
   for (int row = 0; row < 6; ++row) {
-    for (int column = row; column < 6; ++column)
+    for (int column = row; column < 6; ++column) {
       text += fmt::format(",{:.6g}", covariance(row, column));
+    }
   }
   return text;
 }
@@ -140,8 +141,8 @@ void WriteResults(const Registration& registration,
   DrawViews({Merge(registration, before), PathOf(before), "before: as odometry has it"},
             {merged, PathOf(after), "after registration"},
             folder);
-  if (pictures.title)
-    WriteRegistrationPage(folder / ResultFile::kReport, *pictures.title, registration);
+  if (!pictures.title) return;
+  WriteRegistrationPage(folder / ResultFile::kReport, *pictures.title, registration);
 }
 
 }  // namespace slam6d::pipeline

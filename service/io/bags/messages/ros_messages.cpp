@@ -58,6 +58,11 @@ Transform3 TakeTransform(MessageReader& fields) {
   return transform;
 }
 
+/// From the first beam to the last, as they are stated.
+double SpanOf_rad(const LaserScanMessage& scan) {
+  return static_cast<double>(scan.last_bearing_rad) - static_cast<double>(scan.first_bearing_rad);
+}
+
 }  // namespace
 
 RosHeader TakeHeader(MessageReader& fields) {
@@ -92,18 +97,14 @@ float BearingStepOf(const LaserScanMessage& scan) {
   if (std::abs(scan.bearing_step_rad) >= kLeastBearingStep_rad || scan.ranges_m.size() < 2) {
     return scan.bearing_step_rad;
   }
-  const double span_rad =
-      static_cast<double>(scan.last_bearing_rad) - static_cast<double>(scan.first_bearing_rad);
-  return static_cast<float>(span_rad / static_cast<double>(scan.ranges_m.size() - 1));
+  return static_cast<float>(SpanOf_rad(scan) / static_cast<double>(scan.ranges_m.size() - 1));
 }
 
 bool ContradictsItself(const LaserScanMessage& scan) {
   if (scan.ranges_m.size() < 2) return false;
   const double step_rad = static_cast<double>(BearingStepOf(scan));
-  const double span_rad =
-      static_cast<double>(scan.last_bearing_rad) - static_cast<double>(scan.first_bearing_rad);
   const double beams = static_cast<double>(scan.ranges_m.size()) - 0.5;  // The last, or one more.
-  return !(std::abs(span_rad / step_rad - beams) < 1.5);
+  return !(std::abs(SpanOf_rad(scan) / step_rad - beams) < 1.5);
 }
 
 OdometryMessage DecodeOdometry(std::string_view bytes, Encoding encoding) {
