@@ -109,13 +109,9 @@ void Journal::Store() {
   } catch (const std::runtime_error& error) {
     return Fail(error.what());
   }
-  {
-    const std::lock_guard lock(mutex_);
-    stored_ += unstored_.size();
-    waiting_ -= unstored_.size();
-  }
+  const std::size_t stored = unstored_.size();
   unstored_.clear();
-  SetTrouble({});
+  Conclude(stored, {});
 }
 
 void Journal::Open() {
@@ -131,14 +127,17 @@ void Journal::PutInPlace() {
 void Journal::Fail(const std::string& trouble) {
   if (file_ && file_->IsInPlace()) file_.reset();
   next_try_ = Clock::now() + kRetryPeriod;
-  SetTrouble(trouble);
+  Conclude(0, trouble);
 }
 
-// Each change is told once: what is wrong may be told in other words at each attempt.
-void Journal::SetTrouble(const std::string& trouble) {
+// What waits and why changes at once: who sees that nothing waits sees no trouble. Each change is
+// told once: what is wrong may be told in other words at each attempt.
+void Journal::Conclude(std::size_t stored, const std::string& trouble) {
   bool had_trouble = false;
   {
     const std::lock_guard lock(mutex_);
+    stored_ += stored;
+    waiting_ -= stored;
     had_trouble = !trouble_.empty();
     trouble_ = trouble;
   }

@@ -83,7 +83,7 @@ class Journal {
   void Open();
   void PutInPlace();
   void Fail(const std::string& trouble);
-  void SetTrouble(const std::string& trouble);
+  void Conclude(std::size_t stored, const std::string& trouble);
 
   Names names_;
   const Tell tell_;
