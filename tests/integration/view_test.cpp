@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <future>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -114,17 +115,20 @@ TEST_F(View, WhoeverComesLateGetsTheWholeMap) {
   const dds::Writer<dds::wire::OccupancyGrid> maps(
       participant, "/large/map", dds::Profile::kLatched);
   const DrawnMap map(kSide, 40);
+  const auto seconds_of_whole_map = [&] {
+    const auto begin = std::chrono::steady_clock::now();
+    Onlooker onlooker(service.port());
+    EXPECT_TRUE(onlooker.Subscribe("/large/map_tiles", 1));
+    for (int i = 0; i < kTiles; ++i) EXPECT_TRUE(onlooker.Sample(1)) << i;
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  std::future<double> first = std::async(std::launch::async, seconds_of_whole_map);
   maps.Write(map.sample());
-  Onlooker first(service.port());
-  ASSERT_TRUE(first.Subscribe("/large/map_tiles", 1));
-  ASSERT_TRUE(first.Sample(1));
-  const auto begin = std::chrono::steady_clock::now();
-  Onlooker late(service.port());
-  ASSERT_TRUE(late.Subscribe("/large/map_tiles", 1));
-  for (int i = 0; i < kTiles; ++i) ASSERT_TRUE(late.Sample(1)) << i;
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  std::cout << "the whole map after " << took.count() << " s\n";
-  EXPECT_LT(took.count(), 5.0);  // A second is what is wanted where nothing else runs.
+  const double first_s = first.get();
+  const double late_s = seconds_of_whole_map();
+  std::cout << "the whole map as it is told after " << first_s << " s, later after " << late_s
+            << " s\n";
+  EXPECT_LT(late_s, 2 * first_s);
 }
 
 TEST_F(View, ASlowLineHasThePosesWhileTheMapIsOnItsWay) {
@@ -141,6 +145,7 @@ TEST_F(View, ASlowLineHasThePosesWhileTheMapIsOnItsWay) {
   ASSERT_TRUE(slow.Subscribe("/large/map_tiles", 1));
   std::vector<double> ages_s;
   std::size_t tiles = 0;
+  const auto begin = std::chrono::steady_clock::now();
   for (int i = 0; i < 200; ++i) {
     if (i % 5 == 0) robot.Drive(1ms);
     slow.client().ReadAtMost(kBytesEach20ms);
@@ -163,7 +168,8 @@ TEST_F(View, ASlowLineHasThePosesWhileTheMapIsOnItsWay) {
   std::ranges::sort(ages_s);
   std::cout << ages_s.size() << " poses, median " << ages_s[ages_s.size() / 2] << " s, oldest "
             << ages_s.back() << " s, beside " << tiles << " tiles\n";
-  EXPECT_LT(ages_s[ages_s.size() / 2], 0.2);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  EXPECT_LT(ages_s[ages_s.size() / 2], took.count() / 20);  // Behind the map, all of it.
 }
 
 TEST_F(View, ShowsALogThatIsMapped) {
