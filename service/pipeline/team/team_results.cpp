@@ -228,14 +228,14 @@ TeamResults::FinalMap TeamResults::FinishMap(team::TeamService& service,
                                              std::string_view robot,
                                              const fs::path& folder) const {
   FinalMap end{.folder = folder, .known = service.MapOf(robot)};
-  const team::TeamMap::State::View known = end.known->Read();
-  for (const auto& [name, _] : robots_) {
-    end.robots_in[name].map = end.known->VersionOf(*known).map;
+  {
+    const team::TeamMap::State::View known = end.known->Read();
+    end.scans.assign(known->map.scans().begin(), known->map.scans().end());
   }
-  if (known->map.empty()) return end;
+  for (const auto& [name, _] : robots_) end.robots_in[name].map = end.known->version().map;
+  if (end.scans.empty()) return end;
   end.grid = service.DrawMapOf(robot);
-  if (!end.grid) end.grid = RenderOrWarn(known->map, options_.rendering);
-  end.scans.assign(known->map.scans().begin(), known->map.scans().end());
+  if (!end.grid) end.grid = RenderOrWarn(end.scans, options_.rendering);
   end.correction = service.FinishMapOf(robot);
   if (end.correction) {
     for (RelevantScan& scan : end.scans) scan.map_robot = end.correction->map_node[scan.id];
