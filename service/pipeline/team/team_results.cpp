@@ -228,7 +228,7 @@ TeamResults::FinalMap TeamResults::FinishMap(team::TeamService& service,
                                              std::string_view robot,
                                              const fs::path& folder) const {
   FinalMap end{.folder = folder, .known = service.MapOf(robot)};
-  {
+  {  // Let go before the atlas is asked: who extends a map locks the atlas first.
     const team::TeamMap::State::View known = end.known->Read();
     end.scans.assign(known->map.scans().begin(), known->map.scans().end());
   }
