@@ -169,7 +169,7 @@ TEST_F(View, ASlowLineHasThePosesWhileTheMapIsOnItsWay) {
   std::cout << ages_s.size() << " poses, median " << ages_s[ages_s.size() / 2] << " s, oldest "
             << ages_s.back() << " s, beside " << tiles << " tiles\n";
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  EXPECT_LT(ages_s[ages_s.size() / 2], took.count() / 20);  // Behind the map, all of it.
+  EXPECT_LT(ages_s[ages_s.size() / 2], took.count() / 20);  // All of it, behind the map.
 }
 
 TEST_F(View, ShowsALogThatIsMapped) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/team/team_results.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -232,7 +233,8 @@ TeamResults::FinalMap TeamResults::FinishMap(team::TeamService& service,
     const team::TeamMap::State::View known = end.known->Read();
     end.scans.assign(known->map.scans().begin(), known->map.scans().end());
   }
-  for (const auto& [name, _] : robots_) end.robots_in[name].map = end.known->version().map;
+  const std::uint64_t number = end.known->version().map;
+  for (const auto& [name, _] : robots_) end.robots_in[name].map = number;
   if (end.scans.empty()) return end;
   end.grid = service.DrawMapOf(robot);
   if (!end.grid) end.grid = RenderOrWarn(end.scans, options_.rendering);
