@@ -15,7 +15,7 @@ constexpr double kReadingsWithoutBias = 100.0;      // That weigh as much as hav
 constexpr double kGravity_mps2 = 9.81;
 constexpr double kFeltSigma_rad = 0.05;  // Of gravity, before that is learned.
 constexpr double kLearningShare = 0.01;  // Share of the last reading in what is learned.
-// A sensor that is silent for longer has missed how the robot leans.
+// A sensor that is silent for longer has missed how the robot leans, and turns.
 constexpr std::chrono::nanoseconds kLongestWithoutTilt = std::chrono::milliseconds(200);
 
 /// The third row of the rotation: what is up in a level frame, seen from the robot.
@@ -45,8 +45,12 @@ bool TiltTrack::Add(const ImuReading& reading) {
   } else {
     const std::chrono::nanoseconds since = reading.stamp - entries_.back().stamp;
     if (since.count() <= 0) return false;
-    Turn(reading.turn_rate_rad_s, Seconds(since));
-    Draw(*felt);
+    if (since > kLongestWithoutTilt) {
+      Begin(*felt);  // No robot turned at the last rate all the while.
+    } else {
+      Turn(reading.turn_rate_rad_s, Seconds(since));
+      Draw(*felt);
+    }
   }
   readings_ += 1.0;
   up_on_average_ += (up_ - up_on_average_) / readings_;

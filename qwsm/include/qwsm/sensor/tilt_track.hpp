@@ -22,9 +22,9 @@ struct Tilt {
 /// the floor is level on the whole, and no sensor is mounted to the tenth of a degree.
 ///
 /// A Kalman filter of the direction against gravity. Turn rates move it, less their average, for
-/// nobody leans further and further; what is felt of gravity,
-/// or the orientation the sensor works out, draws it back. Accelerations of the drive are no
-/// gravity: how noisy that is, is learned, and a reading far off counts the less.
+/// nobody leans further and further; what is felt of gravity, or the orientation the sensor works
+/// out, draws it back. Accelerations of the drive are no gravity: how noisy that is, is learned,
+/// and a reading far off counts the less. After a gap the filter begins anew with what is felt.
 class TiltTrack {
  public:
   static constexpr std::size_t kUnlimited = 0;
