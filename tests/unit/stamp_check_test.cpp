@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 namespace qwsm {
 namespace {
@@ -86,6 +87,25 @@ TEST(StampCheck, LooksNoFurtherThanAScanHasBeams) {
     check.Add(scan, Pose2{});
   }
   EXPECT_FALSE(check.offset_s());
+}
+
+// A laser of 24 Hz: of the first hundred scans three have two seconds before and behind them.
+TEST(StampCheck, SaysNothingByAFewScans) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<float> noise_m(0.0F, 0.02F);
+    StampCheck check;
+    for (int i = 0; i < 110; ++i) {
+      const Timestamp stamp = std::chrono::microseconds(41667) * i;
+      const double time_s = Seconds(stamp);
+      const double heading_rad = 2.0 * time_s + 0.3 * std::sin(0.7 * time_s + seed);
+      LaserScan scan = ScanAt(heading_rad);
+      scan.stamp = stamp;
+      for (float& range_m : scan.ranges_m) range_m += noise_m(random);
+      check.Add(scan, Pose2{.theta_rad = NormalizeAngle(heading_rad)});
+    }
+    EXPECT_FALSE(check.offset_s()) << seed;
+  }
 }
 
 TEST(StampCheck, SaysNothingOfARobotThatGoesStraight) {

@@ -17,6 +17,8 @@ constexpr double kPoorFit_m = 0.15;          // Scans that differ more have litt
 constexpr double kLongestPause_s = 0.5;
 constexpr double kMostOffset_s = 1.0;
 constexpr double kStep_s = 0.01;
+constexpr double kLeastTime_s = 6.0 * kMostOffset_s;  // A third of it is compared at all offsets.
+constexpr std::size_t kLeastTurnsCompared = 20;  // Of fewer, chance tells which offset is best.
 constexpr double kLeastOffset_s = 0.04;   // Less is within what scans take, and hardly matters.
 constexpr double kMuchBetter = 0.7;       // The errors are so much less with the offset.
 constexpr double kLeastTurned_rad = 6.0;  // By odometry, in all: to and fro or around.
@@ -101,8 +103,9 @@ std::optional<double> StampCheck::OdometryAt(double time_s) const {
   return before.by_odometry_rad + share * (after->by_odometry_rad - before.by_odometry_rad);
 }
 
-// Mean difference of the turns by scans and by odometry, were the scans so much later. Not squared:
-// one jump of odometry, which some offset divides between two scans, is not to outweigh the drive.
+// Mean difference of the turns by scans and by odometry, were the scans so much later; infinite
+// where too few are known. Not squared: one jump of odometry, which some offset divides between two
+// scans, is not to outweigh the drive.
 double StampCheck::ErrorAt(double offset_s) const {
   double sum_rad = 0.0;
   std::size_t turns = 0;
@@ -118,7 +121,8 @@ double StampCheck::ErrorAt(double offset_s) const {
     sum_rad += std::abs(*now.turn_by_scan_rad - (*to_rad - *from_rad));
     ++turns;
   }
-  return turns == 0 ? 0.0 : sum_rad / static_cast<double>(turns);
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  return turns < kLeastTurnsCompared ? kUnknown : sum_rad / static_cast<double>(turns);
 }
 
 void StampCheck::Judge() {
@@ -126,7 +130,9 @@ void StampCheck::Judge() {
   for (std::size_t i = 1; i < headings_.size(); ++i) {
     turned_rad += std::abs(headings_[i].by_odometry_rad - headings_[i - 1].by_odometry_rad);
   }
-  if (turned_rad < kLeastTurned_rad) return;
+  const double time_s = headings_.back().time_s - headings_.front().time_s;
+  const double as_told_rad = ErrorAt(0.0);
+  if (turned_rad < kLeastTurned_rad || time_s < kLeastTime_s || !std::isfinite(as_told_rad)) return;
   const int steps = static_cast<int>(std::lround(kMostOffset_s / kStep_s));
   double best_s = 0.0;
   double least_rad = std::numeric_limits<double>::infinity();
@@ -137,7 +143,7 @@ void StampCheck::Judge() {
     best_s = step * kStep_s;
   }
   const bool is_inside = std::abs(best_s) < kMostOffset_s - 0.5 * kStep_s;
-  if (is_inside && std::abs(best_s) >= kLeastOffset_s && least_rad < kMuchBetter * ErrorAt(0.0)) {
+  if (is_inside && std::abs(best_s) >= kLeastOffset_s && least_rad < kMuchBetter * as_told_rad) {
     offset_s_ = best_s;
   }
 }
