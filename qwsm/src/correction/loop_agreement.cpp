@@ -22,38 +22,38 @@ struct LoopPair {
   std::size_t b = 0;
 };
 
-// The poses of submaps' references as seen from each other.
+// The poses of the references that loops begin at, as seen from each other. Each loop has its own:
+// a submap of another robot, which still grew when the loop was found, has another reference since.
 class ReferencePoses {
  public:
-  // Those between the submaps of each pair: of all submaps they would take the square of a long
-  // drive's room.
+  // Those between the references of each pair: of all they would take the square of a long drive's
+  // room.
   ReferencePoses(std::span<const FoundLoop> loops,
                  std::span<const LoopPair> pairs,
-                 const PoseEstimate& estimate,
-                 const ScanChains& chains) {
+                 const PoseEstimate& estimate) {
     for (const auto& [a, b] : pairs) {
-      const auto [first, other] = std::minmax(loops[a].submap, loops[b].submap);
+      const auto [first, other] = std::minmax(loops[a].loop.edge.from, loops[b].loop.edge.from);
       seen_[first].try_emplace(other);
     }
     for (auto& [first, others] : seen_) {
       std::vector<NodeId> nodes;
-      for (const auto& [other, pose] : others) nodes.push_back(chains.submaps()[other].reference());
-      const auto seen = estimate.SeenFrom(chains.submaps()[first].reference(), nodes);
+      for (const auto& [other, pose] : others) nodes.push_back(other);
+      const auto seen = estimate.SeenFrom(first, nodes);
       for (auto next = seen.begin(); auto& [other, pose] : others) pose = *next++;
     }
   }
 
-  // @pre submap <= other, and a pair is of them
-  const UncertainPose2& Between(std::size_t submap, std::size_t other) const {
-    return seen_.at(submap).at(other);
+  // @pre reference <= other, and a pair is of them
+  const UncertainPose2& Between(NodeId reference, NodeId other) const {
+    return seen_.at(reference).at(other);
   }
 
  private:
-  std::map<std::size_t, std::map<std::size_t, UncertainPose2>> seen_;
+  std::map<NodeId, std::map<NodeId, UncertainPose2>> seen_;
 };
 
-// Both ways around, from the submap that was made first to the scan that was taken last, lead to
-// the same place.
+// Both ways around, from the reference that was taken first to the scan that was taken last, lead
+// to the same place.
 bool Agree(const FoundLoop& a,
            const FoundLoop& b,
            const ReferencePoses& references,
@@ -61,10 +61,12 @@ bool Agree(const FoundLoop& a,
   const UncertainPose2 to_last = chains.Relative(a.loop.edge.to, b.loop.edge.to);
   const UncertainPose2 by_a = MeasuredBy(a.loop.edge) * to_last;
   const UncertainPose2 by_b = MeasuredBy(b.loop.edge);
+  const NodeId from_a = a.loop.edge.from;
+  const NodeId from_b = b.loop.edge.from;
   const double chi2 =
-      a.submap <= b.submap
-          ? SquaredMahalanobisDistance(by_a, references.Between(a.submap, b.submap) * by_b)
-          : SquaredMahalanobisDistance(references.Between(b.submap, a.submap) * by_a, by_b);
+      from_a <= from_b
+          ? SquaredMahalanobisDistance(by_a, references.Between(from_a, from_b) * by_b)
+          : SquaredMahalanobisDistance(references.Between(from_b, from_a) * by_a, by_b);
   return chi2 <= kMaxChi2;
 }
 
@@ -109,7 +111,7 @@ void ConfirmByOthers(std::span<FoundLoop> loops,
                      const PoseEstimate& estimate,
                      const ScanChains& chains) {
   const std::vector<LoopPair> pairs = PairsOfOnePass(loops, chains);
-  const ReferencePoses references(loops, pairs, estimate, chains);
+  const ReferencePoses references(loops, pairs, estimate);
   std::vector<Support> support(loops.size());
   for (const auto& [a, b] : pairs) {
     const bool agree = Agree(loops[a], loops[b], references, chains);
