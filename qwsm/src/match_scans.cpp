@@ -2,13 +2,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "qwsm/match_scans.hpp"
 
+#include <Eigen/Cholesky>
+
 #include "qwsm/mapping/scan_locator.hpp"
 
 namespace qwsm {
+namespace {
+
+// Of what is no number the decomposition would succeed.
+bool IsPositiveDefinite(const Eigen::Matrix3d& covariance) {
+  return covariance.allFinite() && covariance.llt().info() == Eigen::Success;
+}
+
+}  // namespace
 
 MatchResult MatchScans(const LaserScan& reference,
                        const LaserScan& scan,
                        const UncertainPose2& guess) {
+  if (!IsPositiveDefinite(guess.covariance)) {
+    return {.status = MatchStatus::kDegenerate, .T_ref_cur = guess.T_a_b, .predicted = guess};
+  }
   ScanMap map;
   map.Insert(reference, ToPoints(reference), {});
   return ScanLocator().Locate(map, ToPoints(scan), guess);

@@ -88,5 +88,19 @@ TEST_F(MatchScansInRoom, AGuessWithoutUncertaintyIsDegenerate) {
   EXPECT_EQ(MatchScans(reference_, scan_, UncertainPose2{}).status, MatchStatus::kDegenerate);
 }
 
+TEST_F(MatchScansInRoom, AGuessWhoseCovarianceIsNoneIsDegenerate) {
+  UncertainPose2 negative = UncertainPose2::WithSigmas(T_ref_cur_, 0.3, 0.17);
+  negative.covariance(2, 2) = -0.03;
+  UncertainPose2 indefinite = UncertainPose2::WithSigmas(T_ref_cur_, 1.0, 1.0);
+  indefinite.covariance << 1.0, 0.9, 0.9, 0.9, 1.0, -0.9, 0.9, -0.9, 1.0;
+  UncertainPose2 no_number = UncertainPose2::WithSigmas(T_ref_cur_, 0.3, 0.17);
+  no_number.covariance(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  for (const UncertainPose2& guess : {negative, indefinite, no_number}) {
+    const MatchResult match = MatchScans(reference_, scan_, guess);
+    EXPECT_EQ(match.status, MatchStatus::kDegenerate);
+    EXPECT_EQ(match.T_ref_cur, T_ref_cur_);
+  }
+}
+
 }  // namespace
 }  // namespace qwsm::test
