@@ -149,5 +149,33 @@ TEST(SelfCorrectingMapper, KeepsRelevantScansOnlyOfARobotThatIsLost) {
   EXPECT_LT(BytesOnTheHeap(), before + of_scans);
 }
 
+// Where it may have been carried to, and rests before it drives on.
+TEST(SelfCorrectingMapper, KeepsNoScansOfARobotThatRestsInDoubt) {
+  const std::vector<Observation> whole = DriveThrough(TwoRoomsAndCorridor(), {}).observations;
+  const std::size_t carried = 30;
+  const std::vector<Observation> drive =
+      Carried(whole, {.first = carried, .scans = whole.size() / 2 - carried});
+  SelfCorrectingMapper mapper;
+  std::size_t answers = 0;
+  const auto process = [&](const Observation& observation) {
+    ++answers;
+    return mapper.Process(observation);
+  };
+  for (std::size_t i = 0; i < carried; ++i) process(drive[i]);
+  const Observation& resting = drive[carried];
+  for (int i = 0; i < 1050; ++i) process(resting);
+
+  constexpr std::size_t kResting = 500;
+  const std::size_t before = BytesOnTheHeap();
+  for (std::size_t i = 0; i < kResting; ++i) process(resting);
+  const std::size_t of_scans = kResting * resting.scan.ranges_m.size() * sizeof(float);
+  EXPECT_LT(BytesOnTheHeap(), before + of_scans / 2);
+
+  EXPECT_EQ(mapper.losses(), 0U) << "it is still asked where it is";
+  for (std::size_t i = carried; i < drive.size() && mapper.losses() == 0; ++i) process(drive[i]);
+  EXPECT_EQ(mapper.losses(), 1U);
+  EXPECT_EQ(mapper.Correct().map_robot.size(), answers);
+}
+
 }  // namespace
 }  // namespace qwsm::test

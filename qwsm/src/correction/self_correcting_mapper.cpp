@@ -3,6 +3,7 @@
 #include "qwsm/correction/self_correcting_mapper.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,16 @@
 
 namespace qwsm {
 namespace {
+
+// While nobody knows whether a robot was carried, so many of its scans are kept as they are.
+constexpr std::size_t kKeptAsTheyAre = 1000;
+// Of more, those of a robot that has not moved farther show nothing new.
+constexpr double kAtRest_m = 0.05;
+constexpr double kAtRest_rad = 0.05;
+
+bool IsAtRest(const Pose2& moved) {
+  return moved.translation_m().norm() < kAtRest_m && std::abs(moved.theta_rad) < kAtRest_rad;
+}
 
 ScanId NearestScan(const ScanMap& map, const Pose2& T_map_robot) {
   const auto squared_distance_m2 = [&](const RelevantScan& scan) {
@@ -44,7 +55,7 @@ MappingStep SelfCorrectingMapper::Map(const Observation& observation) {
   MappingStep step = mapper_.Process(observation);
   step.epoch = static_cast<int>(epochs_.size());
   const PlaceDoubt doubt = watch_.Look(mapper_.map(), observation.scan, step);
-  Note(observation, path_->size());
+  Note(observation, step.map_robot.T_a_b, path_->size());
   Take(step);
   if (doubt == PlaceDoubt::kLost) return Lose();
   if (doubt == PlaceDoubt::kInDoubt && step.status == StepStatus::kMatched) {
@@ -54,7 +65,11 @@ MappingStep SelfCorrectingMapper::Map(const Observation& observation) {
   return step;
 }
 
-void SelfCorrectingMapper::Note(const Observation& observation, std::size_t answers_before) {
+// A robot that rests is asked no more until it drives on, for hours if need be: what it sees
+// meanwhile is kept without readings, as if nothing was in view.
+void SelfCorrectingMapper::Note(const Observation& observation,
+                                const Pose2& T_map_robot,
+                                std::size_t answers_before) {
   if (!watch_.is_asking()) {
     doubtful_ = {};
     return;
@@ -62,6 +77,12 @@ void SelfCorrectingMapper::Note(const Observation& observation, std::size_t answ
   const bool begins = doubtful_.observations.empty() && !doubtful_.lost;
   if (begins) doubtful_.answers_before = answers_before;
   doubtful_.observations.push_back(observation);
+  if (doubtful_.observations.size() > kKeptAsTheyAre &&
+      IsAtRest(doubtful_.T_map_kept.Inverse() * T_map_robot)) {
+    doubtful_.observations.back().scan.ranges_m = std::vector<float>();
+  } else {
+    doubtful_.T_map_kept = T_map_robot;
+  }
 }
 
 void SelfCorrectingMapper::Take(const MappingStep& step, const std::optional<FoundBeside>& found) {
@@ -141,7 +162,7 @@ MappingStep SelfCorrectingMapper::Search(const Observation& observation) {
   lost_->LookFor(mapper_.map(), observation.scan, step);
   step.epoch = static_cast<int>(epochs_.size());
   const PlaceDoubt doubt = watch_.Look(lost_->local().map(), observation.scan, step);
-  Note(observation, lost_steps_.size());
+  Note(observation, step.map_robot.T_a_b, lost_steps_.size());
   if (doubt == PlaceDoubt::kLost) return Lose();
   lost_steps_.push_back(step);
   if (lost_->is_found()) return Find(observation);

@@ -72,13 +72,14 @@ class SelfCorrectingMapper {
   struct Doubtful {
     std::size_t answers_before = 0;
     std::vector<Observation> observations;
+    Pose2 T_map_kept{};             // Of the last one that was kept with its readings.
     std::optional<LostRobot> lost;  // As it was when it was found.
     std::vector<MappingStep> lost_steps;
   };
 
   MappingStep Map(const Observation& observation);
   void GoOnIn(CorrectedMap corrected, Timestamp stamp);
-  void Note(const Observation& observation, std::size_t answers_before);
+  void Note(const Observation& observation, const Pose2& T_map_robot, std::size_t answers_before);
   void Take(const MappingStep& step, const std::optional<FoundBeside>& found = {});
   MappingStep Lose();
   void TakeBack(ScanId first);
