@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "service/dds/entities/writer.hpp"
@@ -18,6 +20,7 @@
 #include "service/dds/wire/planar.hpp"
 #include "service/dds/wire/robot_names.hpp"
 #include "service/dds/wire/scan_conversion.hpp"
+#include "service/dds/wire/transform_sample.hpp"
 #include "tests/support/network.hpp"
 #include "tests/support/room_drive.hpp"
 #include "tests/support/room_log.hpp"
@@ -43,12 +46,16 @@ TEST(SourceWatch, ToldOfThoseWhoTakeTurnsAndNotOfWhoIsStartedAgain) {
 /// Counts what comes through.
 class CountingListener : public team::RobotListener<team::Planar> {
  public:
-  bool TakeScan(std::string_view, LaserScan) override { return true; }
+  bool TakeScan(std::string_view, LaserScan scan) override {
+    scans.push_back(std::move(scan));
+    return true;
+  }
   void TakeOdometry(std::string_view, Timestamp, const Pose2&) override {}
   void ExpectOdometry(std::string_view, bool) override {}
   void PlaceAt(std::string_view, const UncertainPose2&) override { ++places; }
 
   int places = 0;
+  std::vector<LaserScan> scans;
 };
 
 class DdsInbox : public ::testing::Test {
@@ -102,6 +109,49 @@ TEST_F(DdsInbox, TwoRobotsOfOneNameAreTold) {
            IsTold("two participants publish /robot1/scan in the frame 'robot1/");
   }));
   EXPECT_TRUE(IsTold("each robot needs a namespace of its own"));
+}
+
+TEST_F(DdsInbox, ALaserIsTurnedOrRefusedOrTakenInTheMiddleAndThatIsTold) {
+  RobotFeed feed(participant_, RobotNames("robot1"), {"scan"}, refusals_);
+  const Writer<wire::TFMessage> mountings(
+      participant_, kStaticTransformsTopic, Profile::kStaticTransformsOut);
+  const Writer<wire::LaserScan> scans(participant_, "/robot1/scan", Profile::kSensorOut);
+  const std::string robot = "robot1/base_link";
+  const std::vector<std::string> frames{"upright", "upside_down", "tilted", "nowhere"};
+  TransformSample told;
+  wire::Pose pose = ToWire(Pose2{0.2, 0.0, 0.0});
+  told.Add({}, robot, frames[0], pose);
+  pose.orientation = {1.0, 0.0, 0.0, 0.0};
+  told.Add({}, robot, frames[1], pose);
+  pose.orientation = {0.0, std::sin(0.2), 0.0, std::cos(0.2)};
+  told.Add({}, robot, frames[2], pose);
+  mountings.Write(told.sample());
+  int i = 0;
+  const auto heard_from = [&](double x_m, float step_rad) {
+    return std::ranges::any_of(listener_.scans, [&](const LaserScan& scan) {
+      return scan.geometry.T_robot_laser == Pose2{x_m, 0.0, 0.0} &&
+             scan.geometry.bearing_step_rad == step_rad &&
+             scan.geometry.first_bearing_rad == -90.0F * step_rad;
+    });
+  };
+  const auto drive = [&] {
+    LaserScan scan = test::ObservationInRoom(i++).scan;
+    scan.geometry.bearing_step_rad = 0.015625F;
+    scan.geometry.first_bearing_rad = -90.0F * scan.geometry.bearing_step_rad;
+    for (const std::string& frame : frames) scans.Write(ToWire(scan, frame));
+    feed.Deliver(0ms, listener_);
+  };
+  EXPECT_TRUE(DoUntil(drive, [&] {
+    return heard_from(0.2, 0.015625F) && heard_from(0.2, -0.015625F) && heard_from(0.0, 0.015625F);
+  }));
+  EXPECT_TRUE(
+      IsTold("/robot1/scan: a sample was refused: its laser is tilted by more than 2.6 degrees"));
+  EXPECT_TRUE(
+      IsTold("/robot1/scan: /tf_static does not say where 'nowhere' sits on 'robot1/base_link'"));
+  EXPECT_FALSE(IsTold("where 'upside_down' sits"));
+  for (const LaserScan& scan : listener_.scans) {
+    EXPECT_TRUE(scan.geometry.T_robot_laser.x_m == 0.2 || scan.geometry.bearing_step_rad > 0.0F);
+  }
 }
 
 TEST_F(DdsInbox, APlaceInAnotherFrameIsRefused) {

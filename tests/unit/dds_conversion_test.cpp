@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -123,6 +124,36 @@ TEST(StaticTransforms, TellHowHighAFrameIs) {
   EXPECT_NEAR(transforms.FindHeight_m("base_footprint", "laser").value(), 0.375, 1e-12);
   EXPECT_NEAR(transforms.FindHeight_m("base_link", "laser").value(), 0.25, 1e-12);
   EXPECT_FALSE(transforms.FindHeight_m("base_footprint", "camera"));
+}
+
+// A laser that hangs upside down below a mast, one that looks down, and one that two tilts level.
+TEST(StaticTransforms, PlaceLasersThatAreUpsideDownAndNoneThatIsTilted) {
+  StaticTransforms transforms;
+  const auto add = [&](std::string parent,
+                       std::string child,
+                       const wire::Vector3& origin,
+                       const wire::Quaternion& turn) {
+    wire::TransformStamped transform{};
+    transform.header = HeaderOf({}, parent);
+    transform.child_frame_id = Borrow(child);
+    transform.transform = {origin, turn};
+    wire::TFMessage message{};
+    message.transforms = {._maximum = 1, ._length = 1, ._buffer = &transform, ._release = false};
+    transforms.Take(message, Guid{});
+  };
+  const double half = std::sqrt(0.5);
+  add("base_link", "mast", {1.0, 0.0, 0.5}, {0.0, 0.0, half, half});
+  add("mast", "below", {0.0, 0.0, -0.1}, {1.0, 0.0, 0.0, 0.0});
+  add("below", "laser", {0.0, 0.5, 0.0}, {0.0, 0.0, 0.0, 1.0});
+  const std::optional<Pose2> below = transforms.Find("base_link", "laser");
+  ASSERT_TRUE(below);
+  EXPECT_NEAR(below->x_m, 1.5, 1e-12);
+  EXPECT_NEAR(below->y_m, 0.0, 1e-12);
+  EXPECT_NEAR(below->theta_rad, pi / 2, 1e-12);
+  add("base_link", "tilted", {0.2, 0.0, 0.0}, {0.0, std::sin(0.1), 0.0, std::cos(0.1)});
+  EXPECT_FALSE(transforms.Find("base_link", "tilted"));
+  add("tilted", "level", {0.0, 0.0, 0.0}, {0.0, -std::sin(0.1), 0.0, std::cos(0.1)});
+  EXPECT_NEAR(transforms.Find("base_link", "level").value().x_m, 0.2, 1e-12);
 }
 
 class WireScan : public ::testing::Test {

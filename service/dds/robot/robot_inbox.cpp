@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "qwsm/geometry/position.hpp"
+#include "qwsm/geometry/quaternion.hpp"
 #include "service/dds/wire/wire_kind.hpp"
 #include "slam6d/geometry/position.hpp"
 
@@ -18,6 +19,7 @@ namespace {
 constexpr auto kPatienceForTransforms = std::chrono::seconds(1);
 constexpr std::size_t kMaxUnplaced = 160;  // Those of four lasers at 40 Hz in that time.
 constexpr std::size_t kMaxFrames = 256;
+constexpr std::size_t kMostUnplacedTold = 16;  // Anybody may send scans of any number of frames.
 
 template <class Kind>
 std::string_view ObjectionToPose(const wire::Header& header, const wire::Pose& pose) {
@@ -169,7 +171,7 @@ void BasicRobotInbox<Kind>::DeliverPlacedScans(const BasicStaticTransforms<Kind>
     if constexpr (OnWire<Kind>::kUsesImu) {
       next.scan.height_m = HeightOf_m(next.sensor_frame, transforms);
     }
-    DeliverScan(std::move(next.scan), next.sensor_frame, placement, listener);
+    DeliverScan(std::move(next), placement, listener);
   }
   unplaced_ = std::move(waiting);
   while (unplaced_.size() > kMaxUnplaced) LeaveOutOldest();
@@ -184,22 +186,48 @@ void BasicRobotInbox<Kind>::LeaveOutOldest() {
 
 // A robot does not mount its sensors anew while it drives. Whether it did, its scans will tell.
 template <class Kind>
-void BasicRobotInbox<Kind>::DeliverScan(typename Kind::Scan scan,
-                                        const std::string& sensor_frame,
+void BasicRobotInbox<Kind>::DeliverScan(UnplacedScan unplaced,
                                         const Placement& placement,
                                         team::RobotListener<Kind>& listener) {
-  const typename Kind::Pose& told = placement.T_robot_sensor;
-  OnWire<Kind>::Mounting(scan) = told;
-  if (placement.is_told && mountings_.size() < kMaxFrames) {
-    mountings_.try_emplace(sensor_frame, told);
+  const Placement used = PlacementInUse(unplaced.sensor_frame, placement);
+  if (used.is_tilted) {
+    return refusals_.Add(*unplaced.topic,
+                         "its laser is tilted by more than 2.6 degrees, says " +
+                             std::string(kStaticTransformsTopic));
+  }
+  if (!used.is_told) TellOfUnplaced(unplaced);
+  typename Kind::Scan& scan = unplaced.scan;
+  OnWire<Kind>::Mounting(scan) = used.T_robot_sensor;
+  if constexpr (OnWire<Kind>::kUsesImu) {
+    if (used.is_upside_down) OnWire<Kind>::TurnOver(scan);
+  }
+  const typename Kind::Pose& told = (placement.is_tilted ? used : placement).T_robot_sensor;
+  if (Kind::IsSame(used.T_robot_sensor, told)) {
+    listener.TakeScan(names_.name(), std::move(scan));
+  } else {
+    listener.TakeContestedScan(names_.name(), std::move(scan), told);
+  }
+}
+
+/// The place that counts for a scan of a sensor that is said to sit there. Whether it was moved is
+/// put to a trial, whether it was turned over or tilted is not.
+template <class Kind>
+typename BasicRobotInbox<Kind>::Placement BasicRobotInbox<Kind>::PlacementInUse(
+    const std::string& sensor_frame, const Placement& placement) {
+  if (placement.is_told && !placement.is_tilted && mountings_.size() < kMaxFrames) {
+    mountings_.try_emplace(sensor_frame, placement);
   }
   const auto used = mountings_.find(sensor_frame);
-  if (used == mountings_.end() || Kind::IsSame(used->second, told)) {
-    listener.TakeScan(names_.name(), std::move(scan));
-    return;
-  }
-  OnWire<Kind>::Mounting(scan) = used->second;
-  listener.TakeContestedScan(names_.name(), std::move(scan), told);
+  return used == mountings_.end() ? placement : used->second;
+}
+
+template <class Kind>
+void BasicRobotInbox<Kind>::TellOfUnplaced(const UnplacedScan& unplaced) {
+  if (unplaced_frames_.size() >= kMostUnplacedTold) return;
+  if (!unplaced_frames_.insert(unplaced.sensor_frame).second) return;
+  refusals_.Tell(*unplaced.topic + ": " + kStaticTransformsTopic + " does not say where '" +
+                 unplaced.sensor_frame + "' sits on '" + robot_frame_ +
+                 "': taken as in its middle, looking forward");
 }
 
 template <class Kind>
@@ -232,12 +260,12 @@ std::optional<typename BasicRobotInbox<Kind>::Placement> BasicRobotInbox<Kind>::
   const auto known = FindSensor(sensor_frame, transforms);
   const bool is_settled =
       known && (mountings_.contains(sensor_frame) || !transforms.IsAwaited(sensor_frame, Own()));
-  if (is_settled) return Placement{*known, true};
+  if (is_settled) return known;
   const auto now = std::chrono::steady_clock::now();
   if (missing_since_.size() >= kMaxFrames) missing_since_.clear();
   const auto since = missing_since_.try_emplace(sensor_frame, now).first->second;
   if (now - since < kPatienceForTransforms) return std::nullopt;
-  return known ? Placement{*known, true} : Placement{};
+  return known.value_or(Placement{});
 }
 
 /// The participants that send the robot's scans, or its odometry.
@@ -250,16 +278,24 @@ std::set<Guid> BasicRobotInbox<Kind>::Own() const {
 
 /// Where several tell of a frame, the robot's own participant is the one that knows.
 template <class Kind>
-std::optional<typename Kind::Pose> BasicRobotInbox<Kind>::FindSensor(
+std::optional<typename BasicRobotInbox<Kind>::Placement> BasicRobotInbox<Kind>::FindSensor(
     const std::string& sensor_frame, const BasicStaticTransforms<Kind>& transforms) {
-  if (!transforms.has_rivals()) return transforms.Find(robot_frame_, sensor_frame);
-  const auto known = transforms.Find(robot_frame_, sensor_frame, Own());
-  const auto by_last = transforms.Find(robot_frame_, sensor_frame);
-  const bool is_overruled = known && by_last && !Kind::IsSame(*known, *by_last);
-  if (is_overruled && overruled_.insert(sensor_frame).second) {
-    refusals_.Add(kStaticTransformsTopic, "the robot itself says otherwise where its sensor sits");
+  const std::set<Guid> own = transforms.has_rivals() ? Own() : std::set<Guid>{};
+  const auto rotation = transforms.FindRotation(robot_frame_, sensor_frame, own);
+  if (!rotation) return std::nullopt;
+  const auto known = transforms.Find(robot_frame_, sensor_frame, own);
+  if (transforms.has_rivals()) {
+    const auto by_last = transforms.Find(robot_frame_, sensor_frame);
+    const bool is_overruled = known && by_last && !Kind::IsSame(*known, *by_last);
+    if (is_overruled && overruled_.insert(sensor_frame).second) {
+      refusals_.Add(kStaticTransformsTopic,
+                    "the robot itself says otherwise where its sensor sits");
+    }
   }
-  return known;
+  return Placement{.T_robot_sensor = known.value_or(typename Kind::Pose{}),
+                   .is_told = true,
+                   .is_upside_down = UprightnessOf(*rotation) < 0.0,
+                   .is_tilted = !known};
 }
 
 /// Above the floor, where a frame lies on it, or else above the robot's; 0 where nobody tells.

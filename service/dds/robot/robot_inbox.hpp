@@ -52,6 +52,8 @@ class BasicRobotInbox {
   struct Placement {
     typename Kind::Pose T_robot_sensor;
     bool is_told = false;  // Else nobody says where the sensor sits.
+    bool is_upside_down = false;
+    bool is_tilted = false;  // Nothing in the plane can be made of what it sees.
   };
 
   void HearOdometry(team::RobotListener<Kind>& listener);
@@ -66,15 +68,17 @@ class BasicRobotInbox {
   void TakeInitialPose(const wire::PoseWithCovarianceStamped& sample,
                        team::RobotListener<Kind>& listener);
   std::string ObjectionToFrame(std::string_view frame);
-  void DeliverScan(typename Kind::Scan scan,
-                   const std::string& sensor_frame,
+  struct UnplacedScan;
+  void DeliverScan(UnplacedScan unplaced,
                    const Placement& placement,
                    team::RobotListener<Kind>& listener);
+  Placement PlacementInUse(const std::string& sensor_frame, const Placement& placement);
+  void TellOfUnplaced(const UnplacedScan& unplaced);
   std::optional<Placement> SensorOnRobot(const std::string& sensor_frame,
                                          const BasicStaticTransforms<Kind>& transforms);
   std::set<Guid> Own() const;
-  std::optional<typename Kind::Pose> FindSensor(const std::string& sensor_frame,
-                                                const BasicStaticTransforms<Kind>& transforms);
+  std::optional<Placement> FindSensor(const std::string& sensor_frame,
+                                      const BasicStaticTransforms<Kind>& transforms);
 
   double HeightOf_m(const std::string& sensor_frame,
                     const BasicStaticTransforms<Kind>& transforms) const;
@@ -105,7 +109,8 @@ class BasicRobotInbox {
   bool has_publisher_ = false;       // Whether somebody publishes scans.
   std::set<std::string> overruled_;  // Frames of which strangers say something else.
   // By frame, the place its first scans were sent with.
-  std::map<std::string, typename Kind::Pose> mountings_;
+  std::map<std::string, Placement> mountings_;
+  std::set<std::string> unplaced_frames_;  // Frames of which it was told that nobody places them.
   std::map<std::string, SourceWatch> scan_sources_;  // By topic and frame.
   std::string foreign_frame_;  // The first that a place was told in which is not the map's.
 };

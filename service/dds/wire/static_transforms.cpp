@@ -35,7 +35,7 @@ void BasicStaticTransforms<Kind>::Take(const wire::TFMessage& message, const Gui
           .T_parent_child = T_parent_child,
           .rotation = {rotation.x, rotation.y, rotation.z, rotation.w},
           .translation_m = {p.x, p.y, p.z},
-          .is_usable = OnWire<Kind>::IsUsable(rotation)});
+          .is_upright = OnWire<Kind>::IsUpright(rotation)});
   }
 }
 
@@ -92,9 +92,16 @@ std::optional<typename Kind::Pose> BasicStaticTransforms<Kind>::Find(
     const std::string& ancestor, const std::string& frame, const std::set<Guid>& own) const {
   const auto way = WayTo(ancestor, frame, own);
   if (!way) return std::nullopt;
+  if (!std::ranges::all_of(*way, &Link::is_upright)) {
+    const InSpace place = Along(*way);
+    const Eigen::Vector3d& p = place.origin_m;
+    const Quaternion& q = place.rotation;
+    const wire::Pose pose{.position = {p.x(), p.y(), p.z()}, .orientation = {q.x, q.y, q.z, q.w}};
+    if (!OnWire<Kind>::IsLevel(pose.orientation)) return std::nullopt;
+    return OnWire<Kind>::PoseOf(pose);
+  }
   std::optional<Pose> T_current_frame;
   for (const Link* link : *way) {
-    if (!link->is_usable) return std::nullopt;
     // One step is taken as it is: a product would round.
     const Pose& T_parent_current = link->T_parent_child;
     T_current_frame = T_current_frame ? T_parent_current * *T_current_frame : T_parent_current;
@@ -107,9 +114,7 @@ std::optional<Quaternion> BasicStaticTransforms<Kind>::FindRotation(
     const std::string& ancestor, const std::string& frame, const std::set<Guid>& own) const {
   const auto way = WayTo(ancestor, frame, own);
   if (!way) return std::nullopt;
-  Quaternion rotation;
-  for (const Link* link : *way) rotation = link->rotation * rotation;
-  return rotation;
+  return Along(*way).rotation;
 }
 
 template <class Kind>
@@ -118,13 +123,19 @@ std::optional<double> BasicStaticTransforms<Kind>::FindHeight_m(const std::strin
                                                                 const std::set<Guid>& own) const {
   const auto way = WayTo(ancestor, frame, own);
   if (!way) return std::nullopt;
-  Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();
-  for (const Link* link : *way) {
+  return Along(*way).origin_m.z();
+}
+
+template <class Kind>
+auto BasicStaticTransforms<Kind>::Along(const std::vector<const Link*>& way) -> InSpace {
+  InSpace place;
+  for (const Link* link : way) {
     const Quaternion& q = link->rotation;
     const Eigen::Quaterniond turn = Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
-    origin_m = turn * origin_m + link->translation_m;
+    place.origin_m = turn * place.origin_m + link->translation_m;
+    place.rotation = q * place.rotation;
   }
-  return origin_m.z();
+  return place;
 }
 
 template class BasicStaticTransforms<team::Planar>;

@@ -42,7 +42,8 @@ class BasicStaticTransforms {
   bool has_rivals() const { return statements_ > links_.size(); }
 
   /// Where a frame sits on another, over any number of steps; nothing where that is not known, or
-  /// not in the plane. Of several who tell of one frame the last one counts.
+  /// not in the plane, upright or upside down. Of several who tell of one frame the last one
+  /// counts.
   /// @param own participants who count before all others.
   std::optional<Pose> Find(const std::string& ancestor,
                            const std::string& frame,
@@ -66,10 +67,17 @@ class BasicStaticTransforms {
     Pose T_parent_child;
     Quaternion rotation;
     Eigen::Vector3d translation_m;
-    bool is_usable = true;
+    bool is_upright = true;
+  };
+
+  /// A frame on another, in space.
+  struct InSpace {
+    Quaternion rotation;
+    Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();
   };
 
   void Take(const std::string& child, Link link);
+  static InSpace Along(const std::vector<const Link*>& way);
   std::optional<std::vector<const Link*>> WayTo(const std::string& ancestor,
                                                 const std::string& frame,
                                                 const std::set<Guid>& own) const;

@@ -36,8 +36,13 @@ struct OnWire<team::Planar> {
   static Profile ScansIn(bool) { return Profile::kSensorIn; }
   static Pose2 PoseOf(const wire::Pose& pose) { return FromWire(pose); }
   static bool IsRotation(const wire::Quaternion& q) { return std::isfinite(UprightnessOf(q)); }
-  /// Whether a mounting may be used: it is tilted by less than 2.6 degrees (arccos 0.999).
-  static bool IsUsable(const wire::Quaternion& mounting) { return UprightnessOf(mounting) > 0.999; }
+  /// Whether a frame is turned about the z axis alone, tilted by less than 2.6 degrees
+  /// (arccos 0.999).
+  static bool IsUpright(const wire::Quaternion& turn) { return UprightnessOf(turn) > 0.999; }
+  /// The same of one that may be upside down.
+  static bool IsLevel(const wire::Quaternion& turn) {
+    return std::abs(UprightnessOf(turn)) > 0.999;
+  }
   static Eigen::Matrix3d CovarianceOf(const double (&of_six)[36]) {
     return PlanarCovariance(of_six);
   }
@@ -45,6 +50,12 @@ struct OnWire<team::Planar> {
   static LaserScan ScanOf(const wire::LaserScan& sample) { return FromWire(sample, Pose2{}); }
   static Pose2& Mounting(LaserScan& scan) { return scan.geometry.T_robot_laser; }
   static const Pose2& Mounting(const LaserScan& scan) { return scan.geometry.T_robot_laser; }
+  /// Makes a scan of a laser that is upside down one as seen from above, where the laser looks to
+  /// the other side and turns the other way.
+  static void TurnOver(LaserScan& scan) {
+    scan.geometry.first_bearing_rad = -scan.geometry.first_bearing_rad;
+    scan.geometry.bearing_step_rad = -scan.geometry.bearing_step_rad;
+  }
 
   /// A scan as a sample, which points into the scan and the name of the frame.
   class Sample {
@@ -76,7 +87,8 @@ struct OnWire<team::Spatial> {
   static bool IsRotation(const wire::Quaternion& q) {
     return slam6d::RotationFromQuaternion({q.x, q.y, q.z, q.w}).allFinite();
   }
-  static bool IsUsable(const wire::Quaternion&) { return true; }
+  static bool IsUpright(const wire::Quaternion&) { return true; }
+  static bool IsLevel(const wire::Quaternion&) { return true; }
   static slam6d::Matrix6d CovarianceOf(const double (&of_six)[36]) {
     return SpatialCovariance(of_six);
   }
