@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -16,6 +17,7 @@
 #include "service/dds/robot/robot_feed.hpp"
 #include "service/dds/robot/source_watch.hpp"
 #include "service/dds/service/mark_exchange.hpp"
+#include "service/dds/service/team_inbox.hpp"
 #include "service/dds/wire/mark_conversion.hpp"
 #include "service/dds/wire/planar.hpp"
 #include "service/dds/wire/robot_names.hpp"
@@ -151,6 +153,35 @@ TEST_F(DdsInbox, ALaserIsTurnedOrRefusedOrTakenInTheMiddleAndThatIsTold) {
   EXPECT_FALSE(IsTold("where 'upside_down' sits"));
   for (const LaserScan& scan : listener_.scans) {
     EXPECT_TRUE(scan.geometry.T_robot_laser.x_m == 0.2 || scan.geometry.bearing_step_rad > 0.0F);
+  }
+}
+
+TEST_F(DdsInbox, ARobotThatIsStartedAgainBetweenTwoLooksIsNotLost) {
+  team::TeamService service({}, team::SinkList<team::TeamSink>(std::vector<team::TeamSink*>{}));
+  service.Start();
+  TeamInbox inbox(participant_, {}, service, {}, refusals_);
+  const auto state = [&] {
+    const std::vector<team::RobotStatus> robots = service.Status().robots;
+    return robots.empty() ? team::RobotState::kExpected : robots.front().state;
+  };
+  std::optional<Writer<wire::LaserScan>> scans;
+  scans.emplace(participant_, "/robot1/scan", Profile::kSensorOut);
+  const auto deliver = [&] { inbox.Deliver(0ms); };
+  ASSERT_TRUE(DoUntil(deliver, [&] { return state() == team::RobotState::kUnplaced; }));
+  scans.reset();
+  scans.emplace(participant_, "/robot1/scan", Profile::kSensorOut);
+  for (int i = 0; i < 50; ++i) {
+    deliver();
+    EXPECT_EQ(state(), team::RobotState::kUnplaced);
+  }
+  scans.reset();
+  EXPECT_TRUE(DoUntil(deliver, [&] { return state() == team::RobotState::kLost; }));
+  // Who is gone before anybody looked was not there.
+  scans.emplace(participant_, "/robot1/scan", Profile::kSensorOut);
+  scans.reset();
+  for (int i = 0; i < 50; ++i) {
+    deliver();
+    EXPECT_EQ(state(), team::RobotState::kLost);
   }
 }
 

@@ -21,6 +21,9 @@ RobotDiscovery::RobotDiscovery(const Participant& participant,
 RobotDiscovery::Changes RobotDiscovery::Take() {
   Changes changes;
   publications_.TakeAll([&](const Publication& publication) { Note(publication, changes); });
+  // Who came and has gone again since then has not joined.
+  std::erase_if(changes.joined,
+                [this](const std::string& robot) { return publishers_of_[robot] == 0; });
   return changes;
 }
 

@@ -16,9 +16,11 @@ namespace qwsm::dds {
 /// Finds out which robots there are, by who publishes on a topic such as `/robot1/scan`.
 class RobotDiscovery {
  public:
+  /// Robots that have left, and after that those that have joined: one that has done both in the
+  /// meantime is there.
   struct Changes {
+    std::vector<std::string> left;    ///< Names of robots for which nobody published any more.
     std::vector<std::string> joined;  ///< Names of robots, as in RobotNames.
-    std::vector<std::string> left;    ///< Names of robots for which nobody publishes any more.
   };
 
   /// Looks for topics.

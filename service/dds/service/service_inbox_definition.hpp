@@ -87,13 +87,13 @@ std::vector<BasicRobotInbox<typename Session::Kind>*> ServiceInbox<Session>::Tak
 template <class Session>
 bool ServiceInbox<Session>::NoteMembers() {
   const RobotDiscovery::Changes changes = discovery_.Take();
-  for (const std::string& name : changes.joined) {
-    publishers_.insert(name);
-    if (const auto robot = robots_.find(name); robot != robots_.end()) Attend(name, robot->second);
-  }
   for (const std::string& name : changes.left) {
     publishers_.erase(name);
     if (robots_.contains(name)) sessions_.Lose(name);
+  }
+  for (const std::string& name : changes.joined) {
+    publishers_.insert(name);
+    if (const auto robot = robots_.find(name); robot != robots_.end()) Attend(name, robot->second);
   }
   return !changes.joined.empty() || !changes.left.empty();
 }
