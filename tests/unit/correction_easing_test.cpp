@@ -33,6 +33,7 @@ class Robot {
     T_map_odom_ = T_map_odom;
   }
   void Forget() { easing_.Forget(); }
+  void SetClock(Timestamp stamp) { stamp_ = stamp; }
   /// Goes on for a tenth of a second. @returns map -> odom as it is told.
   Pose2 Drive(double speed_mps) {
     stamp_ += 100ms;
@@ -76,6 +77,15 @@ TEST(CorrectionEasing, RestWaitsUntilTheRobotHasStoodForASecond) {
   for (int i = 0; i < 9; ++i) ExpectNear(robot.Drive(0.0), {});
   ExpectNear(robot.Drive(0.0), kCorrected);
   ExpectNear(robot.Drive(1.0), kCorrected);
+}
+
+TEST(CorrectionEasing, RestIsNoLongerForAClockThatWasSetBack) {
+  Robot robot({.policy = CorrectionPolicy::kRest});
+  for (int i = 0; i < 5; ++i) robot.Drive(0.0);
+  robot.Correct(kCorrected);
+  robot.SetClock(-1000s);
+  for (int i = 0; i < 10; ++i) ExpectNear(robot.Drive(0.0), {});
+  ExpectNear(robot.Drive(0.0), kCorrected);
 }
 
 TEST(CorrectionEasing, SlewIsNoFasterThanItIsSaid) {

@@ -51,7 +51,9 @@ bool CorrectionEasing::Stands(const MappingStep& step, const std::optional<Pose2
     const Pose2 moved = stay_->T_frame_robot.Inverse() * here.T_frame_robot;
     const bool is_there =
         moved.translation_m().norm() < kRest_m && std::abs(moved.theta_rad) < kRest_rad;
-    if (is_there) return here.since - stay_->since >= kRest;
+    // A clock that was set back, by more than scans overtake each other, tells nothing.
+    const Timestamp stayed = here.since - stay_->since;
+    if (is_there && stayed > -kRest) return stayed >= kRest;
   }
   stay_ = here;
   return false;
