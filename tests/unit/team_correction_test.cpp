@@ -116,6 +116,33 @@ TEST_F(TeamCorrection, IsTheSameForAServiceThatOnlyHearsOfIt) {
   EXPECT_EQ(hears.Poses()[7].T_a_b, finds.Poses()[7].T_a_b);
 }
 
+TEST_F(TeamCorrection, IsToldAgainToThoseWhoWereAwayWhenItWasFound) {
+  test::TemporaryFolder folder;
+  // Too few at a time for a look of its own.
+  const std::vector<TeamScan> few(scans_.begin(), scans_.begin() + 7);
+  {
+    Listened hears(folder.path() / "hears.db");
+    hears.service.TakeIn(few);
+  }
+  EpochRank rank;
+  Pose2 corrected;
+  {
+    Listened finds(folder.path() / "finds.db");
+    TakeIn(finds.service, scans_);
+    ASSERT_FALSE(finds.sink.epochs().empty());
+    rank = finds.sink.epochs().back().rank;
+    corrected = finds.Poses()[6].T_a_b;
+  }
+  Listened finds(folder.path() / "finds.db");
+  Listened hears(folder.path() / "hears.db");
+  EXPECT_TRUE(hears.sink.epochs().empty()) << "there was none";
+  EXPECT_FALSE(hears.Poses()[6].T_a_b == corrected);
+  ASSERT_EQ(finds.sink.epochs().size(), 1U);
+  EXPECT_EQ(finds.sink.epochs().back().rank, rank);
+  TakeIn(hears.service, finds.sink.epochs().back());
+  EXPECT_EQ(hears.Poses()[6].T_a_b, corrected);
+}
+
 TEST_F(TeamCorrection, OfTwoThatWereFoundAtOnceTheGreaterCounts) {
   Listened one;
   one.service.TakeIn({scans_.begin(), scans_.begin() + 4});

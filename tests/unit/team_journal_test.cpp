@@ -106,7 +106,7 @@ TEST(JournaledMap, LeavesOutWhatIsCalledAsNothingCanBe) {
   epoch.scans.front().component = "robot2";
   epoch.rank.number = std::numeric_limits<std::uint64_t>::max();
   EXPECT_THROW(map.Take(ToJournal(epoch)), io::BinaryError);
-  EXPECT_EQ(map.last_epoch(), 0U);
+  EXPECT_EQ(map.last_epoch().number, 0U);
   const std::vector<JournaledTeamScan> scans = map.TakeScans();
   ASSERT_EQ(scans.size(), 1U);
   EXPECT_EQ(scans.front().component, "");

@@ -32,6 +32,14 @@ bool IsCorrected(const TeamMap& map, const std::vector<Placement>& wanted) {
       });
 }
 
+// Where robots have a map each, each one's frame is called like that of the team's.
+void LeaveOutComponents(TeamEpoch& epoch) {
+  for (MovedScan& scan : epoch.scans) {
+    scan.component.clear();
+    scan.component_before.clear();
+  }
+}
+
 }  // namespace
 
 TeamAtlas::TeamAtlas(const TeamAtlasOptions& options, AtlasSurroundings surroundings)
@@ -285,13 +293,16 @@ void TeamAtlas::Tidy() {
   outdated_.erase(unused.begin(), unused.end());
 }
 
+void TeamAtlas::RepeatEpoch() {
+  const std::lock_guard lock(extension_);
+  if (epoch_.number == 0) return;
+  TeamEpoch epoch = EpochOf(maps_, AsTheyAre(maps_), epoch_);
+  if (!IsTeams()) LeaveOutComponents(epoch);
+  surroundings_.sinks.Tell(&TeamSink::TakeEpoch, epoch);
+}
+
 void TeamAtlas::Tell(TeamEpoch epoch) {
-  if (!IsTeams()) {  // Each map's frame is called like that of the team's.
-    for (MovedScan& scan : epoch.scans) {
-      scan.component.clear();
-      scan.component_before.clear();
-    }
-  }
+  if (!IsTeams()) LeaveOutComponents(epoch);
   TellAsEvent(epoch);
   std::map<ScanKey, const MovedScan*> moved;
   for (const MovedScan& scan : epoch.scans) moved[scan.key] = &scan;

@@ -59,8 +59,11 @@ class TeamAtlas {
 
   /// Takes back a scan of a journal. @param component it is in.
   void Restore(TeamScan scan, const std::string& component);
-  /// Goes on counting from the last epoch of a journal.
-  void GoOnFrom(std::uint64_t epoch) { epoch_.number = epoch; }
+  /// Goes on from the last epoch of a journal, whose scans have been taken back.
+  void GoOnFrom(const EpochRank& epoch) { epoch_ = epoch; }
+  /// Tells the sinks the last epoch again, if there was one, with all scans where they are: others
+  /// may have been away when it was found.
+  void RepeatEpoch();
 
   /// Adds a relevant scan of a robot of this service.
   /// @param answered_in the map that its pose is in.

@@ -84,7 +84,7 @@ void JournaledMap::Take(const io::JournalEntry& entry) {
     scans_[known->second].scan.map_robot = pose.map_robot;
     scans_[known->second].component = std::move(pose.component);
   }
-  last_epoch_ = std::max(last_epoch_, entry.sequence);
+  last_epoch_ = std::max(last_epoch_, {.number = entry.sequence, .service = entry.service});
 }
 
 }  // namespace qwsm::team

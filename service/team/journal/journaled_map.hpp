@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -32,13 +31,13 @@ class JournaledMap {
 
   /// The scans that were taken, in their order, each once. To be called once.
   std::vector<JournaledTeamScan> TakeScans() { return std::move(scans_); }
-  /// Number of the last correction; 0 if there was none.
-  std::uint64_t last_epoch() const { return last_epoch_; }
+  /// The last correction, which counts more than all others; of number 0 if there was none.
+  const EpochRank& last_epoch() const { return last_epoch_; }
 
  private:
   std::vector<JournaledTeamScan> scans_;
   std::unordered_map<ScanKey, std::size_t, ScanKeyHash> index_;
-  std::uint64_t last_epoch_ = 0;
+  EpochRank last_epoch_;
 };
 
 }  // namespace qwsm::team

@@ -69,6 +69,7 @@ TeamService::~TeamService() { Stop(); }
 void TeamService::Start() {
   for (const TeamScan& scan : offered_) sinks_.Tell(&TeamSink::TakeRelevantScan, scan);
   offered_ = {};
+  atlas_.RepeatEpoch();
   host_.Start({.tell_status = [this] { sinks_.Tell(&TeamSink::TakeStatus, Status()); },
                .tell_maps = [this](const std::stop_token& stop) { PaintMaps(stop); },
                .map_period = kPaintPeriod});

@@ -59,8 +59,8 @@ class TeamService {
   TeamService(const TeamService&) = delete;
   TeamService& operator=(const TeamService&) = delete;
 
-  /// Hands what is in the journal to the sink, for the other services, and starts to work. What
-  /// arrives before waits.
+  /// Hands what is in the journal, scans and the last correction, to the sink, for the other
+  /// services, and starts to work. What arrives before waits.
   void Start();
   /// Finishes the matches at work, saves what is to be saved, and works no more. What waits in
   /// queues is left out.
