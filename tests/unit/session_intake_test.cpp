@@ -7,13 +7,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tests/support/room_drive.hpp"
 
 namespace qwsm::team {
 namespace {
+
+using namespace std::chrono_literals;
 
 class SessionIntakeTest : public ::testing::Test {
  protected:
@@ -69,6 +74,48 @@ TEST_F(SessionIntakeTest, DropsNoScansThatHadToWaitElsewhere) {
   intake_.ExpectWaited(10);
   GiveScans(10);
   EXPECT_EQ(intake_.Status().counts.dropped, 0U);
+}
+
+/// A robot whose odometry is not of the time of its scans.
+class OdometryApart : public SessionIntakeTest {
+ protected:
+  void GiveOdometry(int scan, Timestamp ahead_by) {
+    const Observation observation = test::ObservationInRoom(scan);
+    intake_.TakeOdometry(observation.scan.stamp + ahead_by, *observation.T_odom_robot);
+  }
+  /// Gives a scan and takes what can be worked on.
+  std::optional<SessionIntake<Planar>::Work> Drive(int scan) {
+    EXPECT_TRUE(intake_.Enqueue(test::ObservationInRoom(scan).scan));
+    return intake_.Take();
+  }
+  std::ptrdiff_t ToldOf(const std::string& text) const {
+    return std::ranges::count_if(
+        told_, [&](const std::string& told) { return told.find(text) != std::string::npos; });
+  }
+};
+
+TEST_F(OdometryApart, ScansThatAreOlderThanAllOfItAreTakenAfterTheFirst) {
+  int scan = 0;
+  std::optional<SessionIntake<Planar>::Work> work;
+  for (; !work && scan < 4000; ++scan) {
+    GiveOdometry(scan, 1h);
+    work = Drive(scan);
+    std::this_thread::sleep_for(1ms);
+  }
+  ASSERT_TRUE(work);
+  EXPECT_GT(intake_.Status().counts.unplaced, 0U) << "the first one's may have been missed";
+  EXPECT_FALSE(work->T_odom_robot);
+  EXPECT_EQ(ToldOf("without odometry"), 0);
+  for (int i = 0; i < 20; ++i) EXPECT_TRUE(Drive(scan++));
+  EXPECT_EQ(ToldOf("s before the oldest that is kept; whoever publishes both"), 1);
+}
+
+TEST_F(OdometryApart, ScansThatAreNewerThanAllOfItAreToldOf) {
+  for (int scan = 0; scan < 20; ++scan) {
+    GiveOdometry(scan, -600s);
+    EXPECT_TRUE(Drive(scan));
+  }
+  EXPECT_EQ(ToldOf("they are stamped 600.0 s after the newest of it"), 1);
 }
 
 }  // namespace

@@ -51,6 +51,12 @@ bool OdometryBuffer<Pose>::BeginsAfter(Timestamp stamp) const {
 }
 
 template <class Pose>
+std::chrono::nanoseconds OdometryBuffer<Pose>::Apart(Timestamp stamp) const {
+  if (readings_.empty()) return {};
+  return stamp - std::clamp(stamp, readings_.front().stamp, readings_.back().stamp);
+}
+
+template <class Pose>
 std::optional<Pose> OdometryBuffer<Pose>::At(Timestamp stamp) const {
   const auto after = std::ranges::lower_bound(readings_, stamp, {}, &Reading::stamp);
   if (after != readings_.end() && after->stamp == stamp) return after->T_odom_robot;

@@ -33,6 +33,9 @@ class OdometryBuffer {
   bool Covers(Timestamp stamp) const;
   /// Whether the first reading is later, so that nothing will ever be known of that time.
   bool BeginsAfter(Timestamp stamp) const;
+  /// How far a time is from the readings: later than all, or, as a negative number, earlier; 0
+  /// among them, or where there are none.
+  std::chrono::nanoseconds Apart(Timestamp stamp) const;
   /// The pose at a time: that of a reading if there is one of that time, else interpolated between
   /// its neighbours, or, shortly after the last one, carried on as the robot moved.
   std::optional<Pose> At(Timestamp stamp) const;

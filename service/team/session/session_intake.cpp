@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/team/session/session_intake.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -17,6 +19,8 @@ using std::chrono::steady_clock;
 
 // Odometry this far behind the scans is not worth waiting for.
 constexpr std::chrono::nanoseconds kOdometryGone = std::chrono::seconds(1);
+// After so many scans in a row that are that far from it, it is told.
+constexpr int kScansApart = 10;
 // What odometry may jump by in no time.
 constexpr double kJump_m = 0.5;
 constexpr double kJump_rad = 0.5;
@@ -262,10 +266,18 @@ Lane::Time SessionIntake<Kind>::AwaitsOdometryUntil(const Arrival& next) const {
 
 template <class Kind>
 std::optional<typename SessionIntake<Kind>::Work> SessionIntake<Kind>::Take() {
-  const std::lock_guard lock(mutex_);
+  std::unique_lock lock(mutex_);
   DropScansBeforeOdometry();
   if (queue_.empty()) return std::nullopt;
-  Arrival next = queue_.Pop();
+  Work work = Prepare(queue_.Pop());
+  const std::string trouble = TroubleWithOdometry(work);
+  lock.unlock();
+  if (!trouble.empty()) events_.Warn(trouble);
+  return work;
+}
+
+template <class Kind>
+typename SessionIntake<Kind>::Work SessionIntake<Kind>::Prepare(Arrival next) {
   LeaveOutFloorOf(tilt_, options_.laser_height_m, next.scan);
   next.scan = options_.deskew ? AsFromOnePlace(std::move(next.scan), odometry_, gyro_)
                               : WithoutTimes(std::move(next.scan));
@@ -283,13 +295,33 @@ std::optional<typename SessionIntake<Kind>::Work> SessionIntake<Kind>::Take() {
 }
 
 // Whoever has only just found the robot may have missed the odometry of its first scan, which then
-// tells less of where the robot is than the next one.
+// tells less of where the robot is than the next one. Later ones would never have any: odometry is
+// of another clock.
 template <class Kind>
 void SessionIntake<Kind>::DropScansBeforeOdometry() {
-  while (expects_odometry_ && !queue_.empty() && odometry_.BeginsAfter(queue_.front().scan.stamp)) {
+  const auto is_one_of_the_first = [this](const Arrival& next) {
+    return next.arrived <=
+           first_arrived_.value_or(next.arrived) + std::max(WaitOf(options_), kOdometryGone);
+  };
+  while (expects_odometry_ && !queue_.empty() && is_one_of_the_first(queue_.front()) &&
+         odometry_.BeginsAfter(queue_.front().scan.stamp)) {
     queue_.Pop();
     ++counts_.unplaced;
   }
+}
+
+template <class Kind>
+std::string SessionIntake<Kind>::TroubleWithOdometry(const Work& work) {
+  const std::chrono::nanoseconds apart = odometry_.Apart(work.scan.stamp);
+  const bool is_apart =
+      expects_odometry_ && !work.T_odom_robot && std::max(apart, -apart) > kOdometryGone;
+  scans_apart_ = is_apart ? scans_apart_ + 1 : 0;
+  if (scans_apart_ != kScansApart) return {};
+  return fmt::format(
+      "its scans are matched without odometry, which is of another time: they are stamped {:.1f} s "
+      "{}; whoever publishes both has to stamp them by one clock, and without a break",
+      std::abs(Seconds(apart)),
+      apart.count() > 0 ? "after the newest of it" : "before the oldest that is kept");
 }
 
 template <class Kind>

@@ -124,7 +124,9 @@ class SessionIntake {
   Lane::Time AwaitsImuUntil(const Arrival& next) const;
   Timestamp KnownUntil(const Arrival& next) const;
   void DropScansBeforeOdometry();
+  Work Prepare(Arrival next);
   void WatchOdometry(Work& work);
+  std::string TroubleWithOdometry(const Work& work);
 
   const RobotEvents events_;
   const SessionOptions options_;
@@ -141,6 +143,7 @@ class SessionIntake {
   bool expects_imu_ = false;
   bool expects_odometry_ = false;
   bool hears_odometry_ = false;              // Whether there was odometry since the robot joined.
+  int scans_apart_ = 0;                      // In a row, far from any odometry.
   std::optional<Lane::Time> first_arrived_;  // Arrival of the first scan since the robot joined.
   ScanQueue<Arrival> queue_;
   std::size_t waited_ = 0;                      // Of the scans that come next, so many had to wait.
