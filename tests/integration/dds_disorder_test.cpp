@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <set>
@@ -87,6 +88,38 @@ TEST_F(DdsDisorder, IsCountedAndToldAndWhatFollowsIsMatched) {
     EXPECT_NE(report.status, StepStatus::kDeadReckoned) << report.reason;
   }
   EXPECT_EQ(service.End().exit_code, 0);
+}
+
+// A frame has one parent, or who follows transforms finds no way.
+TEST_F(DdsDisorder, AGapInOdometryHangsTheRobotOnNoOtherFrame) {
+  RobotInRoom robot(network_);
+  const dds::Reader<dds::wire::TFMessage> transforms(
+      robot.participant(), dds::kTransformsTopic, dds::Profile::kAnswerIn);
+  Daemon service(Serve());
+  ASSERT_GE(robot.DriveUntilAnswered(20).size(), 20U);
+  constexpr std::size_t kGap = 8;
+  std::size_t answered_in_gap = 0;
+  for (std::size_t i = 0; i < kGap; ++i) {
+    Observation observation = robot.NextObservation();
+    observation.T_odom_robot.reset();
+    robot.Publish(observation);
+    for (int wait = 0; wait < 100 && answered_in_gap <= i; ++wait) {
+      answered_in_gap += robot.Hear(10ms).size();
+    }
+  }
+  EXPECT_GE(answered_in_gap, kGap);
+  EXPECT_TRUE(robot.DriveUntilAllAreAnswered(20));
+  std::set<std::pair<std::string, std::string>> parents;
+  transforms.TakeAll([&](const dds::wire::TFMessage& sample) {
+    for (std::uint32_t i = 0; i < sample.transforms._length; ++i) {
+      const dds::wire::TransformStamped& one = sample.transforms._buffer[i];
+      parents.emplace(one.child_frame_id, one.header.frame_id);
+    }
+  });
+  const decltype(parents) one_each{{"robot1/base_link", "robot1/odom"}, {"robot1/odom", "map"}};
+  EXPECT_EQ(parents, one_each);
+  const Outcome served = service.End();
+  EXPECT_EQ(served.output.find(" 0 without odometry"), std::string::npos) << served.output;
 }
 
 /// `N of M scans answered` at the end of a service.

@@ -113,9 +113,25 @@ TEST_F(OdometryApart, ScansThatAreOlderThanAllOfItAreTakenAfterTheFirst) {
 TEST_F(OdometryApart, ScansThatAreNewerThanAllOfItAreToldOf) {
   for (int scan = 0; scan < 20; ++scan) {
     GiveOdometry(scan, -600s);
-    EXPECT_TRUE(Drive(scan));
+    const std::optional<SessionIntake<Planar>::Work> work = Drive(scan);
+    ASSERT_TRUE(work);
+    EXPECT_FALSE(work->lacks_odometry) << "there never was any";
   }
   EXPECT_EQ(ToldOf("they are stamped 600.0 s after the newest of it"), 1);
+}
+
+TEST_F(OdometryApart, AGapInItIsNoEndOfIt) {
+  for (int scan = 0; scan < 20; ++scan) {
+    const bool is_gap = scan >= 5 && scan < 10;
+    if (!is_gap) GiveOdometry(scan, 0s);
+    const std::optional<SessionIntake<Planar>::Work> work = Drive(scan);
+    ASSERT_TRUE(work);
+    EXPECT_EQ(work->lacks_odometry, !work->T_odom_robot);
+    EXPECT_EQ(work->lacks_odometry, scan > 5 && scan < 10) << "carried on for a moment";
+  }
+  EXPECT_EQ(ToldOf("without odometry"), 0);
+  intake_.ExpectOdometry(false);
+  for (int scan = 21; scan < 25; ++scan) EXPECT_FALSE(Drive(scan).value().lacks_odometry);
 }
 
 }  // namespace

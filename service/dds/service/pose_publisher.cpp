@@ -21,8 +21,7 @@ PosePublisher<Kind>::PosePublisher(const Participant& participant,
 template <class Kind>
 void PosePublisher<Kind>::Publish(const std::string& map_frame,
                                   Timestamp stamp,
-                                  const typename Kind::UncertainPose& map_robot,
-                                  const std::optional<Pose>& T_odom_robot) const {
+                                  const typename Kind::UncertainPose& map_robot) const {
   wire::PoseWithCovarianceStamped pose{};
   pose.header = HeaderOf(stamp, map_frame);
   pose.pose.pose = ToWire(map_robot.T_a_b);
@@ -34,8 +33,6 @@ void PosePublisher<Kind>::Publish(const std::string& map_frame,
   odometry.child_frame_id = Borrow(robot_frame_);
   odometry.pose = pose.pose;
   odometry_.Write(odometry);
-
-  PublishTransform(map_frame, stamp, map_robot.T_a_b, T_odom_robot);
 }
 
 /// A frame has one parent only: the robot's is `odom`, which whoever measures odometry publishes.

@@ -26,18 +26,17 @@ class PosePublisher {
 
   /// Publishes the pose at a time.
   /// @param map_frame that the pose is in.
-  /// @param T_odom_robot odometry at the same time, if there is one.
   void Publish(const std::string& map_frame,
                Timestamp stamp,
-               const typename Kind::UncertainPose& map_robot,
-               const std::optional<Pose>& T_odom_robot) const;
-
- private:
+               const typename Kind::UncertainPose& map_robot) const;
+  /// Publishes where the robot's frames lie in the map at a time.
+  /// @param T_odom_robot odometry at the same time; nothing of a robot that has none.
   void PublishTransform(const std::string& map_frame,
                         Timestamp stamp,
                         const Pose& T_map_robot,
                         const std::optional<Pose>& T_odom_robot) const;
 
+ private:
   std::string odom_frame_;
   std::string robot_frame_;
   const Writer<wire::TFMessage>& transforms_;

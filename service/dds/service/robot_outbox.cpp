@@ -19,12 +19,16 @@ RobotOutbox<Kind>::RobotOutbox(const Participant& participant,
                Profile::kAnswer,
                ToUserData(claim)) {}
 
+// A frame has one parent: where odometry that there is has a gap, `base_link` stays below `odom`,
+// which stays where it was.
 template <class Kind>
 void RobotOutbox<Kind>::Publish(const team::Answer<Kind>& answer) const {
-  poses_.Publish(team::FrameOf(answer.component),
-                 answer.step.stamp,
-                 answer.told.value_or(answer.step.map_robot),
-                 answer.T_odom_robot);
+  const std::string map_frame = team::FrameOf(answer.component);
+  const Timestamp stamp = answer.step.stamp;
+  const auto& map_robot = answer.told ? *answer.told : answer.step.map_robot;
+  poses_.Publish(map_frame, stamp, map_robot);
+  if (answer.lacks_odometry) return;
+  poses_.PublishTransform(map_frame, stamp, map_robot.T_a_b, answer.T_odom_robot);
 }
 
 template <class Kind>

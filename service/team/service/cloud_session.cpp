@@ -76,6 +76,7 @@ void CloudSession::RunOne() {
   CloudAnswer answer = Register(scan);
   const SessionCounts counts = Note(*work, answer);
   answer.T_odom_robot = work->T_odom_robot;
+  answer.lacks_odometry = work->lacks_odometry;
   answer.latency = steady_clock::now() - work->arrived;
   answer.scans = counts.scans;
   answer.dropped = counts.dropped;

@@ -80,6 +80,7 @@ void RobotSession::Answer(Work& work, const std::optional<Pose2>& claimed_mounti
                            .version = version_,
                            .last_relevant = LastRelevantPlace(),
                            .T_odom_robot = work.T_odom_robot,
+                           .lacks_odometry = work.lacks_odometry,
                            .told = easing_.Tell(step, work.T_odom_robot),
                            .matching = answered - begun,
                            .latency = answered - work.arrived,

@@ -335,6 +335,8 @@ void SessionIntake<Kind>::WatchOdometry(Work& work) {
                            TurnRad(moved) > kJump_rad + options_.max_turn_rate_radps * elapsed_s;
     if (work.odometry_jumped) ++counts_.odometry_jumps;
   }
+  work.lacks_odometry = !work.T_odom_robot && expects_odometry_ && has_had_odometry_;
+  has_had_odometry_ = has_had_odometry_ || work.T_odom_robot;
   T_odom_last_ = work.T_odom_robot;
   last_stamp_ = stamp;
 }

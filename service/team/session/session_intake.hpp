@@ -45,6 +45,8 @@ class SessionIntake {
     /// Whether odometry moved faster than any robot: it began anew.
     bool odometry_jumped = false;
     bool odometry_goes_on = false;  ///< Whether the scan before had odometry, too.
+    /// Whether it has none though somebody publishes it and earlier scans had some.
+    bool lacks_odometry = false;
   };
 
   /// The outcome of one scan.
@@ -143,6 +145,7 @@ class SessionIntake {
   bool expects_imu_ = false;
   bool expects_odometry_ = false;
   bool hears_odometry_ = false;              // Whether there was odometry since the robot joined.
+  bool has_had_odometry_ = false;            // Whether a scan had some.
   int scans_apart_ = 0;                      // In a row, far from any odometry.
   std::optional<Lane::Time> first_arrived_;  // Arrival of the first scan since the robot joined.
   ScanQueue<Arrival> queue_;

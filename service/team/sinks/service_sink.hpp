@@ -34,6 +34,9 @@ struct Answer {
   /// robot has not extended it since it was put there.
   std::optional<RelevantPlace<Kind>> last_relevant{};
   std::optional<typename Kind::Pose> T_odom_robot{};  ///< Odometry at the scan's stamp.
+  /// Whether there is none of that stamp though the robot's odometry is published: where its frame
+  /// `odom` lies in the map is not known anew.
+  bool lacks_odometry = false;
   /// Where who drives by it is told that the robot is, as long as a correction of the map has not
   /// reached it in full; nothing where that is the answer.
   std::optional<typename Kind::UncertainPose> told{};
