@@ -156,6 +156,21 @@ TEST_F(DdsInbox, ALaserIsTurnedOrRefusedOrTakenInTheMiddleAndThatIsTold) {
   }
 }
 
+TEST_F(DdsInbox, APublisherOfMountingsThatKeepsNothingIsTold) {
+  RobotFeed feed(participant_, RobotNames("robot1"), {"scan"}, refusals_);
+  const auto deliver = [&] { feed.Deliver(0ms, listener_); };
+  const Writer<wire::TFMessage> latched(
+      participant_, kStaticTransformsTopic, Profile::kStaticTransformsOut);
+  for (int i = 0; i < 20; ++i) deliver();
+  EXPECT_TRUE(told_.empty());
+  const Writer<wire::TFMessage> passing(participant_, kStaticTransformsTopic, Profile::kSensorOut);
+  EXPECT_TRUE(DoUntil(deliver, [&] {
+    return IsTold("/tf_static: a publisher is not heard, for it keeps nothing");
+  }));
+  for (int i = 0; i < 20; ++i) deliver();
+  EXPECT_EQ(told_.size(), 1U);
+}
+
 TEST_F(DdsInbox, ARobotThatIsStartedAgainBetweenTwoLooksIsNotLost) {
   team::TeamService service({}, team::SinkList<team::TeamSink>(std::vector<team::TeamSink*>{}));
   service.Start();

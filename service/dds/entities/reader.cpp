@@ -60,6 +60,12 @@ std::size_t UntypedReader::writer_count() const {
   return status.current_count;
 }
 
+std::size_t UntypedReader::unheard_writer_count() const {
+  dds_requested_incompatible_qos_status_t status{};
+  dds_get_requested_incompatible_qos_status(handle(), &status);
+  return status.total_count;
+}
+
 std::size_t UntypedReader::lost_writer_count() const {
   dds_subscription_matched_status_t status{};
   dds_get_subscription_matched_status(handle(), &status);

@@ -29,6 +29,8 @@ class UntypedReader {
   std::size_t writer_count() const;
   /// How many writers that this reader heard are gone.
   std::size_t lost_writer_count() const;
+  /// How many writers of its topic this reader could not hear, as they offer less than it needs.
+  std::size_t unheard_writer_count() const;
   /// The participants whose writers this reader hears now.
   std::set<Guid> Participants() const;
   Entity::Handle handle() const { return reader_.handle(); }

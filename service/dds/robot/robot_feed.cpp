@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/dds/robot/robot_feed.hpp"
 
-#include "service/dds/entities/reader.hpp"
 #include "service/dds/entities/wait_set.hpp"
+#include "service/dds/robot/mounting_reader.hpp"
 #include "service/dds/robot/robot_inbox.hpp"
-#include "service/dds/wire/static_transforms.hpp"
 
 namespace qwsm::dds {
 
@@ -16,7 +15,7 @@ class RobotFeed::Topics {
          const std::vector<std::string>& scan_topics,
          Refusals& refusals)
       : wait_set_(participant),
-        static_transforms_(participant, kStaticTransformsTopic, Profile::kStaticTransforms),
+        mountings_(participant, refusals),
         inbox_(participant, names, refusals, scan_topics) {
     for (const Entity::Handle handle : inbox_.handles()) wait_set_.Add(handle);
   }
@@ -24,17 +23,13 @@ class RobotFeed::Topics {
   void Deliver(std::chrono::nanoseconds timeout, team::RobotListener<team::Planar>& listener) {
     wait_set_.Wait(timeout);
     inbox_.HoldScans();
-    static_transforms_.TakeAllWithSource(
-        [this](const wire::TFMessage& message, const Guid& source) {
-          transforms_.Take(message, source);
-        });
-    inbox_.Deliver(transforms_, listener);
+    mountings_.Take();
+    inbox_.Deliver(mountings_.transforms(), listener);
   }
 
  private:
   WaitSet wait_set_;
-  Reader<wire::TFMessage> static_transforms_;
-  StaticTransforms transforms_{[this] { return static_transforms_.Participants(); }};
+  BasicMountingReader<team::Planar> mountings_;
   RobotInbox inbox_;
 };
 

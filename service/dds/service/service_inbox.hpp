@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "service/dds/entities/wait_set.hpp"
+#include "service/dds/robot/mounting_reader.hpp"
 #include "service/dds/robot/robot_discovery.hpp"
 #include "service/dds/robot/robot_inbox.hpp"
 #include "service/dds/service/other_services.hpp"
 #include "service/dds/service/robot_topics.hpp"
 #include "service/dds/wire/refusals.hpp"
-#include "service/dds/wire/static_transforms.hpp"
 #include "service/team/service/robot_session.hpp"
 #include "service/team/session/session_list.hpp"
 
@@ -83,9 +83,7 @@ class ServiceInbox {
   WaitSet wait_set_;
   RobotDiscovery discovery_;
   OtherServices others_;
-  Reader<wire::TFMessage> static_transform_reader_;
-  BasicStaticTransforms<Kind> transforms_{
-      [this] { return static_transform_reader_.Participants(); }};
+  BasicMountingReader<Kind> mountings_;
   std::set<std::string> publishers_;  // Robots whose scans are published.
   std::map<std::string, Robot> robots_;
   std::map<Entity::Handle, Robot*> robot_of_;  // By reader.

@@ -38,10 +38,10 @@ ServiceInbox<Session>::ServiceInbox(const Participant& participant,
       wait_set_(participant),
       discovery_(participant, scan_topics_, OnWire<Kind>::kScanType),
       others_(participant, OnWire<Kind>::kReportTopic, OnWire<Kind>::kReportType),
-      static_transform_reader_(participant, kStaticTransformsTopic, Profile::kStaticTransforms) {
+      mountings_(participant, refusals) {
   wait_set_.Add(discovery_.handle());
   wait_set_.Add(others_.handle());
-  wait_set_.Add(static_transform_reader_.handle());
+  wait_set_.Add(mountings_.handle());
   for (const std::string& robot : robots) Join(RobotNames(robot).name(), 0);
 }
 
@@ -61,11 +61,8 @@ void ServiceInbox<Session>::Deliver() {
   if (have_members_changed || have_others_changed) ShareRobots();
   const std::vector<BasicRobotInbox<Kind>*> due = TakeDue();
   for (BasicRobotInbox<Kind>* inbox : due) inbox->HoldScans();
-  static_transform_reader_.TakeAllWithSource(
-      [this](const wire::TFMessage& message, const Guid& source) {
-        transforms_.Take(message, source);
-      });
-  for (BasicRobotInbox<Kind>* inbox : due) inbox->Deliver(transforms_, sessions_);
+  mountings_.Take();
+  for (BasicRobotInbox<Kind>* inbox : due) inbox->Deliver(mountings_.transforms(), sessions_);
 }
 
 // The robots to listen to: a large team would keep this thread busy if each message had all of its
