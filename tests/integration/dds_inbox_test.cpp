@@ -52,11 +52,12 @@ class CountingListener : public team::RobotListener<team::Planar> {
     scans.push_back(std::move(scan));
     return true;
   }
-  void TakeOdometry(std::string_view, Timestamp, const Pose2&) override {}
+  void TakeOdometry(std::string_view, Timestamp, const Pose2&) override { ++readings; }
   void ExpectOdometry(std::string_view, bool) override {}
   void PlaceAt(std::string_view, const UncertainPose2&) override { ++places; }
 
   int places = 0;
+  int readings = 0;
   std::vector<LaserScan> scans;
 };
 
@@ -169,6 +170,26 @@ TEST_F(DdsInbox, APublisherOfMountingsThatKeepsNothingIsTold) {
   }));
   for (int i = 0; i < 20; ++i) deliver();
   EXPECT_EQ(told_.size(), 1U);
+}
+
+TEST_F(DdsInbox, OdometryOfAnotherFrameThanTransformsTellOfIsTold) {
+  RobotFeed feed(participant_, RobotNames("robot1"), {"scan"}, refusals_);
+  const Writer<wire::Odometry> odometry(participant_, "/robot1/odom", Profile::kSensorOut);
+  const std::string base = "base_link";
+  int i = 0;
+  const auto drive = [&](const std::string& frame) {
+    wire::Odometry sample{};
+    sample.header = HeaderOf(100ms * ++i, frame);
+    sample.child_frame_id = Borrow(base);
+    sample.pose.pose = ToWire(Pose2{});
+    odometry.Write(sample);
+    feed.Deliver(0ms, listener_);
+  };
+  EXPECT_TRUE(DoUntil([&] { drive("robot1/odom"); }, [&] { return listener_.readings > 20; }));
+  EXPECT_TRUE(told_.empty());
+  EXPECT_TRUE(
+      DoUntil([&] { drive("odom"); },
+              [&] { return IsTold("/robot1/odom: its frame_id is 'odom', not 'robot1/odom'"); }));
 }
 
 TEST_F(DdsInbox, ARobotThatIsStartedAgainBetweenTwoLooksIsNotLost) {

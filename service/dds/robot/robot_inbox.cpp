@@ -126,10 +126,23 @@ void BasicRobotInbox<Kind>::TakeOdometry(const wire::Odometry& sample,
                                          team::RobotListener<Kind>& listener) {
   const std::string_view objection = ObjectionToPose<Kind>(sample.header, sample.pose.pose);
   if (!objection.empty()) return refusals_.Add(names_.Topic(kOdometryTopic), objection);
+  TellOfFrame(sample.header.frame_id);
   const std::size_t length = strnlen(sample.child_frame_id, kMaxNameLength + 1);
   if (length > 0 && length <= kMaxNameLength) robot_frame_ = sample.child_frame_id;
   listener.TakeOdometry(
       names_.name(), *FromWire(sample.header.stamp), OnWire<Kind>::PoseOf(sample.pose.pose));
+}
+
+// The service tells where the frame `odom` of the robot lies: that is to be the one the odometry is
+// in, or transforms do not hang together.
+template <class Kind>
+void BasicRobotInbox<Kind>::TellOfFrame(std::string_view odometry_frame) {
+  const std::string expected = names_.Frame(kOdometryFrame);
+  if (odometry_frame == expected || std::exchange(is_frame_told_, true)) return;
+  refusals_.Tell(names_.Topic(kOdometryTopic) + ": its frame_id is '" +
+                 std::string(odometry_frame.substr(0, kMaxNameLength)) + "', not '" + expected +
+                 "', of which " + kTransformsTopic +
+                 " tells where it lies in the map: there is no way between the two");
 }
 
 /// @param source all zeros where it is not asked for.

@@ -58,6 +58,7 @@ class BasicRobotInbox {
 
   void HearOdometry(team::RobotListener<Kind>& listener);
   void TakeOdometry(const wire::Odometry& sample, team::RobotListener<Kind>& listener);
+  void TellOfFrame(std::string_view odometry_frame);
   struct ScanTopic;
   void HoldScan(const ScanTopic& topic,
                 const typename OnWire<Kind>::Scan& sample,
@@ -96,6 +97,7 @@ class BasicRobotInbox {
   std::string robot_frame_;
   Reader<wire::Odometry> odometry_;
   SourceWatch odometry_sources_;
+  bool is_frame_told_ = false;  // Whether it was told that odometry is in another frame.
   struct ScanTopic {
     std::string name;
     Reader<typename OnWire<Kind>::Scan> reader;
