@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <thread>
@@ -15,9 +16,11 @@
 
 #include "service/dds/entities/writer.hpp"
 #include "service/dds/robot/robot_feed.hpp"
+#include "service/dds/robot/shared_scan_reader.hpp"
 #include "service/dds/robot/source_watch.hpp"
 #include "service/dds/service/mark_exchange.hpp"
 #include "service/dds/service/team_inbox.hpp"
+#include "service/dds/wire/epoch_conversion.hpp"
 #include "service/dds/wire/mark_conversion.hpp"
 #include "service/dds/wire/planar.hpp"
 #include "service/dds/wire/robot_names.hpp"
@@ -238,6 +241,47 @@ TEST_F(DdsInbox, APlaceInAnotherFrameIsRefused) {
       IsTold("/robot1/initialpose: a sample was refused: its frame_id is 'robot1/odom', "
              "not 'map'; in RViz, that is the Fixed Frame"));
   EXPECT_EQ(told_.size(), 2U);
+}
+
+TEST_F(DdsInbox, SharedScansAreWhereTheNewestCorrectionHasPutThem) {
+  const Writer<wire::RelevantScan> scans(participant_, kSharedScansTopic, Profile::kSharedScans);
+  const Writer<wire::MapEpoch> epochs(participant_, "/map_epoch", Profile::kLatched);
+  const auto key_of = [](std::uint64_t sequence) {
+    return team::ScanKey{.service = "base", .robot = "robot1", .sequence = sequence};
+  };
+  const auto share = [&](std::uint64_t sequence) {
+    const team::TeamScan scan{.key = key_of(sequence),
+                              .component = "robot1",
+                              .scan = test::ObservationInRoom(0).scan,
+                              .map_robot = UncertainPose2::WithSigmas({}, 0.1, 0.1),
+                              .T_odom_robot = {}};
+    const std::string frame = "map_robot1";
+    scans.Write(ToWire(scan, frame));
+  };
+  const auto correct = [&](std::uint64_t number, double x_m) {
+    team::TeamEpoch epoch{.rank = {.number = number, .service = "base"}, .stamp = 1s, .scans = {}};
+    epoch.scans.push_back({.key = key_of(1),
+                           .component = "",
+                           .component_before = "robot1",
+                           .T_map_robot_before = {},
+                           .map_robot = UncertainPose2::WithSigmas({x_m, 0.0, 0.0}, 0.1, 0.1)});
+    epochs.Write(EpochSample(epoch).sample());
+  };
+  SharedScanReader reader(participant_);
+  share(1);
+  share(2);
+  correct(7, 3.0);
+  correct(6, 9.0);  // Of a service that did not know of the other one yet.
+  std::vector<team::TeamScan> heard;
+  const auto hear = [&] {
+    for (team::TeamScan& scan : reader.Take(10ms)) heard.push_back(std::move(scan));
+  };
+  ASSERT_TRUE(DoUntil(hear, [&] { return heard.size() == 2; }));
+  reader.Settle(heard);
+  EXPECT_EQ(heard[0].component, "");
+  EXPECT_EQ(heard[0].map_robot.T_a_b, (Pose2{3.0, 0.0, 0.0}));
+  EXPECT_EQ(heard[1].component, "robot1");
+  EXPECT_EQ(heard[1].map_robot.T_a_b, Pose2{});
 }
 
 TEST_F(DdsInbox, AMarkOfAClockThatIsAheadCanBeChangedAndRemoved) {

@@ -8,11 +8,13 @@
 
 #include "service/dds/entities/reader.hpp"
 #include "service/dds/entities/wait_set.hpp"
+#include "service/team/scans/team_epoch.hpp"
 #include "service/team/scans/team_scan.hpp"
 
 namespace qwsm::dds {
 
-/// Hears the relevant scans that services share: all there ever were, and those that come.
+/// Hears the relevant scans that services share: all there ever were, and those that come, and the
+/// corrections of where they belong.
 class SharedScanReader {
  public:
   /// Subscribes. @throws DdsError.
@@ -23,12 +25,17 @@ class SharedScanReader {
   /// All scans that arrived since the last call; waits for the first one if there is none. Those
   /// that may not be taken into a map are left out.
   std::vector<team::TeamScan> Take(std::chrono::nanoseconds timeout);
+  /// Puts scans where the newest correction says that they are. What came after that is where it
+  /// was told to be.
+  void Settle(std::vector<team::TeamScan>& scans);
   /// How many were left out so far.
   std::size_t refused() const { return refused_; }
 
  private:
   WaitSet wait_set_;
   Reader<wire::RelevantScan> reader_;
+  Reader<wire::MapEpoch> epochs_;
+  team::TeamEpoch newest_;
   std::size_t refused_ = 0;
 };
 

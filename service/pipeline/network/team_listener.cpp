@@ -43,6 +43,15 @@ std::vector<team::TeamScan> HearTeamScans(const dds::Participant& participant,
   std::vector<team::TeamScan> sorted;
   sorted.reserve(scans.size());
   for (auto& [key, scan] : scans) sorted.push_back(std::move(scan));
+  reader.Settle(sorted);
+  const std::size_t apart =
+      std::erase_if(sorted, [](const team::TeamScan& scan) { return !scan.component.empty(); });
+  if (apart > 0) {
+    messages::Warn(
+        "{} scans are in maps of their robots' own, and left out: nobody knows where in "
+        "the team's these lie",
+        apart);
+  }
   return sorted;
 }
 
