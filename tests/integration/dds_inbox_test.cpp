@@ -224,6 +224,20 @@ TEST_F(DdsInbox, ARobotThatIsStartedAgainBetweenTwoLooksIsNotLost) {
   }
 }
 
+TEST_F(DdsInbox, MoreRobotsThanAServiceHasRoomForAreTold) {
+  team::TeamService service({}, team::SinkList<team::TeamSink>(std::vector<team::TeamSink*>{}));
+  TeamInbox inbox(participant_, {}, service, {}, refusals_);
+  std::vector<Writer<wire::LaserScan>> robots;
+  for (std::size_t i = 0; i <= team::kMaxRobots; ++i) {
+    robots.emplace_back(participant_, "/robot" + std::to_string(i) + "/scan", Profile::kSensorOut);
+  }
+  EXPECT_TRUE(DoUntil([&] { inbox.Deliver(0ms); }, [&] { return !told_.empty(); }));
+  EXPECT_EQ(service.Status().robots.size(), team::kMaxRobots);
+  for (int i = 0; i < 20; ++i) inbox.Deliver(0ms);
+  ASSERT_EQ(told_.size(), 1U);
+  EXPECT_TRUE(IsTold("is not answered, nor who comes later: there were 256 robots already"));
+}
+
 TEST_F(DdsInbox, APlaceInAnotherFrameIsRefused) {
   RobotFeed feed(participant_, RobotNames("robot1"), {"scan"}, refusals_);
   const Writer<wire::PoseWithCovarianceStamped> poses(

@@ -69,6 +69,7 @@ class ServiceInbox {
   void ShareRobots();
   std::vector<BasicRobotInbox<Kind>*> TakeDue();
   void Join(const std::string& robot, std::uint64_t since_ns);
+  void TellOfTooMany(const std::string& robot);
   void Leave(const std::string& robot);
   void Attend(const std::string& name, Robot& robot);
   void Listen(const std::string& name, Profile profile, Robot& robot);
@@ -85,6 +86,7 @@ class ServiceInbox {
   OtherServices others_;
   BasicMountingReader<Kind> mountings_;
   std::set<std::string> publishers_;  // Robots whose scans are published.
+  bool are_too_many_told_ = false;
   std::map<std::string, Robot> robots_;
   std::map<Entity::Handle, Robot*> robot_of_;  // By reader.
   Clock::time_point all_heard_at_{};           // When all robots were listened to.

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 #include <utility>
 
 #include "service/dds/service/service_inbox.hpp"
@@ -105,9 +106,19 @@ void ServiceInbox<Session>::ShareRobots() {
   }
   for (const std::string& robot : claimed) Leave(robot);
   for (const std::string& robot : publishers_) {
-    if (robots_.size() >= team::kMaxRobots) return;
-    if (!robots_.contains(robot) && !others_.Answer(robot)) Join(robot, NanosecondsNow());
+    if (robots_.contains(robot) || others_.Answer(robot)) continue;
+    if (robots_.size() >= team::kMaxRobots) return TellOfTooMany(robot);
+    Join(robot, NanosecondsNow());
   }
+}
+
+template <class Session>
+void ServiceInbox<Session>::TellOfTooMany(const std::string& robot) {
+  if (std::exchange(are_too_many_told_, true)) return;
+  refusals_.Tell("/" + robot + " is not answered, nor who comes later: there were " +
+                 std::to_string(team::kMaxRobots) +
+                 " robots already, each of which may come back; a service that is started anew has "
+                 "room again");
 }
 
 // Readers stay when a robot leaves: it may come back where it left.
