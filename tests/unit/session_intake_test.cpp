@@ -134,5 +134,22 @@ TEST_F(OdometryApart, AGapInItIsNoEndOfIt) {
   for (int scan = 21; scan < 25; ++scan) EXPECT_FALSE(Drive(scan).value().lacks_odometry);
 }
 
+class GyroApart : public OdometryApart, public ::testing::WithParamInterface<int> {};
+
+TEST_P(GyroApart, IsToldOf) {
+  intake_.ExpectImu(true);
+  for (int scan = 0; scan < 20; ++scan) {
+    const LaserScan seen = test::ObservationInRoom(scan).scan;
+    for (const Timestamp ahead_by : {-50ms, 0ms, 50ms}) {
+      intake_.TakeImu({.stamp = seen.stamp + ahead_by + GetParam() * 1s});
+    }
+    EXPECT_EQ(Drive(scan).value().gyro_rad.has_value(), GetParam() == 0);
+  }
+  EXPECT_EQ(ToldOf("without its gyro, whose readings are of another time"),
+            GetParam() == 0 ? 0 : 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Clocks, GyroApart, ::testing::Values(0, -5, 5));
+
 }  // namespace
 }  // namespace qwsm::team

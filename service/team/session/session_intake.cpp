@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/team/session/session_intake.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -19,8 +17,6 @@ using std::chrono::steady_clock;
 
 // Odometry this far behind the scans is not worth waiting for.
 constexpr std::chrono::nanoseconds kOdometryGone = std::chrono::seconds(1);
-// After so many scans in a row that are that far from it, it is told.
-constexpr int kScansApart = 10;
 // What odometry may jump by in no time.
 constexpr double kJump_m = 0.5;
 constexpr double kJump_rad = 0.5;
@@ -270,9 +266,11 @@ std::optional<typename SessionIntake<Kind>::Work> SessionIntake<Kind>::Take() {
   DropScansBeforeOdometry();
   if (queue_.empty()) return std::nullopt;
   Work work = Prepare(queue_.Pop());
-  const std::string trouble = TroubleWithOdometry(work);
+  const std::array<std::string, 2> troubles = WatchClocks(work);
   lock.unlock();
-  if (!trouble.empty()) events_.Warn(trouble);
+  for (const std::string& trouble : troubles) {
+    if (!trouble.empty()) events_.Warn(trouble);
+  }
   return work;
 }
 
@@ -311,17 +309,14 @@ void SessionIntake<Kind>::DropScansBeforeOdometry() {
 }
 
 template <class Kind>
-std::string SessionIntake<Kind>::TroubleWithOdometry(const Work& work) {
-  const std::chrono::nanoseconds apart = odometry_.Apart(work.scan.stamp);
-  const bool is_apart =
-      expects_odometry_ && !work.T_odom_robot && std::max(apart, -apart) > kOdometryGone;
-  scans_apart_ = is_apart ? scans_apart_ + 1 : 0;
-  if (scans_apart_ != kScansApart) return {};
-  return fmt::format(
-      "its scans are matched without odometry, which is of another time: they are stamped {:.1f} s "
-      "{}; whoever publishes both has to stamp them by one clock, and without a break",
-      std::abs(Seconds(apart)),
-      apart.count() > 0 ? "after the newest of it" : "before the oldest that is kept");
+std::array<std::string, 2> SessionIntake<Kind>::WatchClocks(const Work& work) {
+  const Timestamp stamp = work.scan.stamp;
+  const bool lacks_odometry = expects_odometry_ && !work.T_odom_robot;
+  const bool lacks_gyro = expects_imu_ && !gyro_.empty() && !work.gyro_rad;
+  const bool is_gyro_apart =
+      !gyro_.Covers(stamp - ClockWatch::kApart) || gyro_.Covers(stamp + ClockWatch::kApart);
+  return {clocks_.NoteOdometry(lacks_odometry ? odometry_.Apart(stamp) : Timestamp{}),
+          clocks_.NoteGyro(lacks_gyro && is_gyro_apart)};
 }
 
 template <class Kind>

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <mutex>
@@ -13,6 +14,7 @@
 #include "qwsm/sensor/gyro_track.hpp"
 #include "qwsm/sensor/tilt_track.hpp"
 #include "service/team/scans/sensor_kind.hpp"
+#include "service/team/session/clock_watch.hpp"
 #include "service/team/session/latency_histogram.hpp"
 #include "service/team/session/odometry_buffer.hpp"
 #include "service/team/session/scan_queue.hpp"
@@ -128,7 +130,7 @@ class SessionIntake {
   void DropScansBeforeOdometry();
   Work Prepare(Arrival next);
   void WatchOdometry(Work& work);
-  std::string TroubleWithOdometry(const Work& work);
+  std::array<std::string, 2> WatchClocks(const Work& work);
 
   const RobotEvents events_;
   const SessionOptions options_;
@@ -144,9 +146,9 @@ class SessionIntake {
   StampGuard imu_guard_;
   bool expects_imu_ = false;
   bool expects_odometry_ = false;
-  bool hears_odometry_ = false;              // Whether there was odometry since the robot joined.
-  bool has_had_odometry_ = false;            // Whether a scan had some.
-  int scans_apart_ = 0;                      // In a row, far from any odometry.
+  bool hears_odometry_ = false;    // Whether there was odometry since the robot joined.
+  bool has_had_odometry_ = false;  // Whether a scan had some.
+  ClockWatch clocks_;
   std::optional<Lane::Time> first_arrived_;  // Arrival of the first scan since the robot joined.
   ScanQueue<Arrival> queue_;
   std::size_t waited_ = 0;                      // Of the scans that come next, so many had to wait.
