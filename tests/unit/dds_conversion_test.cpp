@@ -4,6 +4,8 @@
 // What goes over the wire and comes back: the same to the last bit, or refused.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -11,9 +13,11 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "qwsm/sensor/scan_limits.hpp"
+#include "service/dds/wire/diagnostics.hpp"
 #include "service/dds/wire/epoch_conversion.hpp"
 #include "service/dds/wire/planar.hpp"
 #include "service/dds/wire/robot_names.hpp"
@@ -154,6 +158,25 @@ TEST(StaticTransforms, PlaceLasersThatAreUpsideDownAndNoneThatIsTilted) {
   EXPECT_FALSE(transforms.Find("base_link", "tilted"));
   add("tilted", "level", {0.0, 0.0, 0.0}, {0.0, -std::sin(0.1), 0.0, std::cos(0.1)});
   EXPECT_NEAR(transforms.Find("base_link", "level").value().x_m, 0.2, 1e-12);
+}
+
+TEST(Health, OfARobotThatIsThereAndSilentIsNotGood) {
+  team::TeamStatus status;
+  status.robots.resize(1);
+  team::RobotStatus& robot = status.robots.front();
+  robot.state = team::RobotState::kTracked;
+  robot.silence = std::chrono::seconds(2);
+  EXPECT_EQ(HealthOf(status, {}).back().level, HealthLevel::kOk);
+  EXPECT_EQ(HealthOf(status, {}).back().message, "tracked");
+  robot.silence = std::chrono::seconds(42);
+  EXPECT_EQ(HealthOf(status, {}).back().level, HealthLevel::kWarning);
+  EXPECT_EQ(HealthOf(status, {}).back().message, "tracked, silent");
+  const std::vector<Health> health = HealthOf(status, {});
+  EXPECT_NE(std::ranges::find(health.back().values,
+                              std::pair<std::string, std::string>("silent_s", "42")),
+            health.back().values.end());
+  robot.state = team::RobotState::kLost;
+  EXPECT_EQ(HealthOf(status, {}).back().level, HealthLevel::kStale);
 }
 
 class WireScan : public ::testing::Test {

@@ -58,6 +58,13 @@ TEST_F(SessionIntakeTest, TellsOnceOfEachKindOfScanThatIsRefused) {
   }
 }
 
+TEST_F(SessionIntakeTest, TellsSinceWhenNoneHasCome) {
+  EXPECT_EQ(intake_.Status().silence, 0s);
+  GiveScans(1);
+  std::this_thread::sleep_for(2ms);
+  EXPECT_GE(intake_.Status().silence, 2ms);
+}
+
 TEST_F(SessionIntakeTest, DropsTheOldestScansWhereMoreComeThanCanBeMatched) {
   GiveScans(10);
   EXPECT_EQ(intake_.Status().counts.dropped, 7U);

@@ -4,11 +4,16 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+
 #include "service/dds/wire/planar.hpp"
 #include "service/team/scans/component.hpp"
 
 namespace qwsm::dds {
 namespace {
+
+// A robot whose publisher is there and sends nothing for longer is worth a look.
+constexpr std::chrono::seconds kSilence{10};
 
 template <class Value>
 void Add(Health& health, const char* key, const Value& value) {
@@ -31,6 +36,12 @@ Health HealthOf(const team::RobotStatus& robot) {
   if (robot.state == team::RobotState::kTracked && !robot.component.empty()) {
     health.message += " in " + team::FrameOf(robot.component);
   }
+  const bool is_here =
+      robot.state == team::RobotState::kTracked || robot.state == team::RobotState::kUnplaced;
+  if (is_here && robot.silence > kSilence) {
+    health.level = HealthLevel::kWarning;
+    if (robot.state == team::RobotState::kTracked) health.message += ", silent";
+  }
   const team::SessionCounts& counts = robot.counts;
   Add(health, "scans", counts.scans);
   Add(health, "answered", counts.answered);
@@ -50,6 +61,7 @@ Health HealthOf(const team::RobotStatus& robot) {
   Add(health, "contradicted_poses", counts.contradicted_poses);
   Add(health, "contradicted_mountings", counts.contradicted_mountings);
   Add(health, "waiting", robot.waiting);
+  Add(health, "silent_s", std::chrono::duration_cast<std::chrono::seconds>(robot.silence).count());
   AddMilliseconds(health, "matching_median_ms", robot.matching.median);
   AddMilliseconds(health, "matching_p99_ms", robot.matching.p99);
   AddMilliseconds(health, "latency_median_ms", robot.latency.median);

@@ -119,6 +119,7 @@ bool SessionIntake<Kind>::Enqueue(Scan scan, const std::optional<Pose>& T_robot_
 template <class Kind>
 std::string_view SessionIntake<Kind>::Count(std::string_view malformed, const Scan& scan) {
   ++counts_.scans;
+  heard_at_ = steady_clock::now();
   if (!malformed.empty()) {
     ++counts_.malformed;
     return malformed;
@@ -370,6 +371,7 @@ RobotStatus SessionIntake<Kind>::Status() const {
           .state = state_,
           .map_robot = map_robot_,
           .stamp = answered_stamp_,
+          .silence = heard_at_ ? steady_clock::now() - *heard_at_ : Timestamp{},
           .waiting = queue_.size(),
           .counts = counts_,
           .matching = Summarize(working_),

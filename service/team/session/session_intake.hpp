@@ -149,6 +149,7 @@ class SessionIntake {
   bool hears_odometry_ = false;    // Whether there was odometry since the robot joined.
   bool has_had_odometry_ = false;  // Whether a scan had some.
   ClockWatch clocks_;
+  std::optional<Lane::Time> heard_at_;       // When the last scan came.
   std::optional<Lane::Time> first_arrived_;  // Arrival of the first scan since the robot joined.
   ScanQueue<Arrival> queue_;
   std::size_t waited_ = 0;                      // Of the scans that come next, so many had to wait.

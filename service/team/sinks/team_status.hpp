@@ -64,7 +64,9 @@ struct RobotStatus {
   std::string component{};     ///< Of the team's map, that it is in.
   UncertainPose2 map_robot{};  ///< Pose at the robot's last answered scan.
   Timestamp stamp{};           ///< Stamp of the robot's last answered scan.
-  std::size_t waiting = 0;     ///< Scans in the queue.
+  /// Since when none of its scans has come, used or not; 0 before the first.
+  std::chrono::nanoseconds silence{};
+  std::size_t waiting = 0;  ///< Scans in the queue.
   SessionCounts counts;
   LatencySummary matching;  ///< Time of the match alone.
   LatencySummary latency;   ///< Time from the arrival of a scan to its pose.
