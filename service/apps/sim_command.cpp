@@ -48,6 +48,19 @@ struct SimArguments {
   bool is_on_network() const { return dds || view; }
 };
 
+/// A robot's log must not be what the run says, which would be written over it.
+void RefuseNamesOfTheRun(const sim::ScenarioOptions& scenario) {
+  for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
+    const std::string& name = scenario.robots[i].name;
+    if (name + ".log" != NameOf(ResultFile::kLog)) continue;
+    throw UsageError(fmt::format(
+        "robots[{}].name: '{}' has no log: {}.log is what this run says; call the robot otherwise",
+        i,
+        name,
+        name));
+  }
+}
+
 SimulatedLogs OpenLogs(const sim::Simulation& simulation, const ResultsFolder& folder) {
   SimulatedLogs logs;
   for (std::size_t i = 0; i < simulation.robots().size(); ++i) {
@@ -133,6 +146,7 @@ ExitCode RunSim(const SimArguments& arguments) {
     throw UsageError("--network needs --dds or --view: without, nothing is published");
   }
   const sim::ScenarioOptions scenario = LoadScenario(arguments.scenario);
+  RefuseNamesOfTheRun(scenario);
   sim::Simulation simulation(scenario);
   const ResultsFolder folder = arguments.output ? ResultsFolder(*arguments.output, arguments.force)
                                                 : ResultsFolder::ForNow("results");

@@ -3,6 +3,7 @@
 #include "sim/robot.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <numbers>
 #include <utility>
 
@@ -36,6 +37,11 @@ bool IsPast(qwsm::Timestamp now, double time_s) {
 }
 
 }  // namespace
+
+bool IsFileName(const std::string& name) {
+  const auto is_legal = [](unsigned char c) { return c != '/' && std::iscntrl(c) == 0; };
+  return !name.empty() && !name.starts_with('.') && std::ranges::all_of(name, is_legal);
+}
 
 qwsm::Pose2 ToldStart(const RobotOptions& options, const qwsm::Pose2& T_world_start) {
   return {T_world_start.x_m + options.told_start_off_x_m,

@@ -62,6 +62,17 @@ TEST_F(SimCommand, LeavesALogThatReadsBackWithTheTruth) {
   EXPECT_EQ(true_poses, 21U);
 }
 
+TEST_F(SimCommand, WritesNothingOutsideItsFolderAndOverNothingOfItsOwn) {
+  for (const char* name : {"../outside", "run"}) {
+    const Outcome outcome = Simulate(
+        "park", {"--duration", "2", "--set", std::string("robots[0].name=") + name}, "named");
+    EXPECT_EQ(outcome.exit_code, 2) << name;
+    EXPECT_NE(outcome.errors.find("robots[0].name: "), std::string::npos) << outcome.errors;
+    EXPECT_FALSE(fs::exists(folder_.path() / "outside.log"));
+    EXPECT_FALSE(fs::exists(folder_.path() / "named"));
+  }
+}
+
 TEST_F(SimCommand, GivesTheSameForTheSameSeedOnly) {
   for (const char* folder : {"a", "b"}) Simulate("park", {"--duration", "10"}, folder);
   Simulate("park", {"--duration", "10", "--seed", "2"}, "c");

@@ -46,6 +46,18 @@ TEST(Scenario, RefusesRobotsInsideEachOther) {
   EXPECT_TRUE(HasProblem(scenario, "robots[1].start_x_m"));
 }
 
+TEST(Scenario, RefusesNamesThatAreNoFiles) {
+  ScenarioOptions scenario = testing::EmptyFloor();
+  for (const char* name : {"", ".", "..", "../robot", "/tmp/robot", "team/robot", "a\nb", ".log"}) {
+    scenario.robots[0].name = name;
+    EXPECT_TRUE(HasProblem(scenario, "robots[0].name")) << name;
+  }
+  for (const char* name : {"robot", "robot 1", "robot-1.b", "Retter\xc3\xbc"}) {
+    scenario.robots[0].name = name;
+    EXPECT_FALSE(HasProblem(scenario, "robots[0].name")) << name;
+  }
+}
+
 TEST(Scenario, RefusesValuesOutOfBounds) {
   ScenarioOptions scenario = testing::EmptyFloor();
   scenario.robots[0].laser.beams = 0;

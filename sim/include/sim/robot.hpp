@@ -98,8 +98,16 @@ void Describe(Visitor& visit, RobotOptions& o) {
   visit("driver", o.driver, {.help = "who steers it, and where to"});
 }
 
+/// Whether files can be called after a robot of that name, and none outside of their folder.
+bool IsFileName(const std::string& name);
+
 template <class Report>
 void Validate(const RobotOptions& o, Report& report) {
+  if (!IsFileName(o.name)) {
+    report("name",
+           "its files are called after it: must be a text without '/' and control characters that "
+           "does not begin with '.'");
+  }
   if (o.more_lasers.size() > 4) report("more_lasers", "must be four at most: logs name five");
   if (o.drive.track_m > o.width_m) report("width_m", "must be at least drive.track_m");
   if (o.drive.type == DriveType::kSkidSteer && o.drive.wheelbase_m > o.length_m) {
