@@ -7,15 +7,9 @@ import {readFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {after, before, test} from 'node:test';
 import {chromium} from 'playwright-core';
-import {freePort, Programs, until} from './programs.mjs';
+import {freePort, kBrowser, Programs, until} from './programs.mjs';
 
 const kAxe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
-const kBrowser = {
-  executablePath: process.env.QWSM_CHROMIUM ?? '/usr/bin/chromium',
-  args: ['--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run',
-    '--disable-background-networking', '--disable-component-update', '--disable-sync'],
-};
-
 let programs, browser, page, port, service;
 const complaints = [];
 

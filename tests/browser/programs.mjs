@@ -11,6 +11,13 @@ import {fileURLToPath} from 'node:url';
 
 const kPrograms = process.env.QWSM_PROGRAMS ?? fileURLToPath(new URL('../../build/release/bin', import.meta.url));
 
+// How a browser is started.
+export const kBrowser = {
+  executablePath: process.env.QWSM_CHROMIUM ?? '/usr/bin/chromium',
+  args: ['--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run',
+    '--disable-background-networking', '--disable-component-update', '--disable-sync'],
+};
+
 export async function freePort() {
   const server = createServer();
   await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));

@@ -5,10 +5,14 @@
 const kProtocol = 'foxglove.websocket.v1';
 const kFirstPause_ms = 500;
 const kLongestPause_ms = 4000;
+// The service tells its time ten times a second. TCP alone may hold a dead line for alive for an hour.
+const kQuiet_ms = 3000;
+const kGivenUp_ms = 15000;
 const kDrift_ms = 0.1;  // Of two clocks, between two times that the service tells.
 
 export class Connection {
-  // `handlers`: opened(info), lost(), channels(list), message(channel, view, stamp_ms), status(status).
+  // `handlers`: opened(info), lost(), quiet() and heard() when the service has said nothing for some time and speaks again,
+  // channels(list), message(channel, view, stamp_ms), status(status).
   constructor(url, handlers) {
     this.url = url;
     this.handlers = handlers;
@@ -20,6 +24,8 @@ export class Connection {
     this.pause_ms = kFirstPause_ms;
     this.bytes = 0;
     this.ahead_ms = -Infinity;  // Of the service's clock before this computer's.
+    this.isQuiet = false;
+    this.watched_ms = 0;
     this.#connect();
   }
 
@@ -44,7 +50,7 @@ export class Connection {
 
   // Says that something will be published: the service looks for who listens. @return whether it hears.
   prepare(topic, schemaName) {
-    if (this.socket?.readyState !== WebSocket.OPEN) return false;
+    if (this.socket?.readyState !== WebSocket.OPEN || this.isQuiet) return false;
     if (this.publications.has(topic)) return true;
     const id = ++this.lastId;
     this.publications.set(topic, id);
@@ -52,14 +58,44 @@ export class Connection {
     return true;
   }
 
+  // Is called several times a second: who says nothing is no more there than who has gone, and may be behind a dead line.
+  watch() {
+    const now_ms = performance.now();
+    const hasSlept = now_ms - this.watched_ms > kQuiet_ms / 2;  // This page: what came meanwhile has not been read yet.
+    this.watched_ms = now_ms;
+    if (hasSlept) this.heard_ms = now_ms;
+    if (this.socket.readyState === WebSocket.CLOSED) return;
+    const quiet_ms = now_ms - this.heard_ms;
+    if (quiet_ms > kGivenUp_ms) return this.#giveUp();
+    if (quiet_ms < kQuiet_ms || this.isQuiet) return;
+    this.isQuiet = true;
+    this.handlers.quiet();
+  }
+
   #connect() {
     this.socket = new WebSocket(this.url, [kProtocol]);
     this.socket.binaryType = 'arraybuffer';
-    this.socket.onmessage = ({data}) => typeof data === 'string' ? this.#takeText(JSON.parse(data)) : this.#takeBytes(data);
+    this.socket.onmessage = ({data}) => this.#hear(data);
     this.socket.onclose = () => this.#lose();
+    this.heard_ms = performance.now();
+  }
+
+  #hear(data) {
+    this.heard_ms = performance.now();
+    if (this.isQuiet) this.handlers.heard();
+    this.isQuiet = false;
+    if (typeof data === 'string') this.#takeText(JSON.parse(data)); else this.#takeBytes(data);
+  }
+
+  // Closing takes an answer, which does not come.
+  #giveUp() {
+    this.socket.onmessage = this.socket.onclose = null;
+    this.socket.close();
+    this.#lose();
   }
 
   #lose() {
+    this.isQuiet = false;
     this.channels.clear();
     this.subscriptions.clear();
     this.publications.clear();

@@ -45,7 +45,7 @@ function wants({topic, schemaName}) {
 
 // --- The service ---
 
-let session = null;
+let session = null, serviceName = '';
 const token = new URLSearchParams(location.search).get('token');
 const address = `${location.protocol.replace('http', 'ws')}//${location.host}/ws${token ? `?token=${encodeURIComponent(token)}` : ''}`;
 const connection = new Connection(address, {
@@ -55,10 +55,13 @@ const connection = new Connection(address, {
       model.tell('the service was started anew');
     }
     session = sessionId;
+    serviceName = name;
     showLink('live', name);
     document.title = name;
   },
   lost: () => showLink('lost', session === null && token === null ? 'no service, or a token is needed; trying again' : 'no service: trying again'),
+  quiet: () => showLink('lost', 'no word from the service'),
+  heard: () => showLink('live', serviceName),
   channels: changed,
   message: (channel, bytes, stamp_ms) => {
     model.take(channel, decode(channel.schemaName, bytes), {published_ms: stamp_ms, told_ms: connection.toLocal(stamp_ms)});
@@ -187,6 +190,7 @@ function updateNow(now_ms) {
   timeLine.update();
   model.placeLateScans();
   navigation.update();
+  connection.watch();
   connection.want(wants);
   preparePlaces(now_ms);
   changed();
