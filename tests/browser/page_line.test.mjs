@@ -38,4 +38,29 @@ test('a service that hangs is not shown as live, and not told anything', async (
   await page.waitForFunction(() => document.getElementById('link').dataset.state === 'live');
 });
 
+test('of a map whose service was started anew nothing of before is left', async () => {
+  const {known, cells, relevant, path} = await page.evaluate(() => {
+    const {model} = window.qwsm;
+    const tile = (id, x) => model.take({id, topic: '/other/map_tiles', schemaName: 'qwsm_msgs/msg/MapTile'},
+      {frame: 'map', generation: 1, resolution: 0.5, x, y: 0, width: 64, height: 64, runs: new Uint8Array(64).fill(0xbf)});
+    const scan = (id, number) => model.take({id, topic: '/other/relevant_scans', schemaName: 'qwsm_msgs/msg/RelevantScan'},
+      {origin: `of ${id}`, robot: 'robot_8', number, stamp: number, frame: 'map', pose: {x: 0, y: 0, theta: 0}, laser: {x: 0, y: 0, theta: 0},
+        covariance: [], angleMin: 0, angleIncrement: 0.1, rangeMin: 0, rangeMax: 10, ranges: [1]});
+    tile(1000001, 0);
+    scan(1000002, 1);
+    const [known] = [model.maps.get('/other/map_tiles').bounds];
+    tile(1000003, 3200);
+    tile(1000003, 3232);
+    scan(1000004, 2);
+    scan(1000004, 3);
+    const robot = model.robots.get('robot_8');
+    const found = {known, cells: model.maps.get('/other/map_tiles').bounds, relevant: [...model.relevant.values()].filter(({stamp}) => stamp <= 3).length, path: robot.relevant.length};
+    model.beginSession();
+    model.robots.delete('robot_8');
+    return found;
+  });
+  assert.deepEqual({known, cells}, {known: {left: 0, bottom: 0, right: 32, top: 32}, cells: {left: 3200, bottom: 0, right: 3264, top: 32}});
+  assert.deepEqual({relevant, path}, {relevant: 2, path: 2});
+});
+
 test('nothing went wrong in the page', () => assert.deepEqual(complaints, []));

@@ -20,6 +20,7 @@ const scanKey = ({origin, robot, number}) => `${origin}/${robot}/${number}`;
 export class Model {
   constructor() {
     this.robots = new Map();
+    this.sources = new Map();  // Channels of topics, by the topic.
     this.maps = new Map();  // By topic.
     this.clouds = new Map();  // Points of models in space, by topic.
     this.sensors = new Map();  // Poses on the robot, by frame.
@@ -36,14 +37,32 @@ export class Model {
 
   // After the service has come back: its map begins anew; what was seen of the robots stays.
   beginSession() {
+    this.sources.clear();
     this.maps.clear();
     this.clouds.clear();
     this.sensors.clear();
-    this.relevant.clear();
+    this.#forgetRelevant();
     this.epoch = null;
-    for (const robot of this.robots.values()) robot.relevant = [];
     this.marks.clear();
     ++this.mapVersion;
+  }
+
+  #forgetRelevant() {
+    this.relevant.clear();
+    for (const robot of this.robots.values()) robot.relevant = [];
+  }
+
+  // A topic that was gone and is there again, as of another service that was started anew, tells of another map: none of what
+  // it said before lies on that. Until it is there again the last that was known is shown.
+  #noteSource({id, topic, schemaName}) {
+    const known = this.sources.get(topic);
+    this.sources.set(topic, id);
+    if (known === undefined || known === id) return;
+    switch (schemaName) {
+      case 'qwsm_msgs/msg/MapTile': this.maps.delete(topic); break;
+      case 'qwsm_msgs/msg/RelevantScan': this.#forgetRelevant(); break;
+      case 'qwsm_msgs/msg/MapEpoch': this.epoch = null; break;
+    }
   }
 
   robot(name) {
@@ -61,6 +80,7 @@ export class Model {
   }
 
   take(channel, message, times) {
+    this.#noteSource(channel);
     const robotName = channel.topic.split('/').slice(1, -1).join('/');
     switch (channel.schemaName) {
       case 'qwsm_msgs/msg/RegistrationReport':
