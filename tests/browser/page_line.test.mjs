@@ -63,4 +63,27 @@ test('of a map whose service was started anew nothing of before is left', async 
   assert.deepEqual({relevant, path}, {relevant: 2, path: 2});
 });
 
+test('a scan is drawn from where its laser sits, over any number of steps', async () => {
+  const points = await page.evaluate(() => {
+    const {model} = window.qwsm;
+    const transform = (frame, child, x, y, theta) => ({frame, child, x, y, theta});
+    model.take({id: 1, topic: '/tf_static', schemaName: 'tf2_msgs/msg/TFMessage'},
+      [transform('robot_7/base_link', 'robot_7/mast', 0.5, 0, Math.PI / 2), transform('robot_7/mast', 'robot_7/laser', 0.25, 0, 0),
+        transform('robot_7/odd', 'robot_7/even', 0, 0, 0), transform('robot_7/even', 'robot_7/odd', 0, 0, 0)], {});
+    model.take({id: 2, topic: '/robot_7/match_report', schemaName: 'qwsm_msgs/msg/MatchReport'},
+      {robot: 'robot_7', frame: 'map', stamp: 5, pose: {x: 10, y: 20, theta: 0}, covariance: new Float64Array(9), status: 1, reason: '', overlap: 1}, {published_ms: 0, told_ms: Date.now()});
+    const scan = (frame) => {
+      model.take({id: 3, topic: '/robot_7/scan', schemaName: 'sensor_msgs/msg/LaserScan'},
+        {stamp: 5, frame, angleMin: 0, angleIncrement: 0.1, rangeMin: 0, rangeMax: 10, ranges: [2]}, {});
+      return [...model.robots.get('robot_7').points];
+    };
+    const points = [scan('robot_7/laser'), scan('robot_7/base_link'), scan('robot_7/odd')];
+    model.beginSession();
+    model.robots.delete('robot_7');
+    return points;
+  });
+  // Of the mast, turned left, 0.25 m farther on; of a circle, which nobody can follow, once round.
+  assert.deepEqual(points, [[10.5, 22.25], [12, 20], [12, 20]]);
+});
+
 test('nothing went wrong in the page', () => assert.deepEqual(complaints, []));

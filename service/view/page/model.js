@@ -150,9 +150,19 @@ export class Model {
   }
 
   #putScan(robot, scan) {
-    const sensor = this.sensors.get(scan.frame) ?? {x: 0, y: 0, theta: 0};
-    robot.points = scanPoints(scan, compose(robot.poseAt(scan.stamp) ?? robot.last, sensor));
+    robot.points = scanPoints(scan, compose(robot.poseAt(scan.stamp) ?? robot.last, this.#placeOnRobot(scan.frame)));
     robot.scans = robot.scans.filter(({stamp}) => stamp > scan.stamp);
+  }
+
+  // Where a sensor sits, over any number of steps, as the service reckons: what stands still on a robot hangs on its base.
+  #placeOnRobot(frame) {
+    let place = {x: 0, y: 0, theta: 0};
+    const passed = new Set();
+    for (let link; !passed.has(frame) && (link = this.sensors.get(frame)); frame = link.frame) {
+      passed.add(frame);
+      place = compose(link, place);
+    }
+    return place;
   }
 
   // The answer of a robot that stands says nothing new, and does not come: the last one holds.
