@@ -86,4 +86,13 @@ test('a scan is drawn from where its laser sits, over any number of steps', asyn
   assert.deepEqual(points, [[10.5, 22.25], [12, 20], [12, 20]]);
 });
 
+test('costs of navigation are no walls on the map', async () => {
+  const costs = programs.publishLargeMap('/local_costmap/costmap');
+  await page.waitForFunction(() => window.qwsm.connection.topics.has('/local_costmap/costmap_tiles'));
+  const map = programs.publishLargeMap();
+  await page.waitForFunction(() => window.qwsm.model.maps.has('/large/map_tiles'));
+  assert.deepEqual(await page.evaluate(() => [...window.qwsm.model.maps.keys()]), ['/large/map_tiles']);
+  for (const publisher of [costs, map]) publisher.kill('SIGKILL');
+});
+
 test('nothing went wrong in the page', () => assert.deepEqual(complaints, []));

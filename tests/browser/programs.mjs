@@ -79,8 +79,8 @@ export class Programs {
   }
 
   // Somebody who publishes a map of 100 x 100 m at 5 cm.
-  publishLargeMap() {
-    return this.start([this.tag], join(kPrograms, '..', 'tests', 'browser', 'large_map'));
+  publishLargeMap(topic = '/large/map') {
+    return this.start([this.tag, topic], join(kPrograms, '..', 'tests', 'browser', 'large_map'));
   }
 
   // Settings of a service that encrypts, with a certificate that nobody vouches for.

@@ -35,6 +35,8 @@ const navigation = new Navigation(view, model, state, changed);
 // What is heavy is asked for only when it is to be seen.
 function wants({topic, schemaName}) {
   if (!decodes(schemaName) || topic === '/tf') return false;
+  // Of grids maps: costs of navigation, which may be in another frame, would be walls.
+  if (schemaName === 'qwsm_msgs/msg/MapTile') return topic.endsWith('/map_tiles');
   // Of clouds the model, not what each scan added to it.
   if (schemaName === 'sensor_msgs/msg/PointCloud2') return topic.endsWith('/cloud_map');
   if (schemaName === 'nav_msgs/msg/Path') return connection.topics.has(topic.replace(/path$/, 'cloud_map'));
