@@ -95,4 +95,27 @@ test('costs of navigation are no walls on the map', async () => {
   for (const publisher of [costs, map]) publisher.kill('SIGKILL');
 });
 
+test('keys do what they say on a page just opened, with Caps Lock, and after a box or the time line was used', async () => {
+  const other = await browser.newPage({viewport: {width: 1280, height: 800}});
+  await other.goto(page.url());
+  await other.waitForFunction(() => document.getElementById('link').dataset.state === 'live');
+  const camera = () => other.evaluate(() => ({x: window.qwsm.view.camera.x, tool: window.qwsm.state.tool}));
+  const before = await camera();
+  await other.keyboard.press('ArrowRight');
+  assert.ok((await camera()).x > before.x);
+  await other.keyboard.press('M');
+  assert.equal((await camera()).tool, 'measure');
+  await other.keyboard.press('l');
+  await other.locator('#layers input').first().click();
+  await other.keyboard.press('v');
+  assert.equal((await camera()).tool, 'look');
+  await other.locator('#time-slider').focus();
+  await other.keyboard.press('m');
+  assert.equal((await camera()).tool, 'measure');
+  const {x} = await camera();
+  await other.keyboard.press('ArrowLeft');
+  assert.equal((await camera()).x, x, 'arrows are the time line\'s');
+  await other.close();
+});
+
 test('nothing went wrong in the page', () => assert.deepEqual(complaints, []));

@@ -175,9 +175,12 @@ const keys = {
   f: () => navigation.showAll(), u: () => navigation.turnUpright(), s: () => navigation.nextSide(),
   n: nextRobot, c: async () => tools.hint(await navigation.copyPlace()), l: toggleLayers, t: otherTheme, End: () => timeLine.live(),
 };
+// Boxes and the time line take no letters: whoever has just used one goes on by keys, with Caps Lock, too.
 addEventListener('keydown', (event) => {
-  const isTyping = event.target.matches('input, dialog *') || event.ctrlKey || event.metaKey || event.altKey;
-  if (!isTyping) keys[event.key]?.();
+  const isTyping = event.target.matches('input:not([type=checkbox], [type=range]), dialog *') || event.ctrlKey || event.metaKey || event.altKey;
+  if (isTyping) return;
+  keys[event.key.length === 1 ? event.key.toLowerCase() : event.key]?.();
+  if (event.target === document.body) tools.press(event);  // Nothing else is meant by arrows, as on a page just opened.
 });
 
 new ResizeObserver(() => { view.resize(); changed(); }).observe($('map'));

@@ -42,7 +42,7 @@ export class Tools {
     listen('wheel', this.#wheel, {passive: false});
     listen('dblclick', this.#doubleClick);
     listen('contextmenu', (event) => event.preventDefault());
-    listen('keydown', this.#key);
+    listen('keydown', this.press);
     for (const button of document.querySelectorAll('[data-tool]')) button.addEventListener('click', () => this.choose(button.dataset.tool));
   }
 
@@ -211,7 +211,8 @@ export class Tools {
     this.actions.zoomed();
   }
 
-  #key(event) {
+  // A key that moves the map, or does in its middle what the tool is for.
+  press(event) {
     const camera = this.view.camera;
     const pans = {ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
     const turns = {ArrowLeft: kKeyTurn_rad, ArrowRight: -kKeyTurn_rad};
