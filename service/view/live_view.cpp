@@ -30,6 +30,14 @@ std::optional<TlsIdentity> IdentityOf(const ViewOptions& options) {
   return files ? std::make_optional<TlsIdentity>(*files) : std::nullopt;
 }
 
+/// By which name a browser on this computer reaches an address.
+std::string HostOf(const std::string& address) {
+  for (const std::string_view all_or_local : {"0.0.0.0", "::", "127.0.0.1", "localhost"}) {
+    if (address == all_or_local) return "localhost";
+  }
+  return address.find(':') == std::string::npos ? address : fmt::format("[{}]", address);
+}
+
 /// Changes with each start: clients begin anew then.
 std::string NewSession() {
   return std::to_string(std::chrono::system_clock::now().time_since_epoch().count());
@@ -45,6 +53,7 @@ class LiveView::Parts final : public WebHandler {
         const Service& service)
       : access_(options),
         identity_(IdentityOf(options)),
+        host_(HostOf(options.address)),
         marks_(service.marks),
         greeting_(ServerInfoText(service.name, NewSession())),
         board_(service.warn),
@@ -81,8 +90,9 @@ class LiveView::Parts final : public WebHandler {
   }
 
   std::string url() const {
-    return identity_ ? fmt::format("https://{}:{}/", identity_->host(), server_.port())
-                     : fmt::format("http://localhost:{}/", server_.port());
+    if (!identity_) return fmt::format("http://{}:{}/", host_, server_.port());
+    const bool is_local_name = identity_->host() == "localhost";
+    return fmt::format("https://{}:{}/", is_local_name ? host_ : identity_->host(), server_.port());
   }
 
  private:
@@ -114,6 +124,7 @@ class LiveView::Parts final : public WebHandler {
 
   Access access_;
   std::optional<TlsIdentity> identity_;
+  std::string host_;
   dds::MarkExchange& marks_;
   std::string greeting_;
   // What follows, but for server and gateway, is used by the server's thread.

@@ -70,6 +70,13 @@ TEST_F(View, ServesThePageAndThePosesOfARobot) {
   EXPECT_EQ(service.daemon().End().exit_code, 0);
 }
 
+TEST_F(View, TellsAnAddressAtWhichItListens) {
+  EXPECT_TRUE(ViewedService(network_).address().starts_with("http://localhost:"));
+  ViewedService other(network_, {"--set", "view.address=127.0.0.2", "--set", "view.token=secret"});
+  EXPECT_TRUE(other.address().starts_with("http://127.0.0.2:")) << other.address();
+  EXPECT_THROW(WebClient{other.port()}, std::runtime_error) << "nobody listens on localhost";
+}
+
 TEST_F(View, TakesWhereARobotIs) {
   ViewedService service(network_);
   RobotInRoom robot(network_);
