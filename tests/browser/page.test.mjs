@@ -150,16 +150,27 @@ test('a map that is pushed goes on, and one that rests under the hand does not',
 });
 
 test('on small screens no tool is hidden below something else', async () => {
-  for (const [width, height] of [[1024, 600], [390, 844], [820, 1180]]) {
+  for (const [width, height] of [[1024, 600], [390, 844], [820, 1180], [390, 660], [360, 560], [740, 340], [1280, 420]]) {
     const small = await browser.newPage({viewport: {width, height}});
     await small.goto(`http://localhost:${port}/`);
     await small.waitForFunction(() => document.querySelectorAll('.robot').length === 4);
+    await small.evaluate(() => { for (const id of ['upright', 'side']) document.getElementById(id).hidden = false; });
     const hidden = await small.evaluate(() => [...document.querySelectorAll('#tools button')].filter((button) => {
       const {left, top, width, height} = button.getBoundingClientRect();
       return width > 0 && document.elementFromPoint(left + width / 2, top + height / 2)?.closest('button') !== button;
     }).map(({title}) => title));
     assert.deepEqual(hidden, [], `${width} x ${height}`);
     assert.ok(await small.locator('#scale-bar').isVisible());
+    await small.keyboard.press('l');
+    for (const box of await small.locator('#layers input').all()) await box.click({timeout: 2000});
+    await small.evaluate(() => window.qwsm.actions.showRobot('robot_1'));
+    await small.keyboard.press('f');
+    await small.waitForFunction(() => !window.qwsm.view.camera.isGliding);
+    const isFilled = await small.evaluate(() => {
+      const {camera} = window.qwsm.view, {left, right} = window.qwsm.view.bounds();
+      return (right - left) * camera.scale > 0.2 * camera.width;
+    });
+    assert.ok(isFilled, `the map can be seen on ${width} x ${height}`);
     await small.close();
   }
 });

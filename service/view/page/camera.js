@@ -3,6 +3,7 @@
 // From where the map is looked at: which point of it is where on the screen.
 
 const kFit_px = 60;
+const kLeast_px = 60;  // What is filled however little is left between what lies over the map.
 const kMost_px_per_m = 400;
 const kLeast_px_per_m = 0.2;
 const kGlide_ms = 70;  // After which two thirds of a way are gone.
@@ -134,11 +135,17 @@ export class Camera {
     this.#goal = null;
   }
 
+  // Of a length of the screen between margins what is filled: on a small one more of it.
+  #within(margins_px, length_px) {
+    const left_px = Math.max(length_px - margins_px, kLeast_px);
+    return left_px - 2 * Math.min(kFit_px, left_px / 6);
+  }
+
   // Where it has to go for a box of the plane to be seen between margins. @return for glideTo().
   fitting({left, right, bottom, top}, margins) {
     const c = Math.cos(this.turn), s = Math.sin(this.turn);
     const width_m = Math.max(right - left, 1), height_m = Math.max(top - bottom, 1);
-    const wide_px = this.width - margins.left - margins.right - 2 * kFit_px, high_px = this.height - margins.top - margins.bottom - 2 * kFit_px;
+    const wide_px = this.#within(margins.left + margins.right, this.width), high_px = this.#within(margins.top + margins.bottom, this.height);
     const scale = Math.min(wide_px / (Math.abs(c) * width_m + Math.abs(s) * height_m), high_px / (Math.abs(s) * width_m + Math.abs(c) * height_m));
     return this.#between(margins, [(left + right) / 2, (bottom + top) / 2], within(kLeast_px_per_m, scale, kMost_px_per_m / 4));
   }
