@@ -118,4 +118,15 @@ test('keys do what they say on a page just opened, with Caps Lock, and after a b
   await other.close();
 });
 
+test('a long remark does not lie across the map', async () => {
+  const words = await page.evaluate(async () => {
+    const {wordsOf} = await import('/symbols.js');
+    return ['Anna', 'x'.repeat(200), '👩‍🚒'.repeat(40)].map((text) => wordsOf({text}));
+  });
+  assert.equal(words[0], 'Anna');
+  assert.equal(words[1], `${'x'.repeat(31)}…`);
+  assert.ok(words[2].isWellFormed?.() ?? true);
+  assert.ok([...words[2]].length <= 32);
+});
+
 test('nothing went wrong in the page', () => assert.deepEqual(complaints, []));

@@ -10,6 +10,7 @@ const kCaptionColors = ['', '#8a4b00', '#b3261e', '#b3261e'];  // By how much at
 
 const kWordsFont = `600 12px ${kFont}`;
 const kCaption_px = 19;
+const kMostLetters = 32;
 
 const within = (low, value, high) => Math.min(high, Math.max(low, value));
 export const robotRadius = (camera) => within(11, 0.3 * camera.scale, 26);
@@ -128,10 +129,17 @@ export function drawMark(c, camera, mark) {
   drawCentred(c, mark.number || '', px, py + 1, `700 ${Math.round(r)}px ${kFont}`, inkOn(kind.color));
 }
 
+// What is said of a mark on the map: all of a long remark, which is in the list, would lie across half of it.
+export function wordsOf({text}) {
+  const letters = [...text];
+  return letters.length <= kMostLetters ? text : `${letters.slice(0, kMostLetters - 1).join('').trimEnd()}…`;
+}
+
 export function drawMarkText(c, camera, mark, theme, labels) {
+  const words = wordsOf(mark);
   c.font = kWordsFont;
-  const room = labels.place(...camera.toScreen(mark.x, mark.y), markRadius(camera), c.measureText(mark.text).width, kCaption_px - 4);
-  if (room) drawOutlined(c, mark.text, room.x, room.y, kWordsFont, theme);
+  const room = labels.place(...camera.toScreen(mark.x, mark.y), markRadius(camera), c.measureText(words).width, kCaption_px - 4);
+  if (room) drawOutlined(c, words, room.x, room.y, kWordsFont, theme);
 }
 
 // Text that can be read on anything.
