@@ -315,6 +315,27 @@ TEST_F(View, ServicesThatMeetNumberTheirMarksApart) {
   }
 }
 
+// The disk was full when the only victim was marked.
+TEST_F(View, AMarkThatCouldNotBeKeptIsKeptWithoutAnother) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "team.db";
+  const dds::Participant participant({.interface = "lo", .tag = network_.tag()});
+  dds::Refusals refusals([](const std::string& text) { ADD_FAILURE() << text; });
+  std::promise<std::string> warned;
+  dds::MarkExchange exchange(
+      participant, refusals, team::MarkJournal(file, [&](const std::string& text) {
+        warned.set_value(text);
+      }));
+  exchange.Start();
+  exchange.Tell({.id = "anna", .kind = "victim", .p_map_m = {2.0, 3.0}});
+  EXPECT_NE(warned.get_future().get().find("marks cannot be kept now"), std::string::npos);
+  io::JournalFile::Continue(file, "scans", "base");
+  const team::MarkJournal journal(file, [](const std::string&) {});
+  for (int i = 0; i < 500 && journal.Load().empty(); ++i) usleep(20'000);
+  ASSERT_EQ(journal.Load().size(), 1U);
+  EXPECT_EQ(journal.Load().front().id, "anna");
+}
+
 TEST_F(View, AMarkMovesWithTheScanItStandsOn) {
   const dds::Participant participant({.interface = "lo", .tag = network_.tag()});
   dds::Refusals refusals([](const std::string& text) { ADD_FAILURE() << text; });

@@ -214,6 +214,10 @@ TEST_F(MarkJournalTest, WhatCannotBeWrittenIsWrittenLater) {
   marks.Keep({MarkOf("b", 1s)});
   EXPECT_EQ(told_.size(), 1U);
   const auto journal = io::JournalFile::Continue(file_, "scans", "base");
+  EXPECT_TRUE(marks.is_behind());
+  marks.Keep({});
+  EXPECT_FALSE(marks.is_behind());
+  EXPECT_EQ(Open().Load().size(), 2U);
   marks.Keep({MarkOf("c", 1s)});
   EXPECT_EQ(Open().Load().size(), 3U);
 }

@@ -14,6 +14,11 @@
 #include "service/team/scans/component.hpp"
 
 namespace qwsm::dds {
+namespace {
+
+constexpr std::chrono::seconds kBetweenTries{1};
+
+}  // namespace
 
 MarkExchange::MarkExchange(const Participant& participant,
                            Refusals& refusals,
@@ -151,7 +156,12 @@ void MarkExchange::Keep() {
     const std::lock_guard lock(mutex_);
     marks.swap(unkept_);
   }
-  if (!marks.empty()) journal_.Keep(marks);
+  // What could not be written is tried again also if nothing comes any more, but not with each
+  // scan.
+  const auto now = std::chrono::steady_clock::now();
+  if (marks.empty() && (!journal_.is_behind() || now - tried_ < kBetweenTries)) return;
+  tried_ = now;
+  journal_.Keep(marks);
 }
 
 }  // namespace qwsm::dds

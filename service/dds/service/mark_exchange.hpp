@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <map>
 #include <mutex>
@@ -68,7 +69,8 @@ class MarkExchange {
   Reader<wire::Mark> reader_;
   Reader<wire::RelevantScan> scans_;
   Writer<wire::Mark> writer_;
-  team::MarkJournal journal_;  // Used by the thread, once it runs.
+  team::MarkJournal journal_;  // Used by the thread, once it runs; what follows, too.
+  std::chrono::steady_clock::time_point tried_{};  // When it was last given something.
 
   mutable std::mutex mutex_;  // Guards what follows.
   team::MarkBook book_;

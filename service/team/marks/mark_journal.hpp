@@ -24,7 +24,7 @@ Mark DecodeMark(std::string_view bytes);
 std::vector<Mark> ReadMarks(const std::filesystem::path& journal, std::size_t& damaged);
 
 /// Keeps marks in the journal of a service, beside its scans. What cannot be written now is written
-/// with what comes next.
+/// when it is next asked to keep something, or nothing.
 class MarkJournal {
  public:
   using Warn = std::function<void(const std::string&)>;
@@ -36,6 +36,8 @@ class MarkJournal {
   std::vector<Mark> Load() const;
   /// Keeps marks; waits for the disk.
   void Keep(const std::vector<Mark>& marks);
+  /// Whether there are marks that could not be written.
+  bool is_behind() const { return !unwritten_.empty(); }
 
  private:
   std::filesystem::path file_;
