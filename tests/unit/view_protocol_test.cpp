@@ -84,6 +84,12 @@ TEST(ViewAccess, NamedPagesAreLetIn) {
   EXPECT_EQ(StatusOf(options, {.host = "localhost", .origin = "https://b.example.org"}), 403);
 }
 
+TEST(ViewAccess, PagesAreNamedAsTheirAddressesAre) {
+  const ViewOptions options{.origins = "https://a.example/ ,https://b.example/"};
+  EXPECT_EQ(StatusOf(options, {.host = "localhost", .origin = "https://a.example"}), 101);
+  EXPECT_EQ(StatusOf(options, {.host = "localhost", .origin = "https://b.example"}), 101);
+}
+
 TEST(ViewAccess, ATokenMustBeWholeAndRight) {
   const ViewOptions options{.address = "0.0.0.0", .token = "secret"};
   const auto with = [&](const char* target) {

@@ -48,11 +48,14 @@ bool IsSameSecret(std::string_view known, std::string_view told) {
   return difference == 0;
 }
 
+/// Whether an origin is one of a list with commas; browsers tell theirs without the slash at its end
+/// that addresses have.
 bool IsListed(std::string_view list, std::string_view item) {
   while (!list.empty()) {
     const std::size_t comma = std::min(list.find(','), list.size());
     std::string_view one = list.substr(0, comma);
     while (one.starts_with(' ')) one.remove_prefix(1);
+    while (one.ends_with(' ') || one.ends_with('/')) one.remove_suffix(1);
     if (one == item) return true;
     list.remove_prefix(std::min(comma + 1, list.size()));
   }
