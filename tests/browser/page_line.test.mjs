@@ -129,4 +129,22 @@ test('a long remark does not lie across the map', async () => {
   assert.ok([...words[2]].length <= 32);
 });
 
+test('robots of several kinds with one number are told apart', async () => {
+  const labels = await page.evaluate(async () => {
+    const {Model} = await import('/model.js');
+    const labelsOf = (names) => {
+      const model = new Model();
+      for (const name of names) model.robot(name);
+      return Object.fromEntries([...model.robots].map(([name, {label, isSecond}]) => [name, isSecond ? `(${label})` : label]));
+    };
+    return [['robot_1', 'robot_2'], ['spot1', 'husky1', 'husky2'], ['husky2', 'husky1', 'spot1'], ['rover_1', 'raptor_1'], ['alpha', 'beta_1'], ['', 'robot_1'], ['rover_9', 'spot_9'],
+      ['team/rover_12', 'other/rover_12']].map(labelsOf);
+  });
+  assert.deepEqual(labels, [
+    {robot_1: '1', robot_2: '2'}, {spot1: '(s1)', husky1: 'h1', husky2: '2'}, {husky2: '2', husky1: 'h1', spot1: '(s1)'},
+    {rover_1: '(ro1)', raptor_1: 'ra1'}, {alpha: 'a', beta_1: '(b1)'}, {'': '1', robot_1: '(r1)'}, {rover_9: '(r9)', spot_9: 's9'},
+    {'team/rover_12': 'rov12', 'other/rover_12': '(rov12)'},
+  ]);
+});
+
 test('nothing went wrong in the page', () => assert.deepEqual(complaints, []));

@@ -3,7 +3,7 @@
 // What is known of the team: robots, the map's tiles, relevant scans, marks, events.
 import {compose, inverse, movePoints, scanPoints} from './geometry.js';
 import {GridMap} from './grid_map.js';
-import {Robot, Status} from './robot.js';
+import {Robot, Status, tellApart} from './robot.js';
 
 const kRecentScans = 4;
 const kLateAnswer_ms = 300;
@@ -68,6 +68,7 @@ export class Model {
   robot(name) {
     if (!this.robots.has(name)) {
       this.robots.set(name, new Robot(name, this.robots.size));
+      tellApart([...this.robots.values()], this.robots.get(name).number);
       this.tell(`${name || 'robot'} is here`);
     }
     return this.robots.get(name);

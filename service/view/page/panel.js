@@ -54,6 +54,7 @@ export class Panel {
     }
     row.button.dataset.level = how.level;
     row.button.setAttribute('aria-pressed', String(this.state.selected === robot.name));
+    setText(row.badge, robot.label);
     setText(row.age, age(how.age_s));
     setText(row.state, (how.level > 0 ? '▲ ' : '') + how.text + (how.level > 0 ? '' : qualityOf(robot)));
     const list = $('robots');
@@ -70,7 +71,7 @@ export class Panel {
       element('span', {className: 'name', textContent: robot.name || 'robot'}), ageNode, stateNode);
     button.onclick = () => this.actions.select(robot.name);
     button.ondblclick = () => this.actions.showRobot(robot.name);
-    return {item: element('li', {}, button), button, age: ageNode, state: stateNode};
+    return {item: element('li', {}, button), button, badge, age: ageNode, state: stateNode};
   }
 
   // The chosen robot's figures stand below it in the list.

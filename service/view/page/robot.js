@@ -24,15 +24,32 @@ function indexAt(things, stamp) {
   return low - 1;
 }
 
+// There are eight colours: the ninth robot has that of the first.
+const isSecondOfColor = (number) => Math.floor((Number(number) - 1) / kRobotColors.length) % 2 === 1;
+
+// What stands before the number in the last part of a name, such as `rover` in `team/rover_1`.
+const kindOf = (name) => name.split('/').at(-1).replace(/_?\d*$/, '');
+
+// Robots of several kinds may have one number, and with it one colour: letters before it, no more than it takes, tell them
+// apart on the map, and the line and the ring of who shares a colour.
+export function tellApart(robots, number) {
+  const alike = robots.filter((robot) => robot.number === number).sort((a, b) => a.name < b.name ? -1 : 1);
+  if (alike.length < 2) return;
+  const labels = (letters) => alike.map(({name}) => kindOf(name).slice(0, letters) + (/\d*$/.exec(name)[0] || (kindOf(name) ? '' : number)));
+  const letters = [1, 2, 3].find((count) => new Set(labels(count)).size === alike.length) ?? 3;
+  labels(letters).forEach((label, i) => Object.assign(alike[i], {label, isSecond: isSecondOfColor(number) !== (i % 2 === 1)}));
+}
+
 export class Robot {
   constructor(name, index) {
     this.name = name;
     this.index = index;
-    this.label = /(\d+)$/.exec(name)?.[1] ?? String(index + 1);
+    this.number = /(\d+)$/.exec(name)?.[1] ?? String(index + 1);
+    this.label = this.number;
     // The number tells the colour, so that each robot has the same on every page.
-    const place = /^\d+$/.test(this.label) ? Number(this.label) - 1 : index;
+    const place = Number(this.number) - 1;
     this.color = kRobotColors[(place + kRobotColors.length) % kRobotColors.length];
-    this.isSecond = Math.floor(place / kRobotColors.length) % 2 === 1;
+    this.isSecond = isSecondOfColor(this.number);
     this.history = [];
     this.trail = [];
     this.path = new Map();  // Of one that scans in space: corrected poses, by their stamps.

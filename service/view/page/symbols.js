@@ -49,7 +49,7 @@ export function drawRobot(c, camera, robot, pose, {theme, isSelected, isFaded}) 
   c.fill();
   c.globalAlpha = 1;
   const ink = inkOn(robot.color);
-  drawCentred(c, robot.label, px, py + 0.5, `700 ${Math.round(1.05 * radius)}px ${kFont}`, ink);
+  drawCentred(c, robot.label, px, py + 0.5, `700 ${Math.round(1.05 * radius * Math.min(1, 2 / robot.label.length))}px ${kFont}`, ink);
   if (!robot.isSecond) return;
   c.beginPath();
   c.arc(px, py, 0.8 * radius, 0, 2 * Math.PI);
