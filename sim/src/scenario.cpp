@@ -42,6 +42,19 @@ void FindSharedNames(const ScenarioOptions& scenario, std::vector<ScenarioProble
   }
 }
 
+// Whoever begins inside a robot throws it aside, which neither wheels nor gyro would tell of.
+void FindOccupiedPersons(const ScenarioOptions& scenario,
+                         const PhysicsWorld& world,
+                         std::vector<ScenarioProblem>& problems) {
+  for (std::size_t i = 0; i < scenario.scenery.persons.size(); ++i) {
+    const PersonOptions& person = scenario.scenery.persons[i];
+    const WaypointOptions& start = person.waypoints.front();
+    if (!world.IsOccupied(Disc{person.radius_m}, {start.x_m, start.y_m, 0.0})) continue;
+    problems.push_back({"scenery.persons[" + std::to_string(i) + "].waypoints",
+                        "the person would start inside a wall, a thing or a robot"});
+  }
+}
+
 void FindOccupiedStarts(const ScenarioOptions& scenario, std::vector<ScenarioProblem>& problems) {
   const Place place = FullPlace(scenario);
   PhysicsWorld world;
@@ -56,6 +69,7 @@ void FindOccupiedStarts(const ScenarioOptions& scenario, std::vector<ScenarioPro
     }
     world.AddFixed(outline, placement.T_world_robot);
   }
+  FindOccupiedPersons(scenario, world, problems);
 }
 
 }  // namespace

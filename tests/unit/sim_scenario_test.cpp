@@ -37,6 +37,18 @@ TEST(Scenario, RefusesARobotInsideAWall) {
   EXPECT_TRUE(HasProblem(scenario, "robots[0].start_x_m"));
 }
 
+TEST(Scenario, RefusesPersonsInsideSomething) {
+  ScenarioOptions scenario = testing::EmptyFloor();
+  scenario.scenery.walls = {{.from_x_m = 3.0, .from_y_m = -1.0, .to_x_m = 3.0, .to_y_m = 1.0}};
+  const RobotOptions& robot = scenario.robots[0];
+  scenario.scenery.persons = {{.waypoints = {{robot.start_x_m + 0.1, robot.start_y_m}}},
+                              {.waypoints = {{2.0, 2.0}}},
+                              {.waypoints = {{3.1, 0.5}, {2.0, 2.0}}}};
+  EXPECT_TRUE(HasProblem(scenario, "scenery.persons[0].waypoints"));
+  EXPECT_FALSE(HasProblem(scenario, "scenery.persons[1].waypoints"));
+  EXPECT_TRUE(HasProblem(scenario, "scenery.persons[2].waypoints"));
+}
+
 TEST(Scenario, RefusesRobotsInsideEachOther) {
   ScenarioOptions scenario = testing::EmptyFloor();
   scenario.robots.push_back(scenario.robots[0]);
