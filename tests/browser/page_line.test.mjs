@@ -33,7 +33,7 @@ test('a service that hangs is not shown as live, and not told anything', async (
   assert.equal(await page.evaluate(() => window.qwsm.connection.prepare('/qwsm/marks', 'qwsm_msgs/msg/Mark')), false);
   // As of a line that is dead: nobody answers that it is closed.
   const socket = await page.evaluateHandle(() => window.qwsm.connection.socket);
-  await page.waitForFunction((old) => window.qwsm.connection.socket !== old, socket);
+  await page.waitForFunction((old) => window.qwsm.connection.socket !== old, socket, {timeout: 60000});
   service.kill('SIGCONT');
   await page.waitForFunction(() => document.getElementById('link').dataset.state === 'live');
 });

@@ -5,9 +5,10 @@
 const kProtocol = 'foxglove.websocket.v1';
 const kFirstPause_ms = 500;
 const kLongestPause_ms = 4000;
-// The service tells its time ten times a second. TCP alone may hold a dead line for alive for an hour.
+// The service tells its time ten times a second, but while a large model is on a slow line. After 20 s it gives up itself
+// whoever does not answer; TCP alone may hold a dead line for alive for an hour.
 const kQuiet_ms = 3000;
-const kGivenUp_ms = 15000;
+const kGivenUp_ms = 25000;
 const kDrift_ms = 0.1;  // Of two clocks, between two times that the service tells.
 
 export class Connection {
