@@ -31,11 +31,19 @@ test('a service that hangs is not shown as live, and not told anything', async (
   await page.waitForFunction(() => document.getElementById('link').dataset.state === 'lost');
   assert.equal(await page.locator('#link-text').textContent(), 'no word from the service');
   assert.equal(await page.evaluate(() => window.qwsm.connection.prepare('/qwsm/marks', 'qwsm_msgs/msg/Mark')), false);
+  await page.evaluate(() => window.qwsm.actions.mark('victim', 1, 2));
+  await page.keyboard.type('Anna');
+  await page.keyboard.press('Enter');
+  await page.locator('#mark-trouble').waitFor();
+  assert.equal(await page.locator('#mark-text').inputValue(), 'Anna', 'what was typed is still there');
   // As of a line that is dead: nobody answers that it is closed.
   const socket = await page.evaluateHandle(() => window.qwsm.connection.socket);
   await page.waitForFunction((old) => window.qwsm.connection.socket !== old, socket, {timeout: 60000});
   service.kill('SIGCONT');
   await page.waitForFunction(() => document.getElementById('link').dataset.state === 'live');
+  await page.keyboard.press('Enter');
+  await page.waitForFunction(() => [...window.qwsm.model.marks.values()].some(({text}) => text === 'Anna'));
+  assert.ok(await page.locator('#mark-dialog').isHidden());
 });
 
 test('of a map whose service was started anew nothing of before is left', async () => {

@@ -95,9 +95,7 @@ function tellPlace(name, pose) {
   else tools.hint('There is no service that could be told');
 }
 
-function tellMark(mark) {
-  if (!connection.publish(kMarkTopic, kMarkSchema, encodeMark(mark))) tools.hint('There is no service that could keep the mark');
-}
+const tellMark = (mark) => connection.publish(kMarkTopic, kMarkSchema, encodeMark(mark));
 
 // --- What the operator does ---
 

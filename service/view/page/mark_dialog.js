@@ -7,13 +7,15 @@ const capitalised = (word) => word[0].toUpperCase() + word.slice(1);
 
 export class MarkDialog {
   #mark = null;
+  #isNew = true;
 
-  // `tell(mark)` is called with what the operator has made of a mark; `closed()` in any case.
+  // `tell(mark)` is called with what the operator has made of a mark, and says whether that is on its way; `closed()` in the end.
   constructor(tell, closed) {
     const dialog = $('mark-dialog');
     dialog.addEventListener('close', () => {
       if (dialog.returnValue === 'ok' || dialog.returnValue === 'remove') {
-        tell({...this.#mark, text: $('mark-text').value.trim(), removed: dialog.returnValue === 'remove'});
+        const mark = {...this.#mark, text: $('mark-text').value.trim()};
+        if (!tell({...mark, removed: dialog.returnValue === 'remove'})) return this.#openAgain(mark);
       }
       closed();
     });
@@ -25,8 +27,17 @@ export class MarkDialog {
     });
   }
 
+  // What was typed must not be lost with the line.
+  #openAgain(mark) {
+    this.open(mark, {isNew: this.#isNew});
+    $('mark-trouble').textContent = 'There is no word from a service that could keep that; try again when there is.';
+    $('mark-trouble').hidden = false;
+  }
+
   open(mark, {isNew}) {
     this.#mark = mark;
+    this.#isNew = isNew;
+    $('mark-trouble').hidden = true;
     const name = capitalised(mark.kind) + (mark.number ? ` ${mark.number}` : '');
     $('mark-title').textContent = `${name} at ${mark.x.toFixed(1)}, ${mark.y.toFixed(1)} m`;
     $('mark-text').value = mark.text;
