@@ -42,18 +42,52 @@ TEST(KittiTrajectory, HasTheUpperRowsOfEachMatrix) {
   EXPECT_EQ(test::ReadFile(file), "1 0 0 1.5 0 1 0 -2 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 0\n");
 }
 
+PoseGraph GraphOfOneEdge(const Pose2& T_from_to) {
+  PoseGraph graph{.T_map_node = {{}, {1.0, 2.0, 0.5}},
+                  .edges = {{.from = 0, .to = 1, .T_from_to = T_from_to}}};
+  graph.edges[0].information << 11, 12, 13, 12, 22, 23, 13, 23, 33;
+  return graph;
+}
+
 TEST(PoseGraphFile, ListsTheInformationAsEachFormatDoes) {
   const test::TemporaryFolder folder;
-  PoseGraph graph{.T_map_node = {{}, {1.0, 2.0, 0.5}},
-                  .edges = {{.from = 0, .to = 1, .T_from_to = {1.0, 2.0, 0.5}}}};
-  graph.edges[0].information << 11, 12, 13, 12, 22, 23, 13, 23, 33;
+  const PoseGraph graph = GraphOfOneEdge({1.0, 2.0, 0.0});
   WriteG2oFile(folder.path() / "graph.g2o", graph);
   WriteToroFile(folder.path() / "graph.toro", graph);
   EXPECT_EQ(test::ReadFile(folder.path() / "graph.g2o"),
             "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 2 0.5\nFIX 0\n"
-            "EDGE_SE2 0 1 1 2 0.5 11 12 13 22 23 33\n");
+            "EDGE_SE2 0 1 1 2 0 11 12 13 22 23 33\n");
   EXPECT_EQ(test::ReadFile(folder.path() / "graph.toro"),
-            "VERTEX2 0 0 0 0\nVERTEX2 1 1 2 0.5\nEDGE2 0 1 1 2 0.5 11 12 22 33 13 23\n");
+            "VERTEX2 0 0 0 0\nVERTEX2 1 1 2 0.5\nEDGE2 0 1 1 2 0 11 12 22 33 13 23\n");
+}
+
+/// The squared error of the first edge of a file, as g2o computes it: that of
+/// T_from_to^-1 * T_map_from^-1 * T_map_to.
+double ErrorInG2o(const std::filesystem::path& file, const PoseGraph& graph) {
+  std::istringstream stream(test::ReadFile(file));
+  std::string line;
+  while (!line.starts_with("EDGE_SE2")) std::getline(stream, line);
+  std::istringstream edge(line.substr(std::string("EDGE_SE2 0 1").size()));
+  Pose2 T_from_to;
+  edge >> T_from_to.x_m >> T_from_to.y_m >> T_from_to.theta_rad;
+  Eigen::Matrix3d information;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = row; column < 3; ++column) {
+      edge >> information(row, column);
+      information(column, row) = information(row, column);
+    }
+  }
+  const Pose2 delta = T_from_to.Inverse() * (graph.T_map_node[0].Inverse() * graph.T_map_node[1]);
+  const Eigen::Vector3d error(delta.x_m, delta.y_m, delta.theta_rad);
+  return error.dot(information * error);
+}
+
+TEST(PoseGraphFile, WeighsTheErrorsOfAnEdgeInG2oAsTheGraphDoes) {
+  const test::TemporaryFolder folder;
+  const PoseGraph graph = GraphOfOneEdge({0.8, 2.3, 1.4});
+  WriteG2oFile(folder.path() / "graph.g2o", graph);
+  EXPECT_NEAR(
+      ErrorInG2o(folder.path() / "graph.g2o", graph), Chi2(graph.edges[0], graph.T_map_node), 1e-9);
 }
 
 TEST(TumTrajectory, TakesTheYawOfAPoseInSpace) {

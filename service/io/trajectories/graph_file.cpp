@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/io/trajectories/graph_file.hpp"
 
+#include <Eigen/Core>
 #include <array>
 #include <string>
 #include <string_view>
@@ -18,19 +19,27 @@ struct Entry {
   int column;
 };
 
-/// What a format calls nodes and edges, and in which order it lists the information of an edge.
+/// Along whose axes the translation of an edge's information is, where the edge is right.
+enum class Axes { kFrom, kTo };
+
+/// What a format calls nodes and edges, and how it lists the information of an edge.
 struct GraphFormat {
   std::string_view vertex;
   std::string_view edge;
   std::array<Entry, 6> information;
+  Axes axes;
 };
 
+// The error of an edge is T_from_to^-1 * T_from * T_to in g2o, along the axes of `to`. TORO turns
+// information into the map by the heading of `from`.
 constexpr GraphFormat kG2o{.vertex = "VERTEX_SE2",
                            .edge = "EDGE_SE2",
-                           .information = {{{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}}};
+                           .information = {{{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}},
+                           .axes = Axes::kTo};
 constexpr GraphFormat kToro{.vertex = "VERTEX2",
                             .edge = "EDGE2",
-                            .information = {{{0, 0}, {0, 1}, {1, 1}, {2, 2}, {0, 2}, {1, 2}}}};
+                            .information = {{{0, 0}, {0, 1}, {1, 1}, {2, 2}, {0, 2}, {1, 2}}},
+                            .axes = Axes::kFrom};
 
 void Append(std::string& line, const Pose2& pose) {
   for (const double number : {pose.x_m, pose.y_m, pose.theta_rad}) {
@@ -47,14 +56,22 @@ void WriteNodes(std::ostream& stream, const GraphFormat& format, const PoseGraph
   }
 }
 
+Eigen::Matrix3d InformationAlong(Axes axes, const PoseEdge& edge) {
+  if (axes == Axes::kFrom) return edge.information;
+  Eigen::Matrix3d R_from_to = Eigen::Matrix3d::Identity();
+  R_from_to.topLeftCorner<2, 2>() = edge.T_from_to.Rotation();
+  return R_from_to.transpose() * edge.information * R_from_to;
+}
+
 void WriteEdges(std::ostream& stream, const GraphFormat& format, const PoseGraph& graph) {
   for (const PoseEdge& edge : graph.edges) {
     std::string line =
         std::string(format.edge) + ' ' + std::to_string(edge.from) + ' ' + std::to_string(edge.to);
     Append(line, edge.T_from_to);
+    const Eigen::Matrix3d information = InformationAlong(format.axes, edge);
     for (const auto& [row, column] : format.information) {
       line += ' ';
-      AppendNumber(line, edge.information(row, column));
+      AppendNumber(line, information(row, column));
     }
     stream << line << '\n';
   }

@@ -9,7 +9,7 @@
 namespace qwsm::io {
 
 /// Writes a graph in the format of g2o (VERTEX_SE2, EDGE_SE2), its first node fixed, for whoever
-/// wants to go on with it.
+/// wants to go on with it. Its edges weigh there as they do here.
 /// @throws WriteError where it cannot be written.
 void WriteG2oFile(const std::filesystem::path& path, const PoseGraph& graph);
 
