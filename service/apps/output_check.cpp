@@ -34,10 +34,9 @@ bool WouldReplace(const fs::path& output, const fs::path& input) {
          (fs::is_directory(input, error) && fs::equivalent(input, FolderOf(output), error));
 }
 
-bool IsWithin(const fs::path& folder, const fs::path& path) {
-  std::error_code error;
-  const fs::path way = path.lexically_relative(fs::weakly_canonical(folder, error));
-  return !way.empty() && *way.begin() != "..";
+bool IsFolder(const fs::path& folder, const fs::path& wanted) {
+  // As the folder of a file in it, which needs no part of its path to exist.
+  return FolderOf(folder / "file") == FolderOf(wanted / "file");
 }
 
 }  // namespace
@@ -61,7 +60,7 @@ void CheckMapToSave(const fs::path& map, std::span<const fs::path> logs, const f
     throw CannotTake(map, "is no map of qwsm, and is not replaced by one; name another file");
   }
   const fs::path folder = FolderOf(map);
-  if (!fs::exists(folder, error) && IsWithin(results, folder)) return;
+  if (!fs::exists(folder, error) && IsFolder(folder, results)) return;
   if (access(folder.c_str(), W_OK | X_OK) != 0) {
     throw CannotTake(map, "cannot be written: " + std::generic_category().message(errno));
   }

@@ -150,12 +150,13 @@ TEST_F(MapCommand, SavesNoMapOverAnythingElse) {
   fs::create_symlink(log_, link);
   const fs::path notes = folder_.path() / "notes.txt";
   std::ofstream(notes) << "Monday";
-  const std::array<std::pair<fs::path, const char*>, 5> refusals{{
+  const std::array<std::pair<fs::path, const char*>, 6> refusals{{
       {log_, "would replace"},
       {link, "would replace"},
       {notes, "is no map of qwsm"},
       {folder_.path(), "is a folder"},
       {folder_.path() / "missing" / "a.qwsm", "No such file or directory"},
+      {results_ / "missing" / "a.qwsm", "No such file or directory"},
   }};
   for (const auto& [map, why] : refusals) {
     for (const char* option : {"--dry-run", "--quiet"}) {
@@ -172,6 +173,16 @@ TEST_F(MapCommand, SavesNoMapOverAnythingElse) {
     EXPECT_EQ(RunProgram({"map", log_, "-o", results_, "--save-map", map}).exit_code, 0);
   }
   EXPECT_TRUE(fs::exists(map));
+}
+
+TEST_F(MapCommand, SavesAMapAmongResultsThatAreNamedFromWhereItRuns) {
+  const fs::path elsewhere = fs::current_path();
+  fs::current_path(folder_.path());
+  const Outcome outcome =
+      RunProgram({"map", log_, "-o", "new/results", "--save-map", "new/results/room.qwsm"});
+  fs::current_path(elsewhere);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_TRUE(fs::exists(folder_.path() / "new/results/room.qwsm"));
 }
 
 TEST_F(MapCommand, DoesNothingWhenDry) {
