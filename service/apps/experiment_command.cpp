@@ -107,7 +107,8 @@ Command AddExperimentCommand(CLI::App& program) {
   parser->footer(
       "  qwsm experiment park                             ten seeds, results in results/latest\n"
       "  qwsm experiment corridor --seeds 3 -o corridor   figures and tables in corridor/\n"
-      "  qwsm experiment park --set ground.everywhere=floor --set mapper.min_overlap=0.4");
+      "  qwsm experiment park --set ground.everywhere=floor --set "
+      "mapper.relevant_translation_m=0.3");
   parser
       ->add_option(
           "SCENARIO",

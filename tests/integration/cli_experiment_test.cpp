@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -67,6 +69,24 @@ TEST_F(ExperimentCommand, RefusesWhatItCannotRun) {
     EXPECT_FALSE(outcome.errors.empty());
     EXPECT_FALSE(fs::exists(results_));
   }
+}
+
+TEST_F(ExperimentCommand, CanRunTheExamplesOfItsHelp) {
+  std::istringstream help(RunProgram({"experiment", "--help"}).output);
+  int examples = 0;
+  for (std::string line; std::getline(help, line);) {
+    const std::string program = "  qwsm ";
+    if (!line.starts_with(program)) continue;
+    // What an example does stands behind it, two spaces off.
+    std::istringstream words(
+        line.substr(0, line.find("  ", program.size())).substr(program.size()));
+    std::vector<std::string> arguments{std::istream_iterator<std::string>(words), {}};
+    arguments.emplace_back("--dry-run");
+    const Outcome outcome = RunProgram(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << line << outcome.errors;
+    ++examples;
+  }
+  EXPECT_GE(examples, 3);
 }
 
 }  // namespace
