@@ -86,6 +86,7 @@ MatcherKind MatcherNamed(const std::string& name) {
 io::LogOptions LogOptionsOf(const options::LogOptions& options) {
   io::LogOptions log;
   log.strict = options.strict;
+  log.mirrored = options.mirrored;
   if (options.range_max_m > 0.0) log.range_max_m = static_cast<float>(options.range_max_m);
   if (options.field_of_view_rad > 0.0) log.field_of_view_rad = options.field_of_view_rad;
   if (options.sweep_s >= 0.0) log.sweep_s = options.sweep_s;

@@ -25,7 +25,7 @@ ExitCode RunReplay(const LogReplayArguments& arguments) {
   io::LogOptions log = LogOptionsOf(session.options().log);
   if (log.robot.empty()) log.robot = arguments.replay.robot;
   log.as_measured = true;
-  pipeline::LogSource source(arguments.logs, log, session.options().log.mirrored);
+  pipeline::LogSource source(arguments.logs, log);
   if (source.Peek() == nullptr) {
     throw UsageError("there is no scan in " + arguments.logs.front().string());
   }

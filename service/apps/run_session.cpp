@@ -60,7 +60,7 @@ bool Corrects(const options::ProgramOptions& options) {
 std::unique_ptr<LogSource> OpenLogs(const RunArguments& arguments,
                                     const options::LogOptions& options) {
   auto source =
-      std::make_unique<LogSource>(arguments.logs, LogOptionsOf(options), options.mirrored);
+      std::make_unique<LogSource>(arguments.logs, LogOptionsOf(options));
   if (source->Peek() == nullptr) {
     throw UsageError(fmt::format("there is no scan in {}; {}",
                                  arguments.logs.front().string(),

@@ -24,7 +24,7 @@ std::unique_ptr<LogReader> OpenLog(std::istream& stream,
 std::unique_ptr<LogReader> OpenLog(const std::filesystem::path& path, const LogOptions& options) {
   if (path == "-") return OpenLog(std::cin, kStandardInput, options);
   if (IsBag(path)) return std::make_unique<BagReader>(std::span(&path, 1), options);
-  if (IsSqliteDatabase(path)) return std::make_unique<JournalReader>(path);
+  if (IsSqliteDatabase(path)) return std::make_unique<JournalReader>(path, options.mirrored);
   std::unique_ptr<std::ifstream> file;
   try {
     file = std::make_unique<std::ifstream>(OpenForReading(path));

@@ -116,6 +116,22 @@ TEST(ConvertCommand, TakesOdometryOut) {
   EXPECT_TRUE(outcome.output.starts_with("1000.000000000 0 0 0 0 0 0 1\n1000.1")) << outcome.output;
 }
 
+TEST(ConvertCommand, TurnsMirroredScansAsMapDoes) {
+  const TemporaryFolder folder;
+  const fs::path log = folder.path() / "room.log";
+  WriteRoomLog(log, 3);
+  const auto convert = [&](const fs::path& from, const std::string& to, const char* mirrored) {
+    const std::string setting = std::string("log.mirrored=") + mirrored;
+    RunProgram({"convert", from, "-o", folder.path() / to, "--set", setting});
+    return ReadFile(folder.path() / to);
+  };
+  const std::string as_it_is = convert(log, "as_it_is.log", "false");
+  const std::string mirrored = convert(log, "mirrored.log", "true");
+  EXPECT_FALSE(mirrored.empty());
+  EXPECT_NE(mirrored, as_it_is);
+  EXPECT_EQ(convert(folder.path() / "mirrored.log", "back.log", "true"), as_it_is);
+}
+
 TEST(ConvertCommand, ReplacesNoInput) {
   const TemporaryFolder folder;
   const fs::path log = folder.path() / "room.log";

@@ -232,14 +232,18 @@ TEST_F(Bag, LeavesOutLasersThatDoNotFit) {
 TEST_F(Bag, DeskewsScansWhoseBeamsHaveTimes) {
   std::vector<MadeMessage> drive;
   for (int i = 0; i < 4; ++i) {
-    drive.push_back(test::OdometryMessageOf(Ros::k2, "/odom", At(i), "laser", {0, 0, 0.2 * i}));
+    drive.push_back(test::OdometryMessageOf(Ros::k2, "/odom", At(i), "laser", {0, 0, 0.02 * i}));
     drive.push_back(test::ScanMessage(Ros::k2, "/scan", At(i), "laser", RangesAt(i), 0.025F));
   }
   // Half of the time to the next scan, and of the turn, over two steps.
-  EXPECT_NEAR(ReadMcap(drive).scans.at(0).scan.geometry.bearing_step_rad, 0.1 + 0.05, 1e-6);
+  EXPECT_NEAR(ReadMcap(drive).scans.at(0).scan.geometry.bearing_step_rad, 0.1 + 0.005, 1e-6);
   LogOptions options;
+  options.mirrored = true;
+  const LaserGeometry mirrored = ReadMcap(drive, "zstd", options).scans.at(0).scan.geometry;
+  EXPECT_EQ(mirrored.first_bearing_rad, 1.0F);
+  EXPECT_NEAR(mirrored.bearing_step_rad, -0.1 + 0.005, 1e-6);
   options.sweep_s = 0.0;
-  EXPECT_EQ(ReadMcap(drive, "zstd", options).scans.at(0).scan.geometry.bearing_step_rad, 0.1F);
+  EXPECT_EQ(ReadMcap(drive, "zstd", options).scans.at(0).scan.geometry.bearing_step_rad, -0.1F);
 }
 
 TEST_F(Bag, GivesScansAsMeasuredToWhoAsksForThat) {

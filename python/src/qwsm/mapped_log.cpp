@@ -84,8 +84,9 @@ MappedLog MapLogs(const std::vector<std::filesystem::path>& logs,
   const auto mapper_options = OptionsFrom<MapperOptions>(options);
   const bool corrects = correct && mapper_options.matcher == MatcherKind::kQWsm;
   log_options.on_fault = WarnInPython;
+  log_options.mirrored = mirrored;
   const py::gil_scoped_release without_gil;
-  pipeline::LogSource source(logs, log_options, mirrored);
+  pipeline::LogSource source(logs, log_options);
   return MapScans(source, mapper_options, corrects);
 }
 

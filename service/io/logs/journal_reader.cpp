@@ -7,6 +7,7 @@
 
 #include "service/io/journal/epoch_codec.hpp"
 #include "service/io/journal/scan_codec.hpp"
+#include "service/io/logs/sweep_geometry.hpp"
 
 namespace qwsm::io {
 namespace {
@@ -21,8 +22,8 @@ JournalFile Open(const std::filesystem::path& file) {
 
 }  // namespace
 
-JournalReader::JournalReader(const std::filesystem::path& file)
-    : journal_(Open(file)), entries_(journal_.size()) {
+JournalReader::JournalReader(const std::filesystem::path& file, bool mirrored)
+    : journal_(Open(file)), entries_(journal_.size()), mirrored_(mirrored) {
   report_.name = file.string();
   report_.format = "journal";
   report_.line_name = "entries";
@@ -57,6 +58,7 @@ std::optional<LogRecord> JournalReader::Next() {
         continue;
       }
       ++report_.scans;
+      if (mirrored_) Mirror(relevant.scan.geometry);
       return ScanReading{.scan = std::move(relevant.scan),
                          .T_odom_robot = relevant.map_robot.T_a_b,
                          .laser = std::move(entry->robot)};

@@ -20,8 +20,9 @@ namespace qwsm::io {
 /// team are in one frame, so that the scans of several robots can be read as one drive.
 class JournalReader final : public LogReader {
  public:
-  /// Opens a journal. @throws LogError where it is no journal of planar scans.
-  explicit JournalReader(const std::filesystem::path& file);
+  /// Opens a journal. @param mirrored see LogOptions.
+  /// @throws LogError where it is no journal of planar scans.
+  explicit JournalReader(const std::filesystem::path& file, bool mirrored = false);
 
   std::optional<LogRecord> Next() override;
   const LogReport& report() const override { return report_; }
@@ -41,6 +42,7 @@ class JournalReader final : public LogReader {
   std::map<Key, std::pair<std::string, UncertainPose2>> corrected_;
   LogReport report_;
   std::size_t entries_;
+  bool mirrored_;
 };
 
 }  // namespace qwsm::io

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "service/io/logs/sweep_geometry.hpp"
+
 namespace qwsm::io {
 namespace {
 
@@ -98,6 +100,7 @@ std::optional<ScanReading> SweepCompleter::Complete(Sweep sweep) {
     geometry.range_max_m = laser.range_max_m;
   }
   if (options_.range_max_m) geometry.range_max_m = *options_.range_max_m;
+  if (options_.mirrored) Mirror(geometry);
   if (!sweep.mounting_known && laser.T_robot_laser) geometry.T_robot_laser = *laser.T_robot_laser;
   if (options_.T_robot_laser) geometry.T_robot_laser = *options_.T_robot_laser;
   return std::move(sweep.reading);

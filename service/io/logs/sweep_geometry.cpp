@@ -78,6 +78,11 @@ std::optional<double> BearingStep(double span_rad, double stated_step_rad, std::
   return stated_step_rad;
 }
 
+void Mirror(LaserGeometry& geometry) {
+  geometry.first_bearing_rad = -geometry.first_bearing_rad;
+  geometry.bearing_step_rad = -geometry.bearing_step_rad;
+}
+
 float StatedRangeMaximum(double range_max_m) {
   const bool is_one = range_max_m > static_cast<double>(kNearestReading_m) &&
                       range_max_m <= static_cast<double>(kLongestRange_m);

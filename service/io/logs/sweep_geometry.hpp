@@ -24,6 +24,9 @@ LaserGeometry GuessGeometry(std::size_t readings, std::optional<double> field_of
 /// @return nothing where the three make no sweep.
 std::optional<double> BearingStep(double span_rad, double stated_step_rad, std::size_t readings);
 
+/// Turns the bearings of a laser that is upside down, or counts its beams from the other side.
+void Mirror(LaserGeometry& geometry);
+
 /// The range maximum that a line states; 0 where it states none, or what no laser has.
 float StatedRangeMaximum(double range_max_m);
 

@@ -17,18 +17,11 @@ namespace {
 constexpr std::size_t kGyroReadingsKept = 65'536;
 constexpr std::size_t kMostScansHeld = 16;
 
-void Mirror(LaserGeometry& geometry) {
-  geometry.first_bearing_rad = -geometry.first_bearing_rad;
-  geometry.bearing_step_rad = -geometry.bearing_step_rad;
-}
-
 }  // namespace
 
-LogSource::LogSource(const std::vector<std::filesystem::path>& logs,
-                     const io::LogOptions& options,
-                     bool mirrored)
+LogSource::LogSource(const std::vector<std::filesystem::path>& logs, const io::LogOptions& options)
     : warn_(options.on_fault),
-      mirrored_(mirrored),
+      mirrored_(options.mirrored),
       stamp_offset_s_(options.stamp_offset_s),
       readers_(io::OpenLogs(logs, options)),
       gyro_(kGyroReadingsKept) {}
@@ -52,7 +45,6 @@ std::optional<Observation> LogSource::Read() {
   Observation observation{.scan = std::move(reading->scan), .T_odom_robot = reading->T_odom_robot};
   T_odom_end_read_ = reading->T_odom_end;
   observation.gyro_rad = gyro_.At(observation.scan.stamp);
-  if (mirrored_) Mirror(observation.scan.geometry);
   Check(observation);
   CheckStamps(observation);
   return observation;

@@ -23,11 +23,8 @@ namespace qwsm::pipeline {
 class LogSource final : public ScanSource {
  public:
   /// Opens all logs at once, so that a wrong name is found before the work begins.
-  /// @param mirrored whether beams are counted from the wrong side, and are turned.
   /// @throws io::LogError where one is no log.
-  LogSource(const std::vector<std::filesystem::path>& logs,
-            const io::LogOptions& options,
-            bool mirrored = false);
+  LogSource(const std::vector<std::filesystem::path>& logs, const io::LogOptions& options);
 
   /// Gives the next scan.
   /// @throws io::LogError where a log is damaged, after everything before the damage was given.

@@ -17,9 +17,9 @@
 namespace qwsm::io {
 namespace {
 
-LaserScan ScanOf(LaserScanMessage message, const LaserChoice& laser) {
+LaserScan ScanOf(LaserScanMessage message, const LaserChoice& laser, const LogOptions& options) {
   // From above, an upside-down laser looks to the other side and turns the other way.
-  const float side = laser.is_upside_down ? -1.0F : 1.0F;
+  const float side = laser.is_upside_down != options.mirrored ? -1.0F : 1.0F;
   return {.stamp = message.header.stamp,
           .geometry = {.first_bearing_rad = side * message.first_bearing_rad,
                        .bearing_step_rad = side * BearingStepOf(message),
@@ -241,7 +241,7 @@ ScanReading BagReader::ReadScan(const Place& place) {
   LaserScanMessage message = DecodeLaserScan(bytes, encoding);
   TellOfBearings(message, laser.topic);
   const std::chrono::nanoseconds sweep = SweepOf(message, options_);
-  ScanReading reading{.scan = ScanOf(std::move(message), laser),
+  ScanReading reading{.scan = ScanOf(std::move(message), laser, options_),
                       .T_odom_robot = choice_.odometry.At(place.scan.stamp, place.scan.sequence),
                       .laser = laser.name};
   reading.scan.stamp = place.scan.stamp;

@@ -66,6 +66,8 @@ struct LogOptions {
   std::optional<Pose2> T_robot_laser;       ///< Replaces what the log says of the mounting.
   std::optional<float> range_max_m;         ///< Replaces what the log says or shows.
   std::optional<double> field_of_view_rad;  ///< Replaces the guess where lines do not state it.
+  /// The laser is upside down, which nothing tells, or counts its beams from the other side.
+  bool mirrored = false;
   /// Is called with each kind of fault once, as it appears.
   std::function<void(const std::string&)> on_fault;
 };
