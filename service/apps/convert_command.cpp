@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "qwsm/geometry/angle.hpp"
 #include "service/apps/command.hpp"
 #include "service/apps/messages.hpp"
 #include "service/apps/output_check.hpp"
@@ -37,6 +38,24 @@ struct ConvertArguments {
 /// Takes the records of a log and leaves them in another form.
 using RecordWriter = std::function<void(const io::LogRecord&)>;
 
+/// Tells once of scans that will not be read as they were.
+RecordWriter TellingOfGuesses(const RecordWriter& write) {
+  return [write, has_told = false](const io::LogRecord& record) mutable {
+    const auto* scan = std::get_if<io::ScanReading>(&record);
+    if (scan != nullptr && !has_told && !io::IsGuessedRightly(scan->scan)) {
+      has_told = true;
+      const LaserGeometry& geometry = scan->scan.geometry;
+      messages::Warn(
+          "FLASER does not tell that {} beams go from {:.1f} to {:.1f} degrees, and is read as "
+          "if they covered what lasers of so many beams do; --to carmen tells it",
+          scan->scan.size(),
+          RadiansToDegrees(geometry.Bearing(0)),
+          RadiansToDegrees(geometry.Bearing(scan->scan.size() - 1)));
+    }
+    write(record);
+  };
+}
+
 RecordWriter CarmenRecords(std::ostream& stream, io::CarmenDialect dialect) {
   auto writer = std::make_shared<io::CarmenWriter>(stream, dialect);
   return [writer](const io::LogRecord& record) { writer->Write(record); };
@@ -60,7 +79,9 @@ RecordWriter TruePoses(std::ostream& stream) {
 
 RecordWriter MakeWriter(const std::string& format, std::ostream& stream) {
   if (format == "carmen") return CarmenRecords(stream, io::CarmenDialect::kRobotLaser);
-  if (format == "carmen-flaser") return CarmenRecords(stream, io::CarmenDialect::kFlaser);
+  if (format == "carmen-flaser") {
+    return TellingOfGuesses(CarmenRecords(stream, io::CarmenDialect::kFlaser));
+  }
   if (format == "odometry") return OdometryAtScans(stream);
   return TruePoses(stream);
 }

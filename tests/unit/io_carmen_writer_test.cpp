@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <random>
 #include <sstream>
@@ -104,6 +105,20 @@ TEST(CarmenWriter, WritesWhatAnInertialSensorFelt) {
     ASSERT_EQ(log.imu[0].orientation.has_value(), all);
     EXPECT_EQ(log.imu[0].orientation.value_or(Quaternion{}).z, all ? 0.3 : 0.0);
   }
+}
+
+TEST(CarmenWriter, WritesFlaserFromTheRightAsItIsGuessed) {
+  RandomRecords random(4);
+  const LaserGeometry geometry = GuessGeometry(181, std::nullopt);
+  const ScanReading from_the_right = random.Scan(geometry, 181);
+  EXPECT_TRUE(IsGuessedRightly(from_the_right.scan));
+  ScanReading from_the_left = from_the_right;
+  std::ranges::reverse(from_the_left.scan.ranges_m);
+  Mirror(from_the_left.scan.geometry);
+  EXPECT_TRUE(IsGuessedRightly(from_the_left.scan));
+  EXPECT_EQ(Written({from_the_left}, CarmenDialect::kFlaser),
+            Written({from_the_right}, CarmenDialect::kFlaser));
+  EXPECT_FALSE(IsGuessedRightly(random.Scan(GuessGeometry(181, 4.0), 181).scan));
 }
 
 TEST(CarmenWriter, WritesScansWithoutOdometryAsRawOnes) {

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <ostream>
 #include <string_view>
+#include <utility>
 
 #include "service/io/files/number_text.hpp"
+#include "service/io/logs/sweep_geometry.hpp"
 
 namespace qwsm::io {
 namespace {
@@ -31,6 +34,12 @@ void AppendRanges(std::string& line, const LaserScan& scan) {
   for (const float range_m : scan.ranges_m) AppendNumbers(line, range_m);
 }
 
+/// From right to left, as is guessed where bearings are not told.
+void AppendRangesFromTheRight(std::string& line, LaserScan scan) {
+  if (scan.geometry.bearing_step_rad < 0.0F) std::ranges::reverse(scan.ranges_m);
+  AppendRanges(line, scan);
+}
+
 /// `laser_type start_angle field_of_view angular_resolution maximum_range accuracy remission_mode`
 void AppendConfiguration(std::string& line, const LaserScan& scan) {
   const LaserGeometry& geometry = scan.geometry;
@@ -51,6 +60,17 @@ int NumberOf(std::string_view laser) {
 }
 
 }  // namespace
+
+bool IsGuessedRightly(const LaserScan& scan) {
+  if (scan.size() == 0) return true;
+  const LaserGeometry guess = GuessGeometry(scan.size(), std::nullopt);
+  const std::size_t last = scan.size() - 1;
+  const auto [right_rad, left_rad] =
+      std::minmax({scan.geometry.Bearing(0), scan.geometry.Bearing(last)});
+  const double tolerance_rad = 0.5 * std::abs(static_cast<double>(scan.geometry.bearing_step_rad));
+  return std::abs(guess.Bearing(0) - right_rad) <= tolerance_rad &&
+         std::abs(guess.Bearing(last) - left_rad) <= tolerance_rad;
+}
 
 CarmenWriter::CarmenWriter(std::ostream& stream, CarmenDialect dialect)
     : stream_(&stream), dialect_(dialect) {
@@ -73,12 +93,14 @@ void CarmenWriter::WriteScan(const ScanReading& reading) {
                                    : reading.T_odom_robot ? "ROBOTLASER"
                                                           : "RAWLASER";
   line_ = old && number == 2 ? "RLASER" : message;
-  if (!old) {
+  if (old) {
+    AppendRangesFromTheRight(line_, scan);
+  } else {
     line_ += std::to_string(number);
     AppendConfiguration(line_, scan);
+    AppendRanges(line_, scan);
+    line_ += " 0";  // Remissions.
   }
-  AppendRanges(line_, scan);
-  if (!old) line_ += " 0";  // Remissions.
   if (reading.T_odom_robot) {
     AppendPose(line_, *reading.T_odom_robot * scan.geometry.T_robot_laser);
     AppendPose(line_, *reading.T_odom_robot);

@@ -16,6 +16,9 @@ enum class CarmenDialect {
   kFlaser,      ///< FLASER, for older programs: right for 180 degrees only.
 };
 
+/// Whether programs that read the scan as FLASER, which tells no bearings, guess them rightly.
+bool IsGuessedRightly(const LaserScan& scan);
+
 /// Writes a CARMEN log that OpenLog reads back to the same records.
 ///
 /// Numbers have all their digits. Not part of the format, and so lost, are the minimum range and,
