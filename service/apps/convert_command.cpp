@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <cstddef>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -35,8 +37,8 @@ struct ConvertArguments {
   config::OptionSources sources;
 };
 
-/// Takes the records of a log and leaves them in another form.
-using RecordWriter = std::function<void(const io::LogRecord&)>;
+/// Leaves a record of a log in another form. @return whether that form holds such records.
+using RecordWriter = std::function<bool(const io::LogRecord&)>;
 
 /// Tells once of scans that will not be read as they were.
 RecordWriter TellingOfGuesses(const RecordWriter& write) {
@@ -52,28 +54,33 @@ RecordWriter TellingOfGuesses(const RecordWriter& write) {
           RadiansToDegrees(geometry.Bearing(0)),
           RadiansToDegrees(geometry.Bearing(scan->scan.size() - 1)));
     }
-    write(record);
+    return write(record);
   };
 }
 
 RecordWriter CarmenRecords(std::ostream& stream, io::CarmenDialect dialect) {
   auto writer = std::make_shared<io::CarmenWriter>(stream, dialect);
-  return [writer](const io::LogRecord& record) { writer->Write(record); };
+  return [writer](const io::LogRecord& record) {
+    writer->Write(record);
+    return true;
+  };
 }
 
 RecordWriter OdometryAtScans(std::ostream& stream) {
   return [&stream](const io::LogRecord& record) {
     const auto* scan = std::get_if<io::ScanReading>(&record);
-    if (scan == nullptr || !scan->T_odom_robot) return;
+    if (scan == nullptr || !scan->T_odom_robot) return false;
     io::WriteTumLine(stream, {.stamp = scan->scan.stamp, .T_map_robot = *scan->T_odom_robot});
+    return true;
   };
 }
 
 RecordWriter TruePoses(std::ostream& stream) {
   return [&stream](const io::LogRecord& record) {
     const auto* truth = std::get_if<io::TruePoseReading>(&record);
-    if (truth == nullptr) return;
+    if (truth == nullptr) return false;
     io::WriteTumLine(stream, {.stamp = truth->stamp, .T_map_robot = truth->T_world_robot});
+    return true;
   };
 }
 
@@ -86,59 +93,106 @@ RecordWriter MakeWriter(const std::string& format, std::ostream& stream) {
   return TruePoses(stream);
 }
 
-/// @param as_measured whether the other form keeps the times of beams.
-/// @param check is asked after every record, and throws where it could not be written.
-void Convert(const ConvertArguments& arguments,
-             bool as_measured,
-             const RecordWriter& write,
-             const std::function<void()>& check) {
-  const auto options = config::LoadOptions<options::ProgramOptions>(arguments.sources);
-  io::LogOptions log_options = LogOptionsOf(options.log);
-  log_options.as_measured = as_measured;
-  for (const auto& reader : io::OpenLogs(arguments.logs, log_options)) {
-    const std::string& log = reader->report().name;
-    bool is_empty = true;
-    while (const std::optional<io::LogRecord> record = reader->Next()) {
-      is_empty = false;
-      write(*record);
-      check();
-    }
-    for (const std::string& note : reader->report().notes) {
-      messages::Info("{}: {}", log, note);
-    }
-    if (is_empty) messages::Warn("{}: holds neither scans nor odometry", log);
+/// Where records go, and what they become there.
+struct Target {
+  RecordWriter write;
+  std::function<void()> check;   ///< Is asked after every record, and throws where it failed.
+  std::function<void()> commit;  ///< Is told that all is there.
+};
+
+/// Writes the records of a log.
+/// @param written counts those that the form holds, also where the log is damaged behind them.
+void ConvertLog(io::LogReader& log, const Target& target, std::size_t& written) {
+  while (const std::optional<io::LogRecord> record = log.Next()) {
+    if (target.write(*record)) ++written;
+    target.check();
+  }
+  for (const std::string& note : log.report().notes) {
+    messages::Info("{}: {}", log.report().name, note);
   }
 }
 
-void ConvertToBag(const ConvertArguments& arguments, io::BagFormat format) {
+std::string NothingOf(const std::string& format) {
+  if (format == "odometry") return "holds no scan with odometry";
+  if (format == "truth") return "tells no true pose, as logs of the simulator do";
+  return "holds neither scans nor odometry";
+}
+
+/// Of a log that is damaged, what stands before the damage is kept.
+/// @param as_measured whether the other form keeps the times of beams.
+void Convert(const ConvertArguments& arguments,
+             const std::string& format,
+             bool as_measured,
+             const Target& target) {
+  const auto options = config::LoadOptions<options::ProgramOptions>(arguments.sources);
+  io::LogOptions log_options = LogOptionsOf(options.log);
+  log_options.as_measured = as_measured;
+  std::size_t written = 0;
+  std::exception_ptr damage;
+  std::vector<std::string> without;
+  for (const auto& log : io::OpenLogs(arguments.logs, log_options)) {
+    const std::size_t before = written;
+    try {
+      ConvertLog(*log, target, written);
+    } catch (const io::LogError&) {
+      damage = std::current_exception();
+      break;
+    }
+    if (written == before) without.push_back(log->report().name + ": " + NothingOf(format));
+  }
+  if (written > 0) target.commit();
+  if (damage) std::rethrow_exception(damage);
+  if (written == 0) throw UsageError(without.front() + "; nothing is written");
+  for (const std::string& log : without) messages::Warn(log);
+}
+
+void ConvertToBag(const ConvertArguments& arguments, const std::string& format) {
   if (arguments.output == "-") throw UsageError("a bag is no stream: name it with --output");
-  io::BagFile bag(arguments.output, format);
+  io::BagFile bag(arguments.output,
+                  format == "db3" ? io::BagFormat::kSqlite : io::BagFormat::kMcap);
   io::LogBagWriter writer(bag);
-  Convert(
-      arguments,
-      true,
-      [&](const io::LogRecord& record) { writer.Write(record); },
-      [&] { bag.ThrowIfFailed(); });
-  bag.Commit();
+  Convert(arguments,
+          format,
+          true,
+          {.write =
+               [&](const io::LogRecord& record) {
+                 writer.Write(record);
+                 return true;
+               },
+           .check = [&] { bag.ThrowIfFailed(); },
+           .commit = [&] { bag.Commit(); }});
 }
 
 void ConvertToText(const ConvertArguments& arguments, const std::string& format) {
   if (arguments.output == "-") {
-    Convert(arguments, false, MakeWriter(format, std::cout), [] {
+    const auto check = [] {
       if (!std::cout) throw io::StandardOutputError();
-    });
-    if (!std::cout.flush()) throw io::StandardOutputError();
-    return;
+    };
+    const auto commit = [] {
+      if (!std::cout.flush()) throw io::StandardOutputError();
+    };
+    return Convert(arguments,
+                   format,
+                   false,
+                   {.write = MakeWriter(format, std::cout), .check = check, .commit = commit});
   }
   io::AtomicFile file(arguments.output);
-  Convert(arguments, false, MakeWriter(format, file.stream()), [&] { file.ThrowIfFailed(); });
-  file.Commit();
+  Convert(arguments,
+          format,
+          false,
+          {.write = MakeWriter(format, file.stream()),
+           .check = [&] { file.ThrowIfFailed(); },
+           .commit = [&] { file.Commit(); }});
 }
 
 /// What the name of the output asks for, where nothing else was said: one without an ending is a
 /// folder, as `ros2 bag` makes them.
 std::string FormatOf(const ConvertArguments& arguments) {
   if (arguments.format) return *arguments.format;
+  if (arguments.output.extension() == ".bag") {
+    throw UsageError(arguments.output.string() +
+                     ": bags of ROS 1 are read, but not written; name it .mcap or .db3, for ROS 2");
+  }
   const std::optional<io::BagFormat> bag = io::BagFormatOf(arguments.output);
   const bool is_folder = arguments.output != "-" && !arguments.output.has_extension();
   if (!bag && !is_folder) return "carmen";
@@ -149,10 +203,8 @@ ExitCode RunConvert(const ConvertArguments& arguments) {
   StartMessages(arguments.verbosity);
   const std::string format = FormatOf(arguments);
   RefuseToReplace(arguments.output, arguments.logs);
-  if (format == "mcap") {
-    ConvertToBag(arguments, io::BagFormat::kMcap);
-  } else if (format == "db3") {
-    ConvertToBag(arguments, io::BagFormat::kSqlite);
+  if (format == "mcap" || format == "db3") {
+    ConvertToBag(arguments, format);
   } else {
     ConvertToText(arguments, format);
   }

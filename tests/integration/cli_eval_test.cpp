@@ -4,9 +4,11 @@
 // `qwsm eval`, `qwsm convert` and `qwsm config` as their users run them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <tuple>
 
 #include "service/io/trajectories/trajectory_file.hpp"
 #include "tests/support/program.hpp"
@@ -114,6 +116,42 @@ TEST(ConvertCommand, TakesOdometryOut) {
   const Outcome outcome = RunProgram({"convert", log, "--to", "odometry"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_TRUE(outcome.output.starts_with("1000.000000000 0 0 0 0 0 0 1\n1000.1")) << outcome.output;
+}
+
+TEST(ConvertCommand, LeavesNothingOfWhatALogHasNot) {
+  const TemporaryFolder folder;
+  const fs::path log = folder.path() / "room.log";
+  WriteRoomLog(log, 3);
+  const fs::path empty = folder.path() / "empty.log";
+  std::ofstream(empty) << "PARAM robot_length 0.5 0 host 0\n";
+  const fs::path output = folder.path() / "output";
+  for (const auto& [input, form, why] :
+       {std::tuple{log, "truth", "tells no true pose"},
+        std::tuple{empty, "odometry", "holds no scan with odometry"},
+        std::tuple{empty, "carmen", "holds neither scans nor odometry"},
+        std::tuple{empty, "mcap", "holds neither scans nor odometry"}}) {
+    const Outcome outcome = RunProgram({"convert", input, "--to", form, "-o", output});
+    EXPECT_EQ(outcome.exit_code, 2) << form;
+    EXPECT_NE(outcome.errors.find(why), std::string::npos) << outcome.errors;
+    EXPECT_FALSE(fs::exists(output)) << form;
+  }
+  const Outcome outcome = RunProgram({"convert", log, "-o", folder.path() / "room.bag"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.errors.find("bags of ROS 1"), std::string::npos) << outcome.errors;
+}
+
+TEST(ConvertCommand, KeepsWhatCameBeforeAFault) {
+  const TemporaryFolder folder;
+  const fs::path log = folder.path() / "room.log";
+  WriteRoomLog(log, 3);
+  std::ofstream(log, std::ios::app) << "FLASER 3 1.0 nonsense\n";
+  const fs::path output = folder.path() / "odometry.tum";
+  const Outcome outcome =
+      RunProgram({"convert", log, "--to", "odometry", "-o", output, "--set", "log.strict=true"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.errors.find("room.log:4: "), std::string::npos) << outcome.errors;
+  const std::string kept = ReadFile(output);
+  EXPECT_EQ(std::ranges::count(kept, '\n'), 3);
 }
 
 TEST(ConvertCommand, TurnsMirroredScansAsMapDoes) {

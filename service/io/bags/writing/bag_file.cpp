@@ -18,10 +18,12 @@ std::unique_ptr<BagWriter> MakeWriter(BagFormat format, AtomicFile& file) {
 /// The path without a slash at its end, behind which there would be no name.
 fs::path Trimmed(const fs::path& path) { return path.has_filename() ? path : path.parent_path(); }
 
-void MakeFolder(const fs::path& folder) {
+/// @return whether it was not there before.
+bool MakeFolder(const fs::path& folder) {
   std::error_code error;
-  fs::create_directories(folder, error);
+  const bool is_new = fs::create_directories(folder, error);
   if (error) throw WriteError(folder.string() + ": cannot be created: " + error.message());
+  return is_new;
 }
 
 }  // namespace
@@ -35,7 +37,7 @@ std::optional<BagFormat> BagFormatOf(const fs::path& path) {
 BagFile::BagFile(const fs::path& path, BagFormat format) : path_(Trimmed(path)) {
   if (!BagFormatOf(path_)) {
     folder_ = path_;
-    MakeFolder(folder_);
+    has_made_folder_ = MakeFolder(folder_);
     path_ = folder_ /
             (folder_.filename().string() + (format == BagFormat::kMcap ? "_0.mcap" : "_0.db3"));
   }
@@ -47,7 +49,13 @@ BagFile::BagFile(const fs::path& path, BagFormat format) : path_(Trimmed(path)) 
   }
 }
 
-BagFile::~BagFile() = default;
+BagFile::~BagFile() {
+  writer_.reset();
+  file_.reset();
+  if (!has_made_folder_) return;
+  std::error_code holds_a_bag;
+  fs::remove(folder_, holds_a_bag);
+}
 
 void BagFile::Write(const TopicToWrite& topic, Timestamp stamp, std::string_view cdr) {
   try {

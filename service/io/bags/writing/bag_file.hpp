@@ -40,6 +40,7 @@ class BagFile {
 
  private:
   std::filesystem::path folder_;  // Empty for a bag of one file.
+  bool has_made_folder_ = false;
   std::filesystem::path path_;    // Of the one file.
   std::unique_ptr<AtomicFile> file_;
   std::unique_ptr<BagWriter> writer_;
