@@ -65,6 +65,18 @@ TEST_F(EvalCommand, AlignsWhereAsked) {
       0);
 }
 
+TEST_F(EvalCommand, TellsOfPosesWithoutTruth) {
+  EXPECT_EQ(RunProgram({"eval", shifted_, "--truth", truth_}).output.find("skipped"),
+            std::string::npos);
+  // Of which the first alone, at 0, is where one of the truth is.
+  const fs::path milliseconds = folder_.path() / "milliseconds.tum";
+  Trajectory truth = io::ReadTumFile(truth_);
+  for (StampedPose2& pose : truth) pose.stamp *= 1000;
+  io::WriteTumFile(milliseconds, truth);
+  const Outcome outcome = RunProgram({"eval", shifted_, "--truth", milliseconds});
+  EXPECT_NE(outcome.output.find("29 poses skipped"), std::string::npos) << outcome.output;
+}
+
 TEST_F(EvalCommand, FailsAboveItsBounds) {
   EXPECT_EQ(RunProgram({"eval", shifted_, "--truth", truth_, "--max-ate", "0.0301"}).exit_code, 0);
   const Outcome outcome = RunProgram({"eval", shifted_, "--truth", truth_, "--max-ate", "0.0299"});

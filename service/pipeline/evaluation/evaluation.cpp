@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/evaluation/evaluation.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -41,6 +42,7 @@ Evaluation Evaluator::Evaluate(const std::filesystem::path& file) const {
       throw std::runtime_error(file.string() + ": has no stamp in common with " +
                                options_.truth->string());
     }
+    evaluation.unpaired = std::min(truth_.size(), trajectory.size()) - pairs.size();
     const Pose2 T_ref_map = options_.align ? AlignUmeyama(pairs) : Pose2{};
     evaluation.absolute_m = AbsoluteTrajectoryError(pairs, T_ref_map);
     evaluation.relative = EvaluateRelativePoses(pairs, options_.relative_step);

@@ -32,6 +32,8 @@ struct Evaluation {
   std::optional<RelationsResult> relations;
   std::optional<ErrorStatistics> absolute_m;
   std::optional<RelativePoseError> relative;
+  /// Poses without a true one at their time, or the other way round, of whichever are fewer.
+  std::size_t unpaired = 0;
 };
 
 /// Compares trajectories with what is known to be true.

@@ -101,9 +101,16 @@ std::string EvaluationTable(std::span<const Evaluation> evaluations) {
   for (const Evaluation& evaluation : evaluations) {
     for (const Metric& metric : MetricsOf(evaluation)) AddRow(metric, evaluation.trajectory, rows);
     const std::size_t skipped = evaluation.relations ? evaluation.relations->skipped : 0;
-    if (skipped == 0) continue;
-    notes += fmt::format(
-        "{}: {} relations skipped: no pose at their stamps\n", evaluation.trajectory, skipped);
+    if (skipped > 0) {
+      notes += fmt::format(
+          "{}: {} relations skipped: no pose at their stamps\n", evaluation.trajectory, skipped);
+    }
+    if (evaluation.unpaired > 0) {
+      notes += fmt::format(
+          "{}: {} poses skipped: trajectory and truth have none within --max-time-diff of them\n",
+          evaluation.trajectory,
+          evaluation.unpaired);
+    }
   }
   return config::FormatTable(rows) + notes;
 }
@@ -114,6 +121,7 @@ std::string EvaluationJson(std::span<const Evaluation> evaluations) {
     Json json;
     json["trajectory"] = evaluation.trajectory;
     if (evaluation.relations) json["relations"] = ToJson(*evaluation.relations);
+    if (evaluation.absolute_m) json["poses_skipped"] = evaluation.unpaired;
     if (evaluation.absolute_m) json["ate"] = ToJson(*evaluation.absolute_m, "m");
     if (evaluation.relative) {
       json["rpe"]["translation"] = ToJson(evaluation.relative->translation_m, "m");
