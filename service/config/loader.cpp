@@ -163,7 +163,8 @@ void Loader::Set(const std::string& setting) {
       if (new_key != key) return Report(at, "", NewName(new_key));
       YamlNode value;
       value.text = setting.substr(equals + 1);
-      if (!value.text.empty()) value.kind = YamlNode::Kind::kPlain;
+      const bool is_text = std::holds_alternative<std::string*>(field->value);
+      if (is_text || !value.text.empty()) value.kind = YamlNode::Kind::kPlain;  // "" is a text.
       return Assign({*field, key}, value, at);
     }
     group = GroupIn(*field, step, items);

@@ -216,6 +216,15 @@ TEST(ConfigCommand, DumpsWhatItAccepts) {
   EXPECT_EQ(RunProgram({"config", "dump", "--config", file}).output, dump.output);
 }
 
+TEST(ConfigCommand, TakesBackATextThatAFileGives) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "robot.yaml";
+  std::ofstream(file) << "log: {scan: /front/scan}\n";
+  const Outcome dump = RunProgram({"config", "dump", "--config", file, "--set", "log.scan="});
+  EXPECT_EQ(dump.exit_code, 0) << dump.errors;
+  EXPECT_EQ(dump.output, RunProgram({"config", "dump"}).output);
+}
+
 TEST(ConfigCommand, ChecksAllFiles) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "a.yaml") << "log: {strict: 1}\n";
