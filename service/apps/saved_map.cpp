@@ -24,19 +24,15 @@ namespace qwsm::apps {
 namespace {
 
 /// Tells where the search stands that the log ended in. @param unplaced scans of it.
-ExitCode ConcludeLost(const PlaceBelief& belief, std::size_t unplaced) {
-  if (belief.verdict == PlaceVerdict::kOneOfThese) {
-    messages::Error(
-        "the last {} scans could not be placed: they fit at {}; --at X Y DEG says where the robot "
-        "starts",
-        unplaced,
-        pipeline::PlacesText(belief));
-  } else {
-    messages::Error(
-        "the last {} scans could not be placed: they were found nowhere in the map; is it the "
-        "right map? --at X Y DEG says where the robot starts",
-        unplaced);
-  }
+ExitCode ConcludeLost(const std::string& task, const PlaceBelief& belief, std::size_t unplaced) {
+  const bool can_be_told = task == "localize";
+  const std::string where = belief.verdict == PlaceVerdict::kOneOfThese
+                                ? "they fit at " + pipeline::PlacesText(belief)
+                                : "they were found nowhere in the map (is it the right map?)";
+  messages::Error("the last {} scans could not be placed: {}{}",
+                  unplaced,
+                  where,
+                  can_be_told ? "; --at X Y DEG says where the robot starts" : "");
   return ExitCode::kFailed;
 }
 
@@ -67,12 +63,13 @@ pipeline::CorrectedRun CorrectTogether(const ScanMap& map,
 }
 
 /// The exit code of a drive that ended so; tells of a robot that is lost in the end.
-ExitCode ConcludeDrive(const RunSession& session,
+ExitCode ConcludeDrive(const std::string& task,
+                       const RunSession& session,
                        const pipeline::ReplayResult& end,
                        const Localizer& localizer,
                        const pipeline::LostAndFound& lost_and_found) {
   if (end.end == pipeline::ReplayEnd::kExhausted && lost_and_found.held() > 0) {
-    return ConcludeLost(localizer.belief(), lost_and_found.held());
+    return ConcludeLost(task, localizer.belief(), lost_and_found.held());
   }
   if (lost_and_found.held() > 0) {
     messages::Warn("the last {} scans are not placed: the robot was still looked for",
@@ -117,7 +114,7 @@ ExitCode FollowInMap(const std::string& task,
   results.Finish(localizer.map(), options.mapper.matcher, options.rendering);
   pipeline::WriteMarks(session.folder().path(), robot.marks.Placed({}));
   session.Summarize(results, localizer.map());
-  return ConcludeDrive(session, end, localizer, lost_and_found);
+  return ConcludeDrive(task, session, end, localizer, lost_and_found);
 }
 
 ContinuedMap CorrectAfterFollowing(const RobotInMap& robot,
@@ -143,7 +140,7 @@ ContinuedMap CorrectAfterFollowing(const RobotInMap& robot,
       MovedWithScans(marks_before, localizer.map().scans(), correction.map_node);
   std::ranges::move(robot.marks.Placed(correction.map_robot), std::back_inserter(marks));
   pipeline::WriteMarks(session.folder().path(), marks);
-  return {.code = ConcludeDrive(session, end, localizer, lost_and_found),
+  return {.code = ConcludeDrive("map", session, end, localizer, lost_and_found),
           .map = std::move(corrected.map),
           .marks = std::move(marks)};
 }

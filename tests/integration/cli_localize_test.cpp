@@ -93,6 +93,12 @@ TEST_F(LocalizeCommand, SaysWhenTheRobotWasNotFound) {
       << outcome.errors;
   EXPECT_NE(outcome.errors.find("--at X Y DEG says where the robot starts"), std::string::npos);
   EXPECT_TRUE(io::ReadTumFile(results_ / "trajectory.tum").empty());
+
+  const Outcome continued =
+      RunProgram({"map", "--continue", map_, part_, "-o", folder_.path() / "continued"});
+  EXPECT_EQ(continued.exit_code, 1);
+  EXPECT_NE(continued.errors.find("the last 2 scans could not be placed"), std::string::npos);
+  EXPECT_EQ(continued.errors.find("--at"), std::string::npos) << "which map does not know";
 }
 
 TEST_F(LocalizeCommand, SaysWhatIsNotPlacedWhenItIsInterrupted) {
