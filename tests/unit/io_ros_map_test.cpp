@@ -106,6 +106,16 @@ TEST_F(RosMap, OfOtherProgramsIsUnderstood) {
   EXPECT_EQ(grid.cells, (std::vector<CellState>{kF, kO}));
 }
 
+TEST_F(RosMap, TakesWordsForWhetherItIsNegative) {
+  Write("map.pgm", std::string("P5\n2 1\n255\n") + "\x01\xFE");
+  const std::string rest =
+      "image: map.pgm\nresolution: 1\norigin: [0, 0, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.2\n";
+  Write("map.yaml", rest + "negate: false\n");
+  EXPECT_EQ(ReadRosMap(yaml_).cells, (std::vector<CellState>{kO, kF}));
+  Write("map.yaml", rest + "negate: true\n");
+  EXPECT_EQ(ReadRosMap(yaml_).cells, (std::vector<CellState>{kF, kO}));
+}
+
 constexpr const char* kRest = "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
 
 TEST_F(RosMap, FailuresNameTheFileAndTheReason) {
@@ -141,8 +151,10 @@ TEST_F(RosMap, PicturesThatAreNoneAreRefused) {
     return std::string();
   };
   const std::string name = pgm.string() + ": ";
-  EXPECT_EQ(failure_of(""), name + "is no binary PGM picture");
-  EXPECT_EQ(failure_of("P2\n1 1\n255\n0\n"), name + "is no binary PGM picture");
+  const std::string no_pgm =
+      "is no binary PGM picture (P5); ImageMagick makes one of others: convert map.png map.pgm";
+  EXPECT_EQ(failure_of(""), name + no_pgm);
+  EXPECT_EQ(failure_of("P2\n1 1\n255\n0\n"), name + no_pgm);
   EXPECT_EQ(failure_of("P5\n-1 1\n255\n0"), name + "has no size");
   EXPECT_EQ(failure_of("P5\n99999999999 1\n255\n0"), name + "has no size");
   EXPECT_EQ(failure_of("P5\n1 1\n65535\n00"), name + "has not 8 bits per pixel");

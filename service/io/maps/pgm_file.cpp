@@ -43,7 +43,9 @@ GreyImage ReadPgm(const std::filesystem::path& path) {
   };
   std::ifstream file = OpenForReading(path);
   std::string magic(2, '\0');
-  if (!file.read(magic.data(), 2) || magic != "P5") fail("is no binary PGM picture");
+  if (!file.read(magic.data(), 2) || magic != "P5") {
+    fail("is no binary PGM picture (P5); ImageMagick makes one of others: convert map.png map.pgm");
+  }
   const int width_px = HeaderNumber(file);
   const int height_px = HeaderNumber(file);
   const int white = HeaderNumber(file);

@@ -95,6 +95,13 @@ class MapHeader {
 
   double Number(const std::string& key) const { return ToNumber(key, Text(key)); }
 
+  // A number, as map_server writes it, or a word, which nav2 takes as well.
+  bool Flag(const std::string& key) const {
+    const std::string text = Text(key);
+    if (text == "true" || text == "false") return text == "true";
+    return Number(key) != 0.0;
+  }
+
   std::array<double, 3> Triple(const std::string& key) const {
     std::string text = Text(key);
     for (char& character : text) {
@@ -139,7 +146,7 @@ class MapHeader {
 
 // What each of the 256 greys means, in the mode `trinary`.
 std::array<CellState, 256> StatesOfGreys(const MapHeader& header) {
-  const bool negate = header.Number("negate") != 0.0;
+  const bool negate = header.Flag("negate");
   const double occupied_above = header.Number("occupied_thresh");
   const double free_below = header.Number("free_thresh");
   std::array<CellState, 256> states{};
