@@ -66,27 +66,37 @@ class TeamMapping {
   }
 
  private:
+  /// Goes on without a robot of whose scans none can be used. @throws UsageError where that is all.
   ExitCode MapEachAlone(const std::vector<std::string>& names) {
+    ExitCode code = ExitCode::kDone;
     for (const std::string& name : names) {
-      const ExitCode code = MapAlone(name);
-      if (code != ExitCode::kDone) return code;
+      messages::Info("mapping {}", name);
+      options::LogOptions log = options_.log;
+      log.robot = name;
+      std::unique_ptr<pipeline::LogSource> source;
+      try {
+        source = OpenLogs(arguments_, log);
+      } catch (const UsageError& error) {
+        if (robots_.empty() && name == names.back()) throw;
+        messages::Error("{}: is not mapped: {}", name, error.what());
+        code = ExitCode::kFailed;
+        continue;
+      }
+      const ExitCode end = MapAlone(name, *source);
+      if (end != ExitCode::kDone) return end;
     }
-    return ExitCode::kDone;
+    return code;
   }
 
-  ExitCode MapAlone(const std::string& name) {
-    messages::Info("mapping {}", name);
-    options::LogOptions log = options_.log;
-    log.robot = name;
-    const auto source = OpenLogs(arguments_, log);
+  ExitCode MapAlone(const std::string& name, pipeline::LogSource& source) {
     MappedRobot robot = Begin(name);
     std::vector<pipeline::StepSink*> sinks{robot.steps.get()};
     if (robots_.empty()) sinks.push_back(&marks_);  // Whose moments are those of the first robot.
     const pipeline::ReplayResult end = Corrects(options_)
-                                           ? MapCorrecting(*source, std::move(sinks), robot)
-                                           : MapIncrementally(*source, std::move(sinks), robot);
+                                           ? MapCorrecting(source, std::move(sinks), robot)
+                                           : MapIncrementally(source, std::move(sinks), robot);
     robot.results->SetTitle(robot.session.Title("map", end));
-    robot.truth = source->truth();
+    robot.truth = source.truth();
     robots_.push_back(std::move(robot));
     return session_.Conclude(end);
   }

@@ -157,6 +157,24 @@ TEST_F(TeamBag, GivesOneRobotWhereItIsAskedFor) {
       << refused.errors;
 }
 
+TEST(TeamBagOfABrokenLaser, IsMappedWithoutItsRobot) {
+  std::vector<sim::Reading> readings = ReadingsOf(
+      config::LoadOptions<sim::ScenarioOptions>(
+          {.file = QWSM_SOURCE_DIR "/configs/scenarios/team.yaml", .settings = {"duration_s=20"}}),
+      2);
+  for (sim::Reading& reading : readings) {
+    if (reading.robot == 1) reading.scan.geometry.range_max_m = 0.0F;
+  }
+  const TemporaryFolder folder;
+  const fs::path bag = folder.path() / "team.mcap";
+  WriteTeamBag(readings, std::vector<std::string>{"robot_1", "robot_2"}, bag);
+  const Outcome mapped = RunProgram({"map", bag, "-o", folder.path() / "results"});
+  EXPECT_EQ(mapped.exit_code, 1);
+  EXPECT_NE(mapped.errors.find("robot_2: is not mapped: there is no scan"), std::string::npos)
+      << mapped.errors;
+  EXPECT_FALSE(io::ReadTumFile(folder.path() / "results/robot_1/trajectory.tum").empty());
+}
+
 // Along a corridor that repeats itself, whose robots see each other: each would be held back by the
 // one ahead, and found a leg of the corridor off.
 TEST(TeamBagOfACorridor, IsMappedWithoutWhoComesAlong) {
