@@ -7,6 +7,9 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <set>
+#include <thread>
+#include <vector>
 
 #include "service/io/files/atomic_file.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -49,6 +52,26 @@ TEST_F(ResultsFolderTest, RefusesAnInputThatIsInItByALink) {
   fs::create_symlink(results / "rec.log", results_ / "link.log");
   const std::array inputs{results_ / "link.log"};
   EXPECT_THROW(ResultsFolder::Check(results, true, inputs), io::WriteError);
+}
+
+TEST_F(ResultsFolderTest, IsAnotherOneForEachRunThatBeginsNow) {
+  constexpr std::size_t kRuns = 8;
+  constexpr std::size_t kTimes = 20;
+  std::array<std::set<fs::path>, kRuns> folders;
+  {
+    std::vector<std::jthread> runs;
+    for (std::set<fs::path>& of_run : folders) {
+      runs.emplace_back([&] {
+        for (std::size_t i = 0; i < kTimes; ++i) {
+          of_run.insert(ResultsFolder::ForNow(results_ / "results").path());
+        }
+      });
+    }
+  }
+  std::set<fs::path> all;
+  for (const std::set<fs::path>& of_run : folders) all.insert(of_run.begin(), of_run.end());
+  EXPECT_EQ(all.size(), kRuns * kTimes);
+  EXPECT_TRUE(fs::is_directory(results_ / "results" / "latest"));
 }
 
 }  // namespace

@@ -90,14 +90,24 @@ std::string UtcTime() {
   return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H-%M-%SZ", &utc)};
 }
 
+/// @param target has a name that no other run's has.
 void PointTo(const fs::path& link, const fs::path& target) {
-  const fs::path temporary = link.string() + ".part";
+  const fs::path temporary = link.string() + "." + target.string() + ".part";
   std::error_code error;
-  fs::remove(temporary, error);
   fs::create_directory_symlink(target, temporary, error);
   ThrowIf(error, temporary, "be created");
   fs::rename(temporary, link, error);
+  std::error_code ignored;
+  if (error) fs::remove(temporary, ignored);
   ThrowIf(error, link, "be created");
+}
+
+/// Whether a folder was made that nobody had: runs may begin at the same time.
+bool IsMade(const fs::path& folder) {
+  std::error_code error;
+  const bool is_made = fs::create_directory(folder, error);
+  ThrowIf(error, folder, "be created");
+  return is_made;
 }
 
 }  // namespace
@@ -113,9 +123,12 @@ ResultsFolder::ResultsFolder(fs::path folder, bool force, std::span<const fs::pa
 }
 
 ResultsFolder ResultsFolder::ForNow(const fs::path& parent) {
+  std::error_code error;
+  fs::create_directories(parent, error);
+  ThrowIf(error, parent, "be created");
   const std::string time = UtcTime();
   std::string name = time;
-  for (int count = 2; fs::exists(parent / name); ++count) name = fmt::format("{}-{}", time, count);
+  for (int count = 2; !IsMade(parent / name); ++count) name = fmt::format("{}-{}", time, count);
   ResultsFolder results(parent / name, false);
   PointTo(parent / "latest", name);
   return results;
