@@ -23,14 +23,16 @@
 namespace qwsm::apps {
 namespace {
 
-/// Tells where the search stands that the log ended in. @param unplaced scans of it.
-ExitCode ConcludeLost(const std::string& task, const PlaceBelief& belief, std::size_t unplaced) {
-  const bool can_be_told = task == "localize";
-  const std::string where = belief.verdict == PlaceVerdict::kOneOfThese
-                                ? "they fit at " + pipeline::PlacesText(belief)
+/// Tells where the search stands that the log ended in.
+ExitCode ConcludeLost(const std::string& task,
+                      PlaceVerdict verdict,
+                      const pipeline::LostAndFound& lost_and_found) {
+  const bool can_be_told = task == "localize" && lost_and_found.is_lost_from_start();
+  const std::string where = verdict == PlaceVerdict::kOneOfThese
+                                ? "they may begin at " + lost_and_found.PlacesText()
                                 : "they were found nowhere in the map (is it the right map?)";
   messages::Error("the last {} scans could not be placed: {}{}",
-                  unplaced,
+                  lost_and_found.held(),
                   where,
                   can_be_told ? "; --at X Y DEG says where the robot starts" : "");
   return ExitCode::kFailed;
@@ -69,7 +71,7 @@ ExitCode ConcludeDrive(const std::string& task,
                        const Localizer& localizer,
                        const pipeline::LostAndFound& lost_and_found) {
   if (end.end == pipeline::ReplayEnd::kExhausted && lost_and_found.held() > 0) {
-    return ConcludeLost(task, localizer.belief(), lost_and_found.held());
+    return ConcludeLost(task, localizer.belief().verdict, lost_and_found);
   }
   if (lost_and_found.held() > 0) {
     messages::Warn("the last {} scans are not placed: the robot was still looked for",

@@ -5,10 +5,14 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 
+#include "service/io/maps/ros_map_file.hpp"
 #include "service/io/trajectories/trajectory_file.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/room_log.hpp"
@@ -99,6 +103,36 @@ TEST_F(LocalizeCommand, SaysWhenTheRobotWasNotFound) {
   EXPECT_EQ(continued.exit_code, 1);
   EXPECT_NE(continued.errors.find("the last 2 scans could not be placed"), std::string::npos);
   EXPECT_EQ(continued.errors.find("--at"), std::string::npos) << "which map does not know";
+}
+
+TEST_F(LocalizeCommand, SaysWhereTheRobotMayHaveStarted) {
+  // Two such rooms, side by side.
+  const OccupancyGrid room = io::ReadRosMap(folder_.path() / "mapped/map.yaml");
+  OccupancyGrid rooms = room;
+  rooms.width = 2 * room.width;
+  rooms.cells.clear();
+  for (int y = 0; y < rooms.height; ++y) {
+    for (int x = 0; x < rooms.width; ++x) rooms.cells.push_back(room.At(x % room.width, y));
+  }
+  const fs::path map = folder_.path() / "rooms.yaml";
+  io::WriteRosMap(map, rooms);
+  const Outcome outcome = RunProgram({"localize", "--map", map, part_, "-o", results_});
+  ASSERT_EQ(outcome.exit_code, 1) << outcome.output;
+  const std::string before = "they may begin at ";
+  const std::size_t at = outcome.errors.find(before);
+  ASSERT_NE(at, std::string::npos) << outcome.errors;
+  std::istringstream place(outcome.errors.substr(at + before.size()));
+  std::string x_m;
+  std::string y_m;
+  std::string heading_deg;
+  place >> x_m >> y_m >> heading_deg;
+  const Outcome told =
+      RunProgram({"localize", "--map", map, part_, "-o", results_, "--at", x_m, y_m, heading_deg});
+  EXPECT_EQ(told.exit_code, 0) << told.errors;
+  const Pose2 start = io::ReadTumFile(folder_.path() / "mapped/trajectory.tum")[kFirst].T_map_robot;
+  const double off_m = std::abs(std::stod(x_m) - start.x_m);
+  EXPECT_LT(std::min(off_m, std::abs(off_m - room.width * room.cell_m)), 0.1) << outcome.errors;
+  EXPECT_NEAR(std::stod(y_m), start.y_m, 0.1);
 }
 
 TEST_F(LocalizeCommand, SaysWhatIsNotPlacedWhenItIsInterrupted) {

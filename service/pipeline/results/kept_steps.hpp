@@ -20,6 +20,8 @@ class KeptSteps final : public StepSink {
   void PassOn(const UncertainPose2& map_own, std::span<StepSink* const> next);
 
   std::size_t size() const { return steps_.size(); }
+  /// The first answer. @pre there is one
+  const TimedStep& front() const { return steps_.front(); }
 
  private:
   std::vector<TimedStep> steps_;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <span>
+#include <vector>
 
 #include "qwsm/geometry/angle.hpp"
 #include "service/pipeline/text/messages.hpp"
@@ -31,18 +32,24 @@ void LostAndFound::Take(const TimedStep& timed) {
     // What the robot did meanwhile is known as well as if it had been tracked, but for where.
     held_.PassOn(localizer_.map_local(), next_);
   }
+  was_placed_ = true;
   for (StepSink* sink : next_) sink->Take(timed);
 }
 
-std::string PlacesText(const PlaceBelief& belief) {
+std::string LostAndFound::PlacesText() const {
   constexpr std::size_t kMost = 5;
+  const std::vector<Place>& places = localizer_.belief().places;
+  // Places are those of the last look; who is to be told where it began wants to know that.
+  const Pose2 T_looked_first =
+      localizer_.T_local_looked().value_or(Pose2{}).Inverse() * held_.front().step.map_robot.T_a_b;
   std::string text;
-  for (const Place& place : std::span(belief.places).first(std::min(kMost, belief.places.size()))) {
+  for (const Place& place : std::span(places).first(std::min(kMost, places.size()))) {
     if (!text.empty()) text += ", ";
-    text +=
-        fmt::format("{} ({:.0f} %)", PoseText(place.map_robot.T_a_b), 100.0 * place.probability);
+    text += fmt::format("{} ({:.0f} %)",
+                        PoseText(place.map_robot.T_a_b * T_looked_first),
+                        100.0 * place.probability);
   }
-  if (belief.places.size() > kMost) text += ", ...";
+  if (places.size() > kMost) text += ", ...";
   return text;
 }
 

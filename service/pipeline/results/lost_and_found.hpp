@@ -25,14 +25,17 @@ class LostAndFound final : public StepSink {
 
   /// How many answers could not be placed.
   std::size_t held() const { return held_.size(); }
+  /// Whether the robot was found nowhere yet.
+  bool is_lost_from_start() const { return !was_placed_; }
+  /// The places where the robot may have been at the first of those answers, as `x y heading (48
+  /// %)`, in metres and degrees. @pre held() > 0
+  std::string PlacesText() const;
 
  private:
   const Localizer& localizer_;
   std::vector<StepSink*> next_;
   KeptSteps held_;
+  bool was_placed_ = false;
 };
-
-/// The places where a robot may be, as `x y heading (48 %)`, in metres and degrees.
-std::string PlacesText(const PlaceBelief& belief);
 
 }  // namespace qwsm::pipeline

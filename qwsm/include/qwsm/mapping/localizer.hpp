@@ -30,6 +30,10 @@ class Localizer {
   bool is_lost() const { return lost_.has_value(); }
   /// What is known of the place of the robot while it is lost.
   const PlaceBelief& belief() const { return lost_ ? lost_->belief() : found_; }
+  /// Where the robot that is lost was in the frame of its own at the last look, if there was one.
+  std::optional<Pose2> T_local_looked() const {
+    return lost_ ? lost_->T_local_looked() : std::nullopt;
+  }
   /// The frame of the robot's own in which it was lost last, once it is found.
   const UncertainPose2& map_local() const { return map_local_; }
 

@@ -22,6 +22,8 @@ class LostRobot {
   void LookAnew() { finder_ = PlaceFinder(local_.options()); }
 
   const PlaceBelief& belief() const { return finder_.belief(); }
+  /// Where it was in the frame of its own at the last look, which the belief is about.
+  const std::optional<Pose2>& T_local_looked() const { return finder_.T_local_looked(); }
   bool is_found() const { return belief().verdict == PlaceVerdict::kFound; }
   /// Where in the map the robot is. @pre is_found()
   const UncertainPose2& map_found() const { return belief().places.front().map_robot; }
