@@ -57,6 +57,18 @@ TEST(OpenLog, ReadsOverALineWithoutEnd) {
   EXPECT_TRUE(content.report.faults[0].what.starts_with("line: the line is longer than 4 MiB"));
 }
 
+TEST(OpenLog, TellsWhatOfItsOptionsCountsForBagsOnly) {
+  std::string told;
+  LogOptions options;
+  options.on_fault = [&told](const std::string& fault) { told += fault + "\n"; };
+  ReadLogText(kOdometry, options);
+  EXPECT_EQ(told, "");
+  options.scan_topics = {"/scan"};
+  options.stamp_offset_s = 0.3;
+  ReadLogText(kOdometry, options);
+  EXPECT_EQ(told, "test.log: left out, as it counts for bags only: log.scan, log.stamp_offset_s\n");
+}
+
 TEST(OpenLog, KnowsHowFarItHasRead) {
   const auto path = std::filesystem::path(testing::TempDir()) / "progress.log";
   std::ofstream(path) << kOdometry << kOdometry;

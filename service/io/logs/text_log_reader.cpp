@@ -29,6 +29,22 @@ TextLogReader::TextLogReader(std::istream& stream, std::string_view name, const 
   report_.name = name;
   report_.compression = lines_.source().compression();
   Recognize();
+  TellOfBagOptions();
+}
+
+/// Tells of what was asked for and is heeded with bags alone.
+void TextLogReader::TellOfBagOptions() const {
+  std::string names;
+  const auto add = [&names](bool is_given, const char* name) {
+    if (is_given) names.append(names.empty() ? "" : ", ").append(name);
+  };
+  add(!options_.scan_topics.empty(), "log.scan");
+  add(!options_.odometry_topic.empty(), "log.odometry");
+  add(options_.sweep_s.has_value(), "log.sweep_s");
+  add(options_.laser_height_m.has_value(), "log.laser_height_m");
+  add(options_.stamp_offset_s != 0.0, "log.stamp_offset_s");
+  if (names.empty() || !options_.on_fault) return;
+  options_.on_fault(report_.name + ": left out, as it counts for bags only: " + names);
 }
 
 void TextLogReader::Own(std::unique_ptr<std::istream> stream,

@@ -36,6 +36,7 @@ class TextLogReader final : public LogReader {
   using Message = std::variant<Sweep, OdometryReading, TruePoseReading, ImuReading>;
 
   void Recognize();
+  void TellOfBagOptions() const;
   void ReadOn();
   void ReadLine();
   void Take(ParsedLine parsed, std::size_t line_number);
