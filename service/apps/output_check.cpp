@@ -43,6 +43,7 @@ bool IsFolder(const fs::path& folder, const fs::path& wanted) {
 
 void RefuseToReplace(const fs::path& output, std::span<const fs::path> inputs) {
   if (output == "-") return;
+  if (output.empty()) throw io::WriteError("--output: is empty; name a file");
   for (const fs::path& input : inputs) {
     if (input == "-" || !WouldReplace(output, input)) continue;
     throw CannotTake(output,
@@ -52,7 +53,8 @@ void RefuseToReplace(const fs::path& output, std::span<const fs::path> inputs) {
 
 void CheckMapToSave(const fs::path& map, std::span<const fs::path> logs, const fs::path& results) {
   std::error_code error;
-  if (map.empty() || fs::is_directory(map, error)) {
+  if (map.empty()) throw io::WriteError("--save-map: is empty; name a file for the map");
+  if (fs::is_directory(map, error)) {
     throw CannotTake(map, "is a folder; name a file for the map");
   }
   RefuseToReplace(map, logs);

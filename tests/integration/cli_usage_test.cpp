@@ -6,6 +6,7 @@
 
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/program.hpp"
@@ -152,6 +153,20 @@ TEST(Usage, RefusesNumbersThatAreNone) {
     const Outcome outcome = RunProgram(command);
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_NE(outcome.errors.find(command.back()), std::string::npos) << outcome.errors;
+  }
+}
+
+TEST(Usage, RefusesOutputsWithoutAName) {
+  const TemporaryFolder folder;
+  const std::string log = folder.path() / "room.log";
+  WriteRoomLog(log, 3);
+  for (const auto& [command, option] : {std::pair{"map", "--output"},
+                                        std::pair{"map", "--save-map"},
+                                        std::pair{"convert", "--output"}}) {
+    const Outcome outcome = RunProgram({command, log, option, ""});
+    EXPECT_EQ(outcome.exit_code, 3) << command;
+    EXPECT_TRUE(outcome.errors.starts_with(std::string("qwsm: ") + option + ": is empty"))
+        << outcome.errors;
   }
 }
 

@@ -135,6 +135,7 @@ ResultsFolder ResultsFolder::ForNow(const fs::path& parent) {
 }
 
 void ResultsFolder::Check(const fs::path& folder, bool force, std::span<const fs::path> inputs) {
+  if (folder.empty()) throw io::WriteError("--output: is empty; name a folder for the results");
   std::error_code error;
   const fs::file_status status = fs::status(folder, error);
   if (!fs::exists(status)) return;
