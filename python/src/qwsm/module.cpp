@@ -8,10 +8,13 @@
 
 namespace {
 
+// Of this module alone: the module slam6d, too, has an OptionError for the same C++ exception, and
+// the one imported last would else be raised by both.
 void AddErrors(pybind11::module_& module) {
-  pybind11::register_exception<qwsm::io::LogError>(module, "LogError", PyExc_ValueError);
-  pybind11::register_exception<qwsm::io::MapFileError>(module, "MapFileError", PyExc_ValueError);
-  pybind11::register_exception<qwsm::config::ConfigError>(module, "OptionError", PyExc_ValueError);
+  using pybind11::register_local_exception;
+  register_local_exception<qwsm::io::LogError>(module, "LogError", PyExc_ValueError);
+  register_local_exception<qwsm::io::MapFileError>(module, "MapFileError", PyExc_ValueError);
+  register_local_exception<qwsm::config::ConfigError>(module, "OptionError", PyExc_ValueError);
 }
 
 }  // namespace

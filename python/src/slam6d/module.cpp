@@ -6,6 +6,8 @@
 
 PYBIND11_MODULE(_slam6d, module) {
   module.attr("__version__") = qwsm::kVersion;
-  pybind11::register_exception<qwsm::config::ConfigError>(module, "OptionError", PyExc_ValueError);
+  // Of this module alone: the module qwsm has one of its own for the same C++ exception.
+  pybind11::register_local_exception<qwsm::config::ConfigError>(
+      module, "OptionError", PyExc_ValueError);
   slam6d::python::AddRegistration(module);
 }
