@@ -63,6 +63,25 @@ class Matching(unittest.TestCase):
             self.assertAlmostEqual(qwsm.match_scans(*scans, guess).T_ref_cur.x_m, 0.2, delta=0.01)
 
 
+    def test_a_guess_that_is_no_pose_is_told(self):
+        scan = room_from(0, 0, 0)
+        for guess in (np.nan, 0, 0), (1e300, 0, 0), (0, 0, np.inf):
+            with self.assertRaisesRegex(ValueError, "guess: the pose is not finite"):
+                qwsm.match_scans(scan, scan, guess)
+        for covariance in np.full((3, 3), np.nan), -np.eye(3):
+            with self.assertRaisesRegex(ValueError, "guess: the covariance is not finite, or its"):
+                qwsm.match_scans(scan, scan, qwsm.UncertainPose2((0, 0, 0), covariance))
+
+
+class Poses(unittest.TestCase):
+    def test_headings_are_within_half_a_turn(self):
+        pose, turn = qwsm.Pose2(0, 0, 7.0), 7.0 - 2 * np.pi
+        self.assertAlmostEqual(pose.theta_rad, turn)
+        self.assertAlmostEqual(qwsm.Pose2((0, 0, 7.0)).theta_rad, turn)
+        pose.theta_rad = -7.0
+        self.assertAlmostEqual(pose.theta_rad, -turn)
+
+
 class Quadtree(unittest.TestCase):
     def test_finds_what_brute_force_finds(self):
         random = np.random.default_rng(1)

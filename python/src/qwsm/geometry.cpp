@@ -15,6 +15,10 @@
 namespace qwsm::python {
 namespace {
 
+Pose2 MakePose(double x_m, double y_m, double theta_rad) {
+  return {x_m, y_m, NormalizeAngle(theta_rad)};
+}
+
 void AddPoses(py::module_& module) {
   py::class_<Pose2>(
       module,
@@ -22,17 +26,19 @@ void AddPoses(py::module_& module) {
       "A rigid motion of the plane, SE(2). T_a_b is the pose of frame b in frame a; "
       "it maps coordinates in b to coordinates in a. Wherever one is asked for, three "
       "numbers (x_m, y_m, theta_rad) do.")
-      .def(py::init<double, double, double>(),
+      .def(py::init(&MakePose),
            py::arg("x_m") = 0.0,
            py::arg("y_m") = 0.0,
            py::arg("theta_rad") = 0.0)
-      .def(py::init([](const std::array<double, 3>& p) {
-             return Pose2{p[0], p[1], p[2]};
-           }),
+      .def(py::init([](const std::array<double, 3>& p) { return MakePose(p[0], p[1], p[2]); }),
            py::arg("x_y_theta"))
       .def_readwrite("x_m", &Pose2::x_m)
       .def_readwrite("y_m", &Pose2::y_m)
-      .def_readwrite("theta_rad", &Pose2::theta_rad, "Counter-clockwise, in (-pi, pi].")
+      .def_property(
+          "theta_rad",
+          [](const Pose2& p) { return p.theta_rad; },
+          [](Pose2& p, double theta_rad) { p.theta_rad = NormalizeAngle(theta_rad); },
+          "Counter-clockwise, in (-pi, pi].")
       .def("inverse", &Pose2::Inverse)
       .def(
           "__mul__",

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pybind11/eigen.h>
 
+#include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "python/src/qwsm/bindings.hpp"
+#include "qwsm/geometry/position.hpp"
 #include "qwsm/match_scans.hpp"
 
 namespace qwsm::python {
@@ -17,7 +20,25 @@ constexpr const char* kMatchScans =
     "Where `scan` was taken, seen from where `reference` was: weighted matching of two scans "
     "(Pfister et al. 2002) after a search around the guess.\n\n"
     "A guess without covariance may be off by 0.3 m and 10 degrees (one sigma); searched is up to "
-    "three of each. The answer is to be trusted where its status is 'converged'.";
+    "three of each. The answer is to be trusted where its status is 'converged'. Raises ValueError "
+    "where the guess can be no pose of a robot.";
+
+void CheckGuess(const UncertainPose2& guess) {
+  const std::string_view objection = ObjectionTo(guess);
+  if (!objection.empty()) throw std::invalid_argument("guess: " + std::string(objection));
+}
+
+MatchResult MatchUncertain(const LaserScan& reference,
+                           const LaserScan& scan,
+                           const UncertainPose2& guess) {
+  CheckGuess(guess);
+  return MatchScans(reference, scan, guess);
+}
+
+MatchResult MatchNear(const LaserScan& reference, const LaserScan& scan, const Pose2& guess) {
+  CheckGuess({.T_a_b = guess});
+  return MatchScans(reference, scan, guess);
+}
 
 }  // namespace
 
@@ -48,16 +69,15 @@ void AddMatching(py::module_& module) {
                     "Mean squared error of the pairs in units of its modelled variance.");
 
   const py::call_guard<py::gil_scoped_release> without_gil;
-  module.def(
-      "match_scans",
-      py::overload_cast<const LaserScan&, const LaserScan&, const UncertainPose2&>(&MatchScans),
-      py::arg("reference"),
-      py::arg("scan"),
-      py::arg("guess"),
-      without_gil,
-      kMatchScans);
   module.def("match_scans",
-             py::overload_cast<const LaserScan&, const LaserScan&, const Pose2&>(&MatchScans),
+             &MatchUncertain,
+             py::arg("reference"),
+             py::arg("scan"),
+             py::arg("guess"),
+             without_gil,
+             kMatchScans);
+  module.def("match_scans",
+             &MatchNear,
              py::arg("reference"),
              py::arg("scan"),
              py::arg("guess") = Pose2(),
