@@ -197,6 +197,8 @@ TEST_F(Slam6dProgram, SaysWhatIsWrongWithItsArguments) {
   const fs::path nothing = folder_.path() / "nothing.ply";
   std::ofstream(nothing) << "ply\nformat binary_big_endian 1.0\n";
   expect({"register", nothing, "--output", results_}, "none of the scans has three");
+  expect({"bench-search", nothing, nothing}, "format 'binary_big_endian' is not read");
+  expect({"bench-search", scans_, "--max-range", "0.001"}, "no points to search");
   expect({"register", scans_, "--set", "slam.icp.metrik=svd"}, "did you mean");
   expect({"eval", empty, "--truth", truth_}, "holds no trajectory.tum");
   expect({"regster"}, "did you mean 'register'");

@@ -6,8 +6,11 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "service/apps/messages.hpp"
 #include "service/apps/number_arguments.hpp"
 #include "service/apps/output.hpp"
 #include "service/apps/slam6d/commands.hpp"
@@ -15,6 +18,7 @@
 #include "service/pipeline/results/results_folder.hpp"
 #include "service/pipeline/slam6d/scan_series.hpp"
 #include "service/pipeline/slam6d/search_benchmark.hpp"
+#include "service/pipeline/text/messages.hpp"
 
 namespace slam6d::apps {
 namespace {
@@ -30,17 +34,27 @@ struct BenchArguments {
 constexpr std::array<int, 8> kBucketSizes{1, 2, 4, 8, 16, 25, 35, 50};
 constexpr std::size_t kShownSize = 4;
 
+/// The next scan, with the points that count. @throws qwsm::apps::UsageError if there are none.
+pipeline::LoadedScan ReadScan(pipeline::ScanSeries& series, const BenchArguments& arguments) {
+  pipeline::LoadedScan scan = *series.Next();
+  for (const std::string& problem : scan.problems) qwsm::messages::Warn(problem);
+  scan.cloud = InRange(scan.cloud, 0.0, arguments.max_range_m);
+  if (!scan.cloud.empty()) return scan;
+  throw qwsm::apps::UsageError(scan.file.string() + ": has no points to search within --max-range");
+}
+
 pipeline::SearchTask ReadTask(const BenchArguments& arguments) {
   pipeline::ScanSeries series(FindScans(arguments.scans, {}), {}, {});
   if (series.size() < 2) throw qwsm::apps::UsageError("two scans are needed");
-  const pipeline::LoadedScan ref = *series.Next();
-  const pipeline::LoadedScan cur = *series.Next();
-  return {.ref = InRange(ref.cloud, 0.0, arguments.max_range_m),
-          .cur = InRange(cur.cloud, 0.0, arguments.max_range_m),
+  pipeline::LoadedScan ref = ReadScan(series, arguments);
+  pipeline::LoadedScan cur = ReadScan(series, arguments);
+  return {.ref = std::move(ref.cloud),
+          .cur = std::move(cur.cloud),
           .T_ref_cur_guess = ref.T_odom_scan.Inverse() * cur.T_odom_scan};
 }
 
 ExitCode RunBench(const BenchArguments& arguments) {
+  qwsm::apps::StartMessages({});
   const pipeline::SearchTask task = ReadTask(arguments);
   std::optional<qwsm::pipeline::ResultsFolder> folder;
   if (arguments.output) folder.emplace(*arguments.output, arguments.force, arguments.scans);
