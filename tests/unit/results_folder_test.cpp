@@ -45,6 +45,15 @@ TEST_F(ResultsFolderTest, RemovesWhatAnEarlierRunWroteAndNothingElse) {
   }
 }
 
+// As of s7.pcd or 1305031102.xyz; in a folder that no program has written they are somebody's own.
+TEST_F(ResultsFolderTest, RemovesFramesOfAnyNameWhereAnEarlierRunWasAndNowhereElse) {
+  Put("s7.frames");
+  const ResultsFolder first(results_, true);
+  EXPECT_TRUE(Has("s7.frames"));
+  const ResultsFolder second(results_, false);
+  EXPECT_FALSE(Has("s7.frames"));
+}
+
 TEST_F(ResultsFolderTest, RefusesAnInputThatIsInItByALink) {
   const fs::path results = results_ / "results";
   fs::create_directory(results);

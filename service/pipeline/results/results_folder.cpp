@@ -40,18 +40,21 @@ bool IsNumberedScan(const fs::path& name) {
 }
 
 /// Whether programs give files of results that name, when they are complete or before.
-bool IsOfResults(fs::path name) {
+/// @param is_marked of the folder: `slam6d register` calls frames as the scans are called.
+bool IsOfResults(fs::path name, bool is_marked) {
   if (name.extension() == ".part") name = name.stem();
-  return IsResultFile(name.string()) || IsNumberedScan(name);
+  return IsResultFile(name.string()) || IsNumberedScan(name) ||
+         (is_marked && name.extension() == ".frames");
 }
 
 /// Whatever else is in the folder is somebody else's.
 void RemoveEarlierResults(const fs::path& folder) {
   std::error_code error;
+  const bool is_marked = fs::exists(folder / kMarker, error);
   std::vector<fs::path> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     const bool is_file = entry.symlink_status().type() == fs::file_type::regular;
-    if (is_file && IsOfResults(entry.path().filename())) files.push_back(entry.path());
+    if (is_file && IsOfResults(entry.path().filename(), is_marked)) files.push_back(entry.path());
   }
   ThrowIf(error, folder, "be read");
   for (const fs::path& file : files) {
