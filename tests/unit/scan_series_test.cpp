@@ -72,6 +72,18 @@ TEST_F(ScansInFiles, OfOneNameAreCalledByTheirPlace) {
   EXPECT_EQ(scans[2].name, "scan002");
 }
 
+TEST_F(ScansInFiles, OfAFolderAreNotTakenTwiceWherePackedOnesLieBesideThem) {
+  for (const char* name : {"d/scan000.3d", "d/scan001.3d", "d/scan001.3d.gz"}) Write(name);
+  try {
+    Load({folder_.path() / "d"});
+    FAIL() << "no exception";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("twice, scan001.3d and scan001.3d.gz"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(ScansInFiles, AreFoundBelowAFolderThatIsCalledLikeATextAndNowhereElse) {
   Write("my.txt_scans/scan000.xyz");
   Write("my.txt_scans/notes.txt");

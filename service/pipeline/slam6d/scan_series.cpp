@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -57,6 +58,18 @@ std::vector<std::size_t> NumbersOf(const std::vector<ScanPlace>& places) {
   return all_differ ? numbers : counted;
 }
 
+/// @param files of a folder, in the order of their names.
+void RefuseTheSameScanTwice(const fs::path& folder, const std::vector<fs::path>& files) {
+  const auto twice = std::ranges::adjacent_find(files, {}, io::ScanName);
+  if (twice == files.end()) return;
+  throw std::runtime_error(
+      fmt::format("{}: holds the same scan twice, {} and {}; name the files "
+                  "that are meant, or remove one of the two",
+                  folder.string(),
+                  twice->filename().string(),
+                  std::next(twice)->filename().string()));
+}
+
 std::vector<fs::path> FindInFolder(const fs::path& folder) {
   std::vector<fs::path> files;
   std::set<io::PointFormat> formats;
@@ -79,7 +92,9 @@ std::vector<fs::path> FindInFolder(const fs::path& folder) {
     throw std::runtime_error(folder.string() +
                              ": holds no scans (.3d, .xyz, .ply, .pcd, .bin, packed or not)");
   }
-  std::ranges::sort(files, ByNumber);
+  std::ranges::sort(files);  // What directories list in any order.
+  std::ranges::stable_sort(files, ByNumber);
+  RefuseTheSameScanTwice(folder, files);
   return files;
 }
 
