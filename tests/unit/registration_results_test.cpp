@@ -48,6 +48,19 @@ TEST(RegistrationResults, TellHowSurelyPosesAreKnown) {
             std::string::npos);
 }
 
+TEST(RegistrationResults, QuoteNamesThatWouldBeTakenForSeveralColumns) {
+  Registration registration;
+  registration.scans = {ScanNamed("a, \"b\" 0", SlamStatus::kFirst)};
+  registration.T_map_scan.resize(1);
+  const qwsm::test::TemporaryFolder folder;
+  WriteResults(
+      registration, {}, qwsm::pipeline::ResultsFolder(folder.path() / "r", false), {false});
+  std::ifstream table(folder.path() / "r" / "scans.csv");
+  std::string line;
+  for (int i = 0; i < 2; ++i) std::getline(table, line);
+  EXPECT_TRUE(line.starts_with("0,\"a, \"\"b\"\" 0\",first,")) << line;
+}
+
 // Of coordinates in 16 bits.
 TEST(RegistrationResults, HaveNoCoarserPageForAPointThatIsFarOff) {
   const auto step_of = [](bool with_stray) {

@@ -60,6 +60,14 @@ std::string LoopsText(const std::vector<std::size_t>& loops) {
   return fmt::format("{}", fmt::join(loops, " "));
 }
 
+/// A field of a table with commas (RFC 4180): scans are called as their files are.
+std::string Quoted(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
 /// The names of the upper triangle of a covariance, row by row, with their units.
 std::string CovarianceHeader() {
   constexpr std::array<const char*, 6> kNames{"x", "y", "z", "roll", "pitch", "yaw"};
@@ -96,7 +104,7 @@ std::string Table(const Registration& registration) {
         "{},{},{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{},{},{:.6f},{:.3f},{:.4f},{},{:.4f}"
         ",{}{}\n",
         i,
-        scan.name,
+        Quoted(scan.name),
         Name(scan.step.status),
         scan.step.points,
         pose.translation_m.x(),
