@@ -16,10 +16,22 @@ CLI::App* AddParser(CLI::App& program, const std::string& name, const std::strin
   return program.add_subcommand(name, help);
 }
 
+namespace {
+
+/// The name of the program that has a parser, or a parser within one of its own.
+std::string ProgramOf(const CLI::App& parser) {
+  const CLI::App* program = &parser;
+  while (program->get_parent() != nullptr) program = program->get_parent();
+  return program->get_name();
+}
+
+}  // namespace
+
 void AddConfiguration(CLI::App& parser, config::OptionSources& sources) {
   const auto take_file = [&sources](const std::string& file) { sources.file = file; };
   parser
-      .add_option_function<std::string>("--config", take_file, "options in YAML; see qwsm config")
+      .add_option_function<std::string>(
+          "--config", take_file, "options in YAML; see " + ProgramOf(parser) + " config")
       ->type_name("FILE")
       ->group("Configuration");
   const auto take_settings = [&sources](const std::vector<std::string>& settings) {

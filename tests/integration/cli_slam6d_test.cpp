@@ -201,6 +201,13 @@ TEST_F(Slam6dProgram, SaysWhatIsWrongWithItsArguments) {
   expect({"bench-search", scans_, "--max-range", "0.001"}, "no points to search");
   expect({"register", scans_, "--set", "slam.icp.metrik=svd"}, "did you mean");
   expect({"eval", empty, "--truth", truth_}, "holds no trajectory.tum");
+  const fs::path stamped = folder_.path() / "stamped.tum";
+  std::ofstream(stamped) << "100.5 0 0 0 0 0 0 1\n";
+  expect(
+      {"eval", truth_, "--truth", stamped},
+      truth_.string() +
+          ": no scan has a pose in both trajectories: here their numbers, or stamps, are 0 to 5, "
+          "those of the truth 100.5 to 100.5");
   expect({"regster"}, "did you mean 'register'");
   const fs::path twins = folder_.path() / "twins.yaml";
   std::ofstream(twins) << "team:\n  robots:\n    - {name: a}\n    - {name: a}\n";
@@ -241,6 +248,8 @@ TEST_F(Slam6dProgram, DoesNotPutResultsBesideItsScans) {
 }
 
 TEST_F(Slam6dProgram, TakesItsOwnConfiguration) {
+  EXPECT_NE(RunSlam6d({"register", "--help"}).output.find("in YAML; see slam6d config"),
+            std::string::npos);
   const Outcome dumped = RunSlam6d({"config", "--set", "slam.icp.metric=point-to-plane"});
   ASSERT_EQ(dumped.exit_code, 0) << dumped.errors;
   const fs::path file = folder_.path() / "mine.yaml";

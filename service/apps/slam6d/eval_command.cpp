@@ -8,6 +8,7 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -64,12 +65,23 @@ int CountFailures(const pipeline::NamedErrors& named, const EvalArguments& argum
   return failures;
 }
 
+/// @throws std::runtime_error naming the trajectory that cannot be compared.
+pipeline::NamedErrors ErrorsOf(const std::filesystem::path& path,
+                               const io::NumberedPoses& truth,
+                               PoseAlignment alignment) {
+  const io::NumberedPoses estimate = io::ReadPoses(path);
+  try {
+    return {.name = path.string(), .errors = Compare(estimate, truth, alignment)};
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(path.string() + ": " + error.what());
+  }
+}
+
 ExitCode RunEval(const EvalArguments& arguments) {
   const io::NumberedPoses truth = io::ReadPoses(arguments.truth);
   std::vector<pipeline::NamedErrors> all;
   for (const std::filesystem::path& estimate : arguments.estimates) {
-    all.push_back({.name = estimate.string(),
-                   .errors = Compare(io::ReadPoses(estimate), truth, arguments.alignment)});
+    all.push_back(ErrorsOf(estimate, truth, arguments.alignment));
   }
   qwsm::apps::Print("{}", arguments.json ? ErrorJson(all) : ErrorTable(all));
   int failures = 0;

@@ -27,13 +27,24 @@ struct PosePair3 {
   Pose3 truth;
 };
 
+std::string NumbersText(const io::NumberedPoses& poses) {
+  if (poses.empty()) return "none";
+  return fmt::format("{} to {}", poses.begin()->first, poses.rbegin()->first);
+}
+
 std::vector<PosePair3> PairUp(const io::NumberedPoses& estimate, const io::NumberedPoses& truth) {
   std::vector<PosePair3> pairs;
   for (const auto& [number, pose] : estimate) {
     const auto found = truth.find(number);
     if (found != truth.end()) pairs.push_back({pose, found->second});
   }
-  if (pairs.empty()) throw std::runtime_error("no scan has a pose in both trajectories");
+  if (pairs.empty()) {
+    throw std::runtime_error(
+        fmt::format("no scan has a pose in both trajectories: here their numbers, or stamps, are "
+                    "{}, those of the truth {}; equal ones are compared",
+                    NumbersText(estimate),
+                    NumbersText(truth)));
+  }
   return pairs;
 }
 
