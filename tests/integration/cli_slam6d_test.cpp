@@ -236,6 +236,17 @@ TEST_F(Slam6dProgram, RegistersSimulatedDrives) {
   }
 }
 
+TEST_F(Slam6dProgram, LeavesNoTruthOfALongerDriveBefore) {
+  const std::string drive = folder_.path() / "office";
+  for (const std::string scans : {"3", "2"}) {
+    ASSERT_EQ(
+        RunSlam6d({"sim", "office", "--output", drive, "--scans", scans, "--every", "1"}).exit_code,
+        0);
+  }
+  EXPECT_EQ(io::ReadPoses(drive).size(), 2U);
+  EXPECT_EQ(io::ReadPoses(drive + "/gt").size(), 2U);
+}
+
 TEST_F(Slam6dProgram, DoesNotPutResultsBesideItsScans) {
   const std::string before = ReadFile(Scan(0));
   for (const std::string& input : {scans_.string(), Scan(0).string()}) {

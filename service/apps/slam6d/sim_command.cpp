@@ -50,7 +50,7 @@ ExitCode RunSim(SimArguments arguments) {
   auto options = qwsm::config::LoadOptions<options::ProgramOptions>(arguments.sources);
   if (arguments.stop_every_m) options.sim.stop_every_m = *arguments.stop_every_m;
   const qwsm::pipeline::ResultsFolder folder(arguments.output, arguments.force);
-  fs::create_directories(folder / "gt");
+  const qwsm::pipeline::ResultsFolder truth(folder / "gt", true);
   qwsm::io::WriteTextFile(folder / qwsm::pipeline::ResultFile::kScenario,
                           qwsm::apps::ScenarioText(scenario));
   const qwsm::pipeline::Interruption interruption;
