@@ -25,6 +25,14 @@ for script in "$scripts"/*; do
   tail -n 1 errors | grep -q "^scripts/$name: " || die "$name does not say what is wrong: $(<errors)"
 done
 
+# Who builds the packages where nothing is installed yet has what scripts/setup installs.
+sed -n '/^# Libraries/,/^# Tests/s/^\([a-z0-9.+-]*-dev\) .*/\1/p' "$scripts/packages.txt" >libraries
+while read -r library; do
+  sed -n '/^Build-Depends/,/^Standards-Version/p' "$scripts/../packaging/debian/control" |
+    grep -q " $library,\?\$" || die "packaging/debian/control does not build-depend on $library"
+done <libraries
+(($(wc -l <libraries) > 10)) || die 'scripts/packages.txt has no section of libraries'
+
 # What is in a folder is somebody's, whatever it is called.
 mkdir -p mine/source
 touch mine/source/notes
