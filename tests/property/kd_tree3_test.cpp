@@ -230,6 +230,27 @@ TEST(CachedSearch3, TellsApartWhatFloatsDoNot) {
   }
 }
 
+// Their squares are no floats.
+TEST(CachedSearch3, TellsApartWhatIsNextToItsOrigin) {
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    PointCloud cloud;
+    for (int i = 0; i < 200; ++i) {
+      const Eigen::Vector3d p_m = DrawPoint(random, std::exp2(-40.0 - i));
+      cloud.push_back(p_m);
+      cloud.push_back(-p_m);
+    }
+    const KdTree tree(cloud, {.simd = kLevels[seed % 3]});
+    CachedSearch search(tree, cloud, {});
+    search.MoveTo({});
+    for (int i = 0; i < 2; ++i) {
+      search.Find(0, cloud.size());
+      ExpectBruteForce(cloud, cloud, kInfinity, search);
+    }
+  }
+}
+
 TEST(CachedSearch3, GivesTheSameBitsAtEveryWidth) {
   std::mt19937 random(4);
   const PointCloud cloud = DrawCloud(Shape::kGrid, 3000, random);
