@@ -251,6 +251,25 @@ TEST(CachedSearch3, TellsApartWhatIsNextToItsOrigin) {
   }
 }
 
+// As a point that is none, in a file or of a scanner that was dazzled.
+TEST(CachedSearch3, LooksAtNoMoreLeavesForAPointThatIsFarOff) {
+  const auto visited_with = [](const std::vector<Eigen::Vector3d>& strays_m) {
+    std::mt19937 random(7);
+    PointCloud cloud = DrawCloud(Shape::kSurface, 5000, random);
+    const PointCloud queries = DrawCloud(Shape::kSurface, 500, random);
+    for (const Eigen::Vector3d& stray_m : strays_m) cloud.push_back(stray_m);
+    const KdTree tree(cloud);
+    CachedSearch search(tree, queries, {});
+    search.MoveTo({});
+    const SearchStatistics statistics = search.Find(0, queries.size());
+    ExpectBruteForce(cloud, queries, kInfinity, search);
+    return statistics.leaves_visited;
+  };
+  const auto usual = visited_with({});
+  EXPECT_LT(visited_with({{1e6, 1e6, 1e6}}), 2 * usual);
+  EXPECT_LT(visited_with({{1e7, -1e7, 1e7}, {3e38, 0.0, 0.0}}), 2 * usual);
+}
+
 TEST(CachedSearch3, GivesTheSameBitsAtEveryWidth) {
   std::mt19937 random(4);
   const PointCloud cloud = DrawCloud(Shape::kGrid, 3000, random);

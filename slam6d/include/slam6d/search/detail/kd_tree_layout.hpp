@@ -77,7 +77,7 @@ struct KdTreeLayout {
   /// stand near each other.
   std::vector<std::uint32_t> order;
 
-  /// What searches in floats read. The origin is the middle of the points.
+  /// What searches in floats read. The origin is the middle of most points.
   double origin_m[3] = {};
   std::vector<Cell> cells;               ///< Per node; the root's is all of space.
   std::vector<ChildPair> pairs;          ///< Per inner node, at PairOf its left child.
