@@ -214,6 +214,13 @@ TEST_F(Slam6dProgram, SaysWhatIsWrongWithItsArguments) {
   expect({"serve", "--config", twins, "--output", results_}, "is the name of another robot");
 }
 
+TEST_F(Slam6dProgram, SaysThatFilesAreNotChosenLikeCloudsOfABag) {
+  const Outcome outcome = RunSlam6d({"register", scans_, "--every", "2", "--dry-run"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("choose from a bag"), std::string::npos) << outcome.errors;
+  EXPECT_EQ(RunSlam6d({"register", scans_, "--dry-run"}).errors, "");
+}
+
 TEST_F(Slam6dProgram, ComparesSearches) {
   const fs::path figures = folder_.path() / "figures";
   const Outcome outcome = RunSlam6d({"bench-search", scans_, "--output", figures});
