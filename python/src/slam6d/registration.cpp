@@ -154,8 +154,11 @@ void AddAlign(py::module_& module) {
           "Best estimate so far, whatever the status: a 4x4 matrix.")
       .def_readonly("covariance",
                     &IcpResult::covariance,
-                    "Covariance of (x, y, z, roll, pitch, yaw), assuming independent errors of the "
-                    "size of the residuals: a lower bound.")
+                    "Covariance of (x, y, z, roll, pitch, yaw), in m^2, m rad and rad^2, the "
+                    "translation along the axes of the reference: to planes by how far the pairs "
+                    "scatter, and the guess in what they leave open; to points as if thirty of the "
+                    "pairs were independent. Zero, which says nothing, unless the status is "
+                    "'converged' or that the iteration limit was reached.")
       .def_readonly("iterations", &IcpResult::iterations)
       .def_readonly("pairs", &IcpResult::pairs)
       .def_readonly("rms_residual_m", &IcpResult::rms_residual_m);
@@ -177,7 +180,10 @@ void AddSlam(py::module_& module) {
                              [](const SlamStep& step) { return std::string(Name(step.status)); })
       .def_property_readonly("T_map_scan",
                              [](const SlamStep& step) { return TransformOf(step.T_map_scan); })
-      .def_readonly("covariance", &SlamStep::covariance)
+      .def_readonly("covariance",
+                    &SlamStep::covariance,
+                    "Covariance of (x, y, z, roll, pitch, yaw) of all error since the first scan, "
+                    "along the axes of the map.")
       .def_readonly("match", &SlamStep::match)
       .def_readonly("overlap",
                     &SlamStep::overlap,

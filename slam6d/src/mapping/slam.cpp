@@ -15,7 +15,7 @@ namespace {
 /// Fewer different points leave a motion open under every metric.
 constexpr std::size_t kLeastPoints = 3;
 
-/// The covariance of a registration assumes independent errors; nothing is better than this.
+/// No registration is better than this, whatever its pairs say.
 constexpr double kLeastSigma_m = 1e-4;
 constexpr double kLeastSigma_rad = 1e-5;
 

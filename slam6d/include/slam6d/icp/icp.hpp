@@ -123,9 +123,10 @@ constexpr std::string_view Name(IcpStatus status) {
 struct [[nodiscard]] IcpResult {
   IcpStatus status = IcpStatus::kTooFewPairs;
   Pose3 T_ref_cur;  ///< Best estimate so far, whatever the status.
-  /// Covariance of (x, y, z, roll, pitch, yaw) as in UncertainPose3, assuming independent errors of
-  /// the size of the residuals: a lower bound. Zero unless converged or stopped by the iteration
-  /// limit.
+  /// Covariance of (x, y, z, roll, pitch, yaw) as in UncertainPose3: to planes, by how far the pairs
+  /// scatter, with that of the guess in what they leave open; to points, as if thirty of the pairs
+  /// had independent errors of the size of the residuals. Zero, which says nothing, unless converged
+  /// or stopped by the iteration limit.
   Matrix6d covariance = Matrix6d::Zero();
   /// The information on the pose from the pairs with each reference; empty without a covariance.
   /// With that of the guess they add up to the inverse of the covariance that ICP ended with.
