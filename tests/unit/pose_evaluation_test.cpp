@@ -38,6 +38,22 @@ TEST(PoseEvaluation, PairsPosesThatAreOnlyCountedByTheirOrder) {
   EXPECT_EQ(OfNine({1, 2, 3}).poses, 3U);
 }
 
+// As of clouds of a bag, and of a camera system that looks at the robot a hundred times a second.
+TEST(PoseEvaluation, PairsStampsThatAreNearEachOther) {
+  constexpr double kBegin_s = 1305031102.0;
+  const auto along_x = [](double number) { return Pose3{.translation_m = {number, 0.0, 0.0}}; };
+  io::NumberedPoses truth;
+  for (int i = 0; i < 1000; ++i) truth[kBegin_s + 0.01 * i] = along_x(0.01 * i);
+  io::NumberedPoses estimate;
+  for (int i = 0; i < 10; ++i) estimate[kBegin_s + i + 0.0031] = along_x(i);
+  estimate[kBegin_s - 0.02] = along_x(99.0);
+  estimate[kBegin_s + 10.1] = along_x(99.0);
+  const PoseErrors errors = Compare(estimate, truth, PoseAlignment::kNone);
+  EXPECT_EQ(errors.poses, 10U);
+  EXPECT_EQ(errors.max_m, 0.0);
+  EXPECT_NEAR(errors.covered, 0.9, 0.01);
+}
+
 TEST(PoseEvaluation, OfAFileWithoutPosesIsRefused) {
   const qwsm::test::TemporaryFolder folder;
   std::ofstream(folder.path() / "none.tum") << "# nothing\n";

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
@@ -22,6 +23,10 @@ using qwsm::pipeline::Json;
 
 constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
+/// Stamps may be so many seconds apart, as for `qwsm eval` and others: truth has a clock, and a
+/// rate, of its own. Numbers of scans are never as near to each other.
+constexpr double kMostApart = 0.01;
+
 struct PosePair3 {
   Pose3 estimate;
   Pose3 truth;
@@ -32,16 +37,29 @@ std::string NumbersText(const io::NumberedPoses& poses) {
   return fmt::format("{} to {}", poses.begin()->first, poses.rbegin()->first);
 }
 
+/// The pose of the number, or of the nearest stamp; null where none is near enough.
+const Pose3* PoseAt(const io::NumberedPoses& poses, double number) {
+  auto nearest = poses.lower_bound(number);
+  if (nearest != poses.begin()) {
+    const auto before = std::prev(nearest);
+    const bool is_nearer =
+        nearest == poses.end() || number - before->first < nearest->first - number;
+    if (is_nearer) nearest = before;
+  }
+  if (nearest == poses.end() || !(std::abs(nearest->first - number) <= kMostApart)) return nullptr;
+  return &nearest->second;
+}
+
 std::vector<PosePair3> PairUp(const io::NumberedPoses& estimate, const io::NumberedPoses& truth) {
   std::vector<PosePair3> pairs;
   for (const auto& [number, pose] : estimate) {
-    const auto found = truth.find(number);
-    if (found != truth.end()) pairs.push_back({pose, found->second});
+    const Pose3* const true_pose = PoseAt(truth, number);
+    if (true_pose != nullptr) pairs.push_back({pose, *true_pose});
   }
   if (pairs.empty()) {
     throw std::runtime_error(
         fmt::format("no scan has a pose in both trajectories: here their numbers, or stamps, are "
-                    "{}, those of the truth {}; equal ones are compared",
+                    "{}, those of the truth {}; equal ones are compared, of stamps within 0.01 s",
                     NumbersText(estimate),
                     NumbersText(truth)));
   }
@@ -58,7 +76,9 @@ std::vector<double> NumbersIn(const io::NumberedPoses& poses) {
 double CoveredShare(const io::NumberedPoses& estimate, const io::NumberedPoses& truth) {
   const double all = truth.rbegin()->first - truth.begin()->first;
   if (!(all > 0.0)) return 1.0;
-  const auto is_common = [&](const auto& numbered) { return estimate.contains(numbered.first); };
+  const auto is_common = [&](const auto& numbered) {
+    return PoseAt(estimate, numbered.first) != nullptr;
+  };
   const auto first = std::find_if(truth.begin(), truth.end(), is_common);
   const auto last = std::find_if(truth.rbegin(), truth.rend(), is_common);
   return (last->first - first->first) / all;

@@ -31,8 +31,8 @@ struct PoseErrors {
   double max_rad = 0.0;
 };
 
-/// Compares the poses that both trajectories have, by their numbers; where one is only counted and
-/// the other has as many, by their order.
+/// Compares the poses that both trajectories have, by their numbers, or stamps at most 0.01 s apart;
+/// where one is only counted and the other has as many, by their order.
 /// @throws std::runtime_error where there are none, or too few to align.
 PoseErrors Compare(const io::NumberedPoses& estimated,
                    const io::NumberedPoses& true_poses,
