@@ -208,6 +208,7 @@ TEST_F(Slam6dProgram, SaysWhatIsWrongWithItsArguments) {
       truth_.string() +
           ": no scan has a pose in both trajectories: here their numbers, or stamps, are 0 to 5, "
           "those of the truth 100.5 to 100.5");
+  expect({"eval", truth_, "--truth", truth_, "--align", "2"}, "{none,first,best}");
   expect({"regster"}, "did you mean 'register'");
   const fs::path twins = folder_.path() / "twins.yaml";
   std::ofstream(twins) << "team:\n  robots:\n    - {name: a}\n    - {name: a}\n";

@@ -4,7 +4,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -25,11 +24,16 @@ using pipeline::PoseAlignment;
 struct EvalArguments {
   std::vector<std::filesystem::path> estimates;
   std::filesystem::path truth;
-  PoseAlignment alignment = PoseAlignment::kFirst;
+  std::string alignment = "first";
   std::optional<double> max_ate_m;
   std::optional<double> max_ate_deg;
   bool json = false;
 };
+
+PoseAlignment AlignmentNamed(const std::string& name) {
+  if (name == "none") return PoseAlignment::kNone;
+  return name == "best" ? PoseAlignment::kBest : PoseAlignment::kFirst;
+}
 
 void WarnOfMissing(const pipeline::NamedErrors& named) {
   const pipeline::PoseErrors& errors = named.errors;
@@ -81,7 +85,7 @@ ExitCode RunEval(const EvalArguments& arguments) {
   const io::NumberedPoses truth = io::ReadPoses(arguments.truth);
   std::vector<pipeline::NamedErrors> all;
   for (const std::filesystem::path& estimate : arguments.estimates) {
-    all.push_back(ErrorsOf(estimate, truth, arguments.alignment));
+    all.push_back(ErrorsOf(estimate, truth, AlignmentNamed(arguments.alignment)));
   }
   qwsm::apps::Print("{}", arguments.json ? ErrorJson(all) : ErrorTable(all));
   int failures = 0;
@@ -110,12 +114,10 @@ Command AddEvalCommand(CLI::App& program) {
   parser->add_option("--truth", arguments->truth, "the same, of the true poses")
       ->required()
       ->type_name("FILE");
-  const std::map<std::string, PoseAlignment> alignments{{"none", PoseAlignment::kNone},
-                                                        {"first", PoseAlignment::kFirst},
-                                                        {"best", PoseAlignment::kBest}};
   parser->add_option("--align", arguments->alignment, "none, first (pose onto the truth) or best")
-      ->transform(CLI::CheckedTransformer(alignments))
-      ->type_name("HOW");
+      ->check(CLI::IsMember({"none", "first", "best"}))
+      ->type_name("HOW")
+      ->capture_default_str();
   const char* const bounds = "Bounds (exit code 1)";
   parser->add_option("--max-ate", arguments->max_ate_m, "rmse of the translation, in metres")
       ->check(qwsm::apps::NumberBetween(0.0, 1e9))
