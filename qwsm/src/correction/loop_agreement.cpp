@@ -16,25 +16,38 @@ namespace {
 constexpr int kMinAgreeing = 2;
 constexpr double kMaxChi2 = 7.815;  // 95 % of right ones are below, for three degrees of freedom.
 
-// Two loops of scans near by, by their places among all.
-struct LoopPair {
-  std::size_t a = 0;
-  std::size_t b = 0;
-};
+// Whether the submaps that two loops come from are the same robot's.
+bool IsOfOneRobot(const FoundLoop& a, const FoundLoop& b, const ScanChains& chains) {
+  return chains.submaps()[a.submap].robot == chains.submaps()[b.submap].robot;
+}
+
+// Calls visit(a, b) for all two loops of scans near by, by their places among all: of a long drive
+// a list of them would take more room than the loops.
+template <class Visit>
+void ForEachTwoOfOnePass(std::span<const FoundLoop> loops, const ScanChains& chains, Visit visit) {
+  for (std::size_t a = 0; a < loops.size(); ++a) {
+    for (std::size_t b = a + 1; b < loops.size(); ++b) {
+      const std::optional<std::size_t> apart =
+          chains.TurnsBetween(loops[a].loop.edge.to, loops[b].loop.edge.to);
+      if (!apart || *apart > kSamePass) break;
+      if (*apart > 0 && IsOfOneRobot(loops[a], loops[b], chains)) visit(a, b);
+    }
+  }
+}
 
 // The poses of the references that loops begin at, as seen from each other. Each loop has its own:
 // a submap of another robot, which still grew when the loop was found, has another reference since.
 class ReferencePoses {
  public:
-  // Those between the references of each pair: of all they would take the square of a long drive's
-  // room.
+  // Those between the references of two loops of one pass: of all they would take the square of a
+  // long drive's room.
   ReferencePoses(std::span<const FoundLoop> loops,
-                 std::span<const LoopPair> pairs,
-                 const PoseEstimate& estimate) {
-    for (const auto& [a, b] : pairs) {
+                 const PoseEstimate& estimate,
+                 const ScanChains& chains) {
+    ForEachTwoOfOnePass(loops, chains, [&](std::size_t a, std::size_t b) {
       const auto [first, other] = std::minmax(loops[a].loop.edge.from, loops[b].loop.edge.from);
       seen_[first].try_emplace(other);
-    }
+    });
     for (auto& [first, others] : seen_) {
       std::vector<NodeId> nodes;
       for (const auto& [other, pose] : others) nodes.push_back(other);
@@ -43,7 +56,7 @@ class ReferencePoses {
     }
   }
 
-  // @pre reference <= other, and a pair is of them
+  // @pre reference <= other, and two loops of one pass begin at them
   const UncertainPose2& Between(NodeId reference, NodeId other) const {
     return seen_.at(reference).at(other);
   }
@@ -70,24 +83,6 @@ bool Agree(const FoundLoop& a,
   return chi2 <= kMaxChi2;
 }
 
-// Whether the submaps that two loops come from are the same robot's.
-bool IsOfOneRobot(const FoundLoop& a, const FoundLoop& b, const ScanChains& chains) {
-  return chains.submaps()[a.submap].robot == chains.submaps()[b.submap].robot;
-}
-
-std::vector<LoopPair> PairsOfOnePass(std::span<const FoundLoop> loops, const ScanChains& chains) {
-  std::vector<LoopPair> pairs;
-  for (std::size_t i = 0; i < loops.size(); ++i) {
-    for (std::size_t j = i + 1; j < loops.size(); ++j) {
-      const std::optional<std::size_t> apart =
-          chains.TurnsBetween(loops[i].loop.edge.to, loops[j].loop.edge.to);
-      if (!apart || *apart > kSamePass) break;
-      if (*apart > 0 && IsOfOneRobot(loops[i], loops[j], chains)) pairs.push_back({i, j});
-    }
-  }
-  return pairs;
-}
-
 // What speaks for a loop: the others of scans near by, and what it tells with those that agree.
 struct Support {
   int agreeing = 0;
@@ -110,14 +105,13 @@ bool IsConfirmedBy(const Support& support, const FoundLoop& found) {
 void ConfirmByOthers(std::span<FoundLoop> loops,
                      const PoseEstimate& estimate,
                      const ScanChains& chains) {
-  const std::vector<LoopPair> pairs = PairsOfOnePass(loops, chains);
-  const ReferencePoses references(loops, pairs, estimate);
+  const ReferencePoses references(loops, estimate, chains);
   std::vector<Support> support(loops.size());
-  for (const auto& [a, b] : pairs) {
+  ForEachTwoOfOnePass(loops, chains, [&](std::size_t a, std::size_t b) {
     const bool agree = Agree(loops[a], loops[b], references, chains);
     support[a].Add(loops[b], agree);
     support[b].Add(loops[a], agree);
-  }
+  });
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (IsConfirmedBy(support[i], loops[i])) loops[i].loop.verdict = LoopVerdict::kAccepted;
   }
