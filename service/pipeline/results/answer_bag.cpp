@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/results/answer_bag.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "service/io/bags/writing/bag_file.hpp"
@@ -31,13 +32,17 @@ void AnswerBag::Correct(std::span<const UncertainPose2> map_robot) {
 void AnswerBag::Write(const std::filesystem::path& path,
                       const std::optional<OccupancyGrid>& grid) const {
   io::BagFile bag(path, io::BagFormatOf(path).value_or(io::BagFormat::kMcap));
+  // A frame has one parent: where there is odometry, it tells where the robot is in `odom`, which
+  // stays where it was while it has a gap.
+  const bool has_odometry = std::ranges::any_of(
+      answers_, [](const Answer& answer) { return answer.T_odom_robot.has_value(); });
+  const char* child = has_odometry ? "odom" : "base_link";
   for (const auto& [stamp, map_robot, T_odom_robot] : answers_) {
     io::CheckRosTime(stamp);
     bag.Write(kPoses, stamp, io::EncodePose(stamp, kMapFrame, map_robot));
-    // Who moves odom tells where the robot is in it: a frame has one parent.
+    if (has_odometry && !T_odom_robot) continue;
     const Pose2 T_map_child =
-        T_odom_robot ? map_robot.T_a_b * T_odom_robot->Inverse() : map_robot.T_a_b;
-    const char* child = T_odom_robot ? "odom" : "base_link";
+        has_odometry ? map_robot.T_a_b * T_odom_robot->Inverse() : map_robot.T_a_b;
     bag.Write(kFrames, stamp, io::EncodeTransform(stamp, kMapFrame, child, T_map_child));
   }
   if (grid && !answers_.empty()) {
