@@ -119,6 +119,24 @@ TEST(Mapper, OfNothingButEmptyScansMakesNoMap) {
   EXPECT_TRUE(mapper.map().surfaces().empty());
 }
 
+TEST(Mapper, DrivesOnFromWhereItWasPlacedThoughItSeesNothing) {
+  const SimulatedDrive drive = RoomDrive(11);
+  const UncertainPose2 placed = UncertainPose2::WithSigmas({5.0, -3.0, 1.5}, 0.02, 0.01);
+  Mapper mapper;
+  mapper.PlaceAt(placed);
+  double trace = 0.0;
+  for (std::size_t i = 0; i < 11; ++i) {
+    Observation observation = drive.observations[i];
+    if (i < 10) observation.scan.ranges_m.clear();
+    const MappingStep step = mapper.Process(observation);
+    const Pose2 driven = drive.observations[0].T_odom_robot->Inverse() * *observation.T_odom_robot;
+    EXPECT_LT(Difference(placed.T_a_b * driven, step.map_robot.T_a_b).norm(), 1e-9) << i;
+    EXPECT_GT(step.map_robot.covariance.trace(), trace) << i;
+    trace = step.map_robot.covariance.trace();
+  }
+  ASSERT_EQ(mapper.map().scans().size(), 1U);
+}
+
 TEST(Mapper, LocalizesWithoutExtendingTheMap) {
   const SimulatedDrive drive = RoomDrive(60);
   Mapper mapper;

@@ -79,6 +79,7 @@ class RobotTracker {
                 const std::optional<Pose2>& T_odom_robot,
                 const std::optional<double>& gyro_rad) const;
   void Begin(Sighting& sighting) const;
+  UncertainPose2 FirstPose(const Observation& observation) const;
   void Locate(const ScanMap& map, Sighting& sighting) const;
   MatchResult LocateNear(const ScanMap& map,
                          const Observation& observation,
