@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "qwsm/mapping/mapper.hpp"
 #include "qwsm/mapping/view_break.hpp"
@@ -62,6 +63,28 @@ TEST(CarryWatch, DoubtsNothingForAScanThatShowsSomethingElse) {
   for (float& range_m : drive[40].scan.ranges_m) range_m = std::min(range_m, 0.4F);
   const std::vector<PlaceDoubt> doubts = Doubts(drive);
   EXPECT_EQ(std::ranges::count(doubts, PlaceDoubt::kNone), std::ssize(doubts));
+}
+
+// A correction moves the map and the robot in it, and what is seen stays the same.
+TEST(CarryWatch, AsksNothingWhereTheMapIsCorrected) {
+  Mapper mapper;
+  CarryWatch watch{MapperOptions{}};
+  const Pose2 T_new_old{0.9, -0.6, 0.05};
+  const std::vector<Observation> drive = DriveOf(OfficeLoop(), 1);
+  for (std::size_t i = 0; i < 60; ++i) {
+    if (i == 40) {
+      ScanMap corrected(mapper.map().options());
+      for (const RelevantScan& scan : mapper.map().scans()) {
+        const UncertainPose2 map_robot = UncertainPose2{.T_a_b = T_new_old} * scan.map_robot;
+        corrected.Insert(scan.scan, ToPoints(scan.scan), map_robot);
+      }
+      mapper.GoOnIn(std::move(corrected), UncertainPose2{.T_a_b = T_new_old} * mapper.map_robot());
+      watch.Move(T_new_old);
+    }
+    const MappingStep step = mapper.Process(drive[i]);
+    EXPECT_EQ(watch.Look(mapper.map(), drive[i].scan, step), PlaceDoubt::kNone) << i;
+    EXPECT_FALSE(watch.is_asking()) << i;
+  }
 }
 
 // Where a loop closes the map as it was drawn until then lies beside, and explains less.

@@ -223,8 +223,9 @@ void SelfCorrectingMapper::Join(std::span<const MappingStep> lost_steps,
 // The robot keeps its place beside its last relevant scan.
 void SelfCorrectingMapper::GoOnIn(CorrectedMap corrected, Timestamp stamp) {
   const UncertainPose2& map_last = corrected.map_node.back();
-  mapper_.GoOnIn(std::move(corrected.map),
-                 map_last * Since(*nodes_.map_last(), mapper_.map_robot()));
+  const UncertainPose2 map_robot = map_last * Since(*nodes_.map_last(), mapper_.map_robot());
+  watch_.Move(map_robot.T_a_b * mapper_.map_robot().T_a_b.Inverse());
+  mapper_.GoOnIn(std::move(corrected.map), map_robot);
   nodes_.Follow(map_last);
   epochs_.push_back({.stamp = stamp, .map_node = std::move(corrected.map_node)});
 }

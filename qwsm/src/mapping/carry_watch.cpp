@@ -121,6 +121,14 @@ void CarryWatch::BeginAnew(const ScanMap& map) {
   scans_ = map.scans().size();
 }
 
+void CarryWatch::Move(const Pose2& T_new_old) {
+  view_.Move(T_new_old);
+  T_map_last_ = T_new_old * T_map_last_;
+  if (!question_) return;
+  question_->T_map_reckoned = T_new_old * question_->T_map_reckoned;
+  if (question_->T_map_looked) question_->T_map_looked = T_new_old * *question_->T_map_looked;
+}
+
 void CarryWatch::AskOfFoundPlace(const ScanMap& map, std::size_t scans_before) {
   BeginAnew(map);
   question_ = {.scans_before = scans_before, .is_of_found_place = true};

@@ -41,6 +41,8 @@ class CarryWatch {
 
   /// Says that the robot was placed anew, or that the map is another one.
   void BeginAnew(const ScanMap& map);
+  /// Follows a map that was corrected where the robot is. @pre it is of the same scans
+  void Move(const Pose2& T_new_old);
   /// Says that the robot was found. @param scans_before that the map had before what was seen by the
   /// robot while it was lost.
   void AskOfFoundPlace(const ScanMap& map, std::size_t scans_before);

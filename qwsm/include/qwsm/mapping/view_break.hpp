@@ -17,6 +17,10 @@ class ViewBreak {
   bool Take(const MappingStep& step);
   /// What was seen before was seen elsewhere.
   void Forget() { *this = {}; }
+  /// Follows a map that was corrected where the robot is.
+  void Move(const Pose2& T_new_old) {
+    if (T_map_last_) T_map_last_ = T_new_old * *T_map_last_;
+  }
 
   /// Share of the last scan that the map explained.
   double explained() const { return explained_; }
