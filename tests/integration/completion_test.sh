@@ -23,9 +23,25 @@ offers() {
   fi
 }
 
+# offers_files WORD...: for the last word, after the others, files are left to be offered.
+offers_files() {
+  COMP_WORDS=("$program" "$@")
+  COMP_CWORD=$#
+  COMPREPLY=()
+  _qwsm
+  if ((${#COMPREPLY[@]} > 0)); then
+    printf "qwsm %s: expected files, not %s\n" "$*" "${COMPREPLY[*]}" >&2
+    failures=$((failures + 1))
+  fi
+}
+
 offers map m
 offers map ''
 offers --matcher map --ma
 offers --output map robot.log --out
 offers dump config ''
+offers odometry convert robot.log --to ''
+offers --quiet map --no-pictures ''
+offers_files map --output ''
+offers_files map -o ''
 exit $((failures > 0))
