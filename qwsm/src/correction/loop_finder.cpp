@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "qwsm/geometry/along_axes.hpp"
 #include "qwsm/mapping/place_evidence.hpp"
 #include "submap_match.hpp"
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "qwsm/geometry/along_axes.hpp"
 #include "qwsm/geometry/frame_covariance.hpp"
 #include "qwsm/mapping/paths_apart.hpp"
 #include "qwsm/mapping/pose_prediction.hpp"
@@ -88,12 +89,6 @@ FreeSpaceOptions OfAllScans(FreeSpaceOptions options) {
 }
 
 }  // namespace
-
-Eigen::Matrix3d AlongAxesOf(const Pose2& T_a_b, const Eigen::Matrix3d& in_a) {
-  Eigen::Matrix3d R_a_b = Eigen::Matrix3d::Identity();
-  R_a_b.topLeftCorner<2, 2>() = T_a_b.Rotation();
-  return R_a_b.transpose() * in_a * R_a_b;
-}
 
 ScanChains::ScanChains(const MapperOptions& options)
     : map_options_(SubmapOptions(options.map)),

@@ -39,9 +39,6 @@ struct SurfaceMatch {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< Along the axes of its chain.
 };
 
-/// Covariance of (x, y, theta), or information, along the axes of frame b instead of frame a.
-Eigen::Matrix3d AlongAxesOf(const Pose2& T_a_b, const Eigen::Matrix3d& in_a);
-
 /// The relevant scans of each robot in a row, each matched with those just before it, in a frame of
 /// their own that no closed loop bends: the backbone of the pose graph. Where several lasers take
 /// turns, what they see in a turn is matched as one; until a turn is complete its scans hang on

@@ -4,6 +4,8 @@
 
 #include <Eigen/LU>
 
+#include "qwsm/geometry/along_axes.hpp"
+
 namespace qwsm {
 namespace {
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "qwsm/geometry/along_axes.hpp"
 #include "service/io/files/atomic_file.hpp"
 #include "service/io/files/number_text.hpp"
 
@@ -57,10 +58,7 @@ void WriteNodes(std::ostream& stream, const GraphFormat& format, const PoseGraph
 }
 
 Eigen::Matrix3d InformationAlong(Axes axes, const PoseEdge& edge) {
-  if (axes == Axes::kFrom) return edge.information;
-  Eigen::Matrix3d R_from_to = Eigen::Matrix3d::Identity();
-  R_from_to.topLeftCorner<2, 2>() = edge.T_from_to.Rotation();
-  return R_from_to.transpose() * edge.information * R_from_to;
+  return axes == Axes::kFrom ? edge.information : AlongAxesOf(edge.T_from_to, edge.information);
 }
 
 void WriteEdges(std::ostream& stream, const GraphFormat& format, const PoseGraph& graph) {
