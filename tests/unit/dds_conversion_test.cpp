@@ -73,18 +73,28 @@ TEST(RobotNames, FindRobotsByTheirTopics) {
   EXPECT_EQ(RobotNames("robot1").Frame("odom"), "robot1/odom");
 }
 
+/// Takes a message with one transform. @param source of it.
+void Take(StaticTransforms& transforms,
+          std::string parent,
+          std::string child,
+          const wire::Vector3& origin,
+          const wire::Quaternion& turn,
+          const Guid& source = {}) {
+  wire::TransformStamped transform{};
+  transform.header = HeaderOf({}, parent);
+  transform.child_frame_id = Borrow(child);
+  transform.transform = {origin, turn};
+  wire::TFMessage message{};
+  message.transforms = {._maximum = 1, ._length = 1, ._buffer = &transform, ._release = false};
+  transforms.Take(message, source);
+}
+
 TEST(StaticTransforms, FollowFramesAskWhoKnowsThemAndRefuseCircles) {
   StaticTransforms transforms;
   Guid source{};
-  const auto add = [&](std::string parent, std::string child, const Pose2& pose) {
-    wire::TransformStamped transform{};
-    transform.header = HeaderOf({}, parent);
-    transform.child_frame_id = Borrow(child);
-    transform.transform.translation = {pose.x_m, pose.y_m, 0.0};
-    transform.transform.rotation = QuaternionOf(pose.theta_rad);
-    wire::TFMessage message{};
-    message.transforms = {._maximum = 1, ._length = 1, ._buffer = &transform, ._release = false};
-    transforms.Take(message, source);
+  const auto add = [&](const char* parent, const char* child, const Pose2& pose) {
+    Take(
+        transforms, parent, child, {pose.x_m, pose.y_m, 0.0}, QuaternionOf(pose.theta_rad), source);
   };
   add("base_link", "mast", {1.0, 0.0, pi / 2});
   add("mast", "laser", {0.5, 0.0, 0.0});
@@ -109,18 +119,11 @@ TEST(StaticTransforms, FollowFramesAskWhoKnowsThemAndRefuseCircles) {
 // A laser that hangs from a mast, which stands on a robot above the floor.
 TEST(StaticTransforms, TellHowHighAFrameIs) {
   StaticTransforms transforms;
-  const auto add = [&](std::string parent,
-                       std::string child,
+  const auto add = [&](const char* parent,
+                       const char* child,
                        const wire::Vector3& origin,
                        const wire::Quaternion& turn) {
-    wire::TransformStamped transform{};
-    transform.header = HeaderOf({}, parent);
-    transform.child_frame_id = Borrow(child);
-    transform.transform.translation = origin;
-    transform.transform.rotation = turn;
-    wire::TFMessage message{};
-    message.transforms = {._maximum = 1, ._length = 1, ._buffer = &transform, ._release = false};
-    transforms.Take(message, Guid{});
+    Take(transforms, parent, child, origin, turn);
   };
   add("base_footprint", "base_link", {0.0, 0.0, 0.125}, {0.0, 0.0, 0.0, 1.0});
   add("base_link", "mast", {0.0, 0.0, 0.5}, {1.0, 0.0, 0.0, 0.0});
@@ -133,17 +136,11 @@ TEST(StaticTransforms, TellHowHighAFrameIs) {
 // A laser that hangs upside down below a mast, one that looks down, and one that two tilts level.
 TEST(StaticTransforms, PlaceLasersThatAreUpsideDownAndNoneThatIsTilted) {
   StaticTransforms transforms;
-  const auto add = [&](std::string parent,
-                       std::string child,
+  const auto add = [&](const char* parent,
+                       const char* child,
                        const wire::Vector3& origin,
                        const wire::Quaternion& turn) {
-    wire::TransformStamped transform{};
-    transform.header = HeaderOf({}, parent);
-    transform.child_frame_id = Borrow(child);
-    transform.transform = {origin, turn};
-    wire::TFMessage message{};
-    message.transforms = {._maximum = 1, ._length = 1, ._buffer = &transform, ._release = false};
-    transforms.Take(message, Guid{});
+    Take(transforms, parent, child, origin, turn);
   };
   const double half = std::sqrt(0.5);
   add("base_link", "mast", {1.0, 0.0, 0.5}, {0.0, 0.0, half, half});
