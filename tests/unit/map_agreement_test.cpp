@@ -86,7 +86,7 @@ std::optional<UncertainPose2> DecideOn(const UncertainPose2& a_b,
   JointCandidates candidates;
   candidates.Propose(a_b, b.scans().front().map_robot.T_a_b);
   return candidates.Decide(
-      Agreement(), {.map = a, .scans_of_robots = {}}, {.map = b, .scans_of_robots = {}}, stop);
+      Agreement(), {.map = a, .scans_of_robots = {}}, {.map = b, .scans_of_robots = {}}, {}, stop);
 }
 
 std::vector<const RelevantScan*> AllOf(const ScanMap& map) {
@@ -106,10 +106,21 @@ TEST(MapEchoes, AreAPeriodOfACorridorAway) {
   for (const Pose2& T_map_map : echoes) EXPECT_GT(T_map_map.translation_m().norm(), 1.0);
 }
 
+TEST(MapEchoes, AreWhereAnotherMapLooksAlike) {
+  const ScanMap map = MapOf(test::FurnishedRoom());
+  const std::vector<Pose2> likenesses =
+      FindLikenesses(AllOf(map), AgainMapOf(test::FurnishedRoom()));
+  ASSERT_FALSE(likenesses.empty());
+  EXPECT_LT(likenesses.front().translation_m().norm(), 0.2);
+  EXPECT_LT(std::abs(likenesses.front().theta_rad), 0.05);
+}
+
 TEST(MapEchoes, AreNoneOfNothing) {
   EXPECT_TRUE(FindEchoes({}, ScanMap()).empty());
+  EXPECT_TRUE(FindLikenesses({}, ScanMap()).empty());
   const ScanMap map = MapOf(Zigzag(0, 1));
   EXPECT_TRUE(FindEchoes(std::vector{&map.scans().front()}, ScanMap()).empty());
+  EXPECT_TRUE(FindLikenesses(std::vector{&map.scans().front()}, ScanMap()).empty());
 }
 
 TEST(MapAgreement, BelievesNoMoreOfAPlaceThanTheMapRepeats) {

@@ -76,6 +76,18 @@ TEST_F(MeetingPlaces, AreNoneWhereRobotsWouldHaveSeenEachOther) {
   EXPECT_EQ(FindMeetingPlaces(std::vector{&first, &later}, {}).places.size(), 2U);
 }
 
+// Two rooms that are alike are drawn by a robot each: either may be the one that the first robot
+// drew, and not both.
+TEST_F(MeetingPlaces, AreNoneWhereOneOfTwoRobotsIsAndNobodyKnowsWhich) {
+  constexpr std::size_t kFew = 60;
+  const ScanMap first = MapOfDrive(drive_, 60, 60 + kFew, std::chrono::hours(1));
+  const ScanMap second = MapOfDrive(drive_, 61, 61 + kFew, std::chrono::hours(2));
+  const ScanMap meanwhile = MapOfDrive(drive_, 61, 61 + kFew, std::chrono::hours(2));
+  const ScanMap later = MapOfDrive(drive_, 61, 61 + kFew, std::chrono::hours(3));
+  EXPECT_EQ(FindMeetingPlaces(std::vector{&first, &second, &meanwhile}, {}).places.size(), 1U);
+  EXPECT_EQ(FindMeetingPlaces(std::vector{&first, &second, &later}, {}).places.size(), 3U);
+}
+
 TEST_F(MeetingPlaces, AreFoundByWayOfAThirdRobot) {
   const ScanMap first = MapFrom(0);
   const ScanMap second = MapFrom(160);

@@ -31,6 +31,14 @@ constexpr double kSlid_m = 1.5 * kOnePlace_m;
 // Fitted from there, what ends so near to where it was has been told by more than those walls.
 constexpr double kBack_m = 0.2;
 
+bool HasGrown(std::size_t scans, std::size_t before) {
+  return static_cast<double>(scans) > kGrown * static_cast<double>(before);
+}
+
+double UnseenNats(const DrawnMap& a, const DrawnMap& b, const Pose2& T_a_b) {
+  return kUnseenNats * CountUnseen(a, b, T_a_b, kMostUnseen);
+}
+
 }  // namespace
 
 bool JointCandidates::IsSamePlace(const Candidate& one, const Candidate& other) {
@@ -49,6 +57,7 @@ void JointCandidates::Propose(const UncertainPose2& a_b, const Pose2& T_b_robot)
 std::optional<UncertainPose2> JointCandidates::Decide(const MapAgreement& agreement,
                                                       const DrawnMap& a,
                                                       const DrawnMap& b,
+                                                      std::span<const DrawnMap> others,
                                                       const std::stop_token& stop) {
   if (!Weigh(agreement, a, b, stop)) return std::nullopt;
   KeepBest();
@@ -56,6 +65,8 @@ std::optional<UncertainPose2> JointCandidates::Decide(const MapAgreement& agreem
   Candidate& best = candidates_.front();
   if (best.scans_among_echoes != best.scans) Contest(agreement, a.map, b.map, best, stop);
   if (best.nats_among_echoes - best.unseen_nats < kSureNats) return std::nullopt;
+  LookForRivals(agreement, a, b, others, best, stop);
+  if (best.has_rival) return std::nullopt;
   // Pairs are better ones where it has been fitted.
   const UncertainPose2 fitted = agreement.Judge(a.map, b.map, best.a_b, stop).a_b;
   return stop.stop_requested() ? std::nullopt : std::optional(fitted);
@@ -68,18 +79,24 @@ bool JointCandidates::Weigh(const MapAgreement& agreement,
                             const std::stop_token& stop) {
   const std::size_t scans = a.map.scans().size() + b.map.scans().size();
   for (Candidate& candidate : candidates_) {
-    const bool has_grown =
-        static_cast<double>(scans) > kGrown * static_cast<double>(candidate.scans);
-    if (!has_grown || candidate.nats < kRefutedNats) continue;
-    const MapAgreement::Judgement judged = agreement.Judge(a.map, b.map, candidate.a_b, stop);
+    if (!HasGrown(scans, candidate.scans) || candidate.nats < kRefutedNats) continue;
+    WeighOne(agreement, a, b, candidate, stop);
     if (stop.stop_requested()) return false;
-    candidate.a_b = judged.a_b;
-    candidate.nats = judged.nats;
-    candidate.least_known = judged.least_known;
-    candidate.unseen_nats = kUnseenNats * CountUnseen(a, b, judged.a_b.T_a_b, kMostUnseen);
     candidate.scans = scans;
   }
   return true;
+}
+
+void JointCandidates::WeighOne(const MapAgreement& agreement,
+                               const DrawnMap& a,
+                               const DrawnMap& b,
+                               Candidate& candidate,
+                               const std::stop_token& stop) {
+  const MapAgreement::Judgement judged = agreement.Judge(a.map, b.map, candidate.a_b, stop);
+  candidate.a_b = judged.a_b;
+  candidate.nats = judged.nats;
+  candidate.least_known = judged.least_known;
+  candidate.unseen_nats = UnseenNats(a, b, judged.a_b.T_a_b);
 }
 
 bool JointCandidates::HasLeader() const {
@@ -107,6 +124,43 @@ void JointCandidates::Contest(const MapAgreement& agreement,
     if (is_elsewhere && candidate.nats - judged.nats < kLeadNats) return;
   }
   candidate.nats_among_echoes = agreement.NatsAmongEchoes(a, b, candidate.a_b, stop);
+}
+
+void JointCandidates::LookForRivals(const MapAgreement& agreement,
+                                    const DrawnMap& a,
+                                    const DrawnMap& b,
+                                    std::span<const DrawnMap> others,
+                                    Candidate& candidate,
+                                    const std::stop_token& stop) {
+  std::size_t scans = a.map.scans().size() + b.map.scans().size();
+  for (const DrawnMap& third : others) scans += third.map.scans().size();
+  if (candidate.others == others.size() && !HasGrown(scans, candidate.scans_among_others)) return;
+  const double nats = candidate.Total();
+  candidate.has_rival = std::ranges::any_of(others, [&](const DrawnMap& third) {
+    return IsRival(agreement, third, a, b, candidate.a_b, nats, stop) ||
+           IsRival(agreement, third, b, a, Inverse(candidate.a_b), nats, stop);
+  });
+  candidate.others = others.size();
+  candidate.scans_among_others = scans;
+}
+
+// In a building with places that are alike a map is drawn of each, and by all that is drawn either
+// may lie in another one; but not both of them, where their robots would have seen each other. Then
+// one of them has to lead.
+bool JointCandidates::IsRival(const MapAgreement& agreement,
+                              const DrawnMap& third,
+                              const DrawnMap& a,
+                              const DrawnMap& b,
+                              const UncertainPose2& a_b,
+                              double nats,
+                              const std::stop_token& stop) {
+  const std::vector<Pose2> in_its_stead = agreement.InSteadOf(b.map, a.map, a_b, third.map, stop);
+  return std::ranges::any_of(in_its_stead, [&](const Pose2& T_b_third) {
+    if (UnseenNats(b, third, T_b_third) < kLeadNats) return false;
+    Candidate rival{.a_b = a_b * UncertainPose2{.T_a_b = T_b_third}};
+    WeighOne(agreement, a, third, rival, stop);
+    return nats - rival.Total() < kLeadNats;
+  });
 }
 
 // Places that have come together are one.

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <vector>
 
@@ -26,16 +27,18 @@ class JointCandidates {
   void Propose(const UncertainPose2& a_b, const Pose2& T_b_robot);
 
   /// Weighs all places anew of which the maps may show more than they did.
+  /// @param others all other maps of which it is not known how they lie in these.
   /// @return the place where the two lie beyond doubt, leading all others; none once it is stopped.
   std::optional<UncertainPose2> Decide(const MapAgreement& agreement,
                                        const DrawnMap& a,
                                        const DrawnMap& b,
+                                       std::span<const DrawnMap> others,
                                        const std::stop_token& stop);
 
  private:
   struct Candidate {
     UncertainPose2 a_b;
-    Pose2 T_b_robot;        // Who proposed it; turns about there move little of what was seen.
+    Pose2 T_b_robot{};      // Who proposed it; turns about there move little of what was seen.
     double nats = 0.0;      // Evidence for it, against its being a place that looks alike.
     std::size_t scans = 0;  // Of both maps, when it was weighed.
     // Evidence against it: robots that were in view of each other there did not see each other.
@@ -45,10 +48,19 @@ class JointCandidates {
     // scans of both.
     double nats_among_echoes = 0.0;
     std::size_t scans_among_echoes = 0;
+    // Whether one of so many others may lie there as well, by so many scans of all.
+    bool has_rival = false;
+    std::size_t others = 0;
+    std::size_t scans_among_others = 0;
 
     double Total() const { return nats - unseen_nats; }
   };
 
+  static void WeighOne(const MapAgreement& agreement,
+                       const DrawnMap& a,
+                       const DrawnMap& b,
+                       Candidate& candidate,
+                       const std::stop_token& stop);
   static bool IsSamePlace(const Candidate& one, const Candidate& other);
   bool Weigh(const MapAgreement& agreement,
              const DrawnMap& a,
@@ -59,6 +71,19 @@ class JointCandidates {
                       const ScanMap& a,
                       const ScanMap& b,
                       Candidate& candidate,
+                      const std::stop_token& stop);
+  static void LookForRivals(const MapAgreement& agreement,
+                            const DrawnMap& a,
+                            const DrawnMap& b,
+                            std::span<const DrawnMap> others,
+                            Candidate& candidate,
+                            const std::stop_token& stop);
+  static bool IsRival(const MapAgreement& agreement,
+                      const DrawnMap& third,
+                      const DrawnMap& a,
+                      const DrawnMap& b,
+                      const UncertainPose2& a_b,
+                      double nats,
                       const std::stop_token& stop);
   void KeepBest();
 

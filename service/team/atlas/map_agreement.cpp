@@ -136,6 +136,16 @@ double MapAgreement::NatsAmongEchoes(const ScanMap& a,
   return nats;
 }
 
+std::vector<Pose2> MapAgreement::InSteadOf(const ScanMap& b,
+                                           const ScanMap& a,
+                                           const UncertainPose2& a_b,
+                                           const ScanMap& third,
+                                           const std::stop_token& stop) const {
+  std::vector<Pose2> T_b_third = FindLikenesses(ScansBeside(b, a, a_b.T_a_b), third, stop);
+  std::ranges::transform(T_b_third, T_b_third.begin(), &Pose2::Inverse);
+  return T_b_third;
+}
+
 MapAgreement::Evidence MapAgreement::EvidenceOf(const ScanMap& a,
                                                 const ScanMap& b,
                                                 const UncertainPose2& a_b,

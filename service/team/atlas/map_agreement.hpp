@@ -49,6 +49,14 @@ class MapAgreement {
                          const UncertainPose2& a_b,
                          const std::stop_token& stop = {}) const;
 
+  /// Where a third map shows what `b` shows of `a`: the third in `b`. It may lie in `a` in its
+  /// stead. To be stopped likewise.
+  std::vector<Pose2> InSteadOf(const ScanMap& b,
+                               const ScanMap& a,
+                               const UncertainPose2& a_b,
+                               const ScanMap& third,
+                               const std::stop_token& stop = {}) const;
+
  private:
   // The scans of two maps near each other's.
   struct Overlap {

@@ -28,7 +28,7 @@ constexpr double kOneEcho_rad = 0.2;
 constexpr std::size_t kMostEchoes = 5;
 
 struct Echo {
-  Pose2 T_map_map;
+  Pose2 T_map_scans;   // Where the frame of the scans lies.
   double votes = 0.0;  // Scores of the scans that look like that.
 };
 
@@ -39,16 +39,25 @@ std::vector<const RelevantScan*> Some(std::span<const RelevantScan* const> scans
   return some;
 }
 
+using FindPlaces = std::function<std::vector<FoundPose>(const RelevantScan&)>;
+
+std::vector<FoundPose> Places(const RelevantScan& scan,
+                              const ScanMap& map,
+                              const ModeSearchArea& area) {
+  const std::vector<ScanPoint> points = ThinOut(HitsOf(scan.scan), kPointSpacing_m, kMostPoints);
+  return SearchModes(map.surfaces().likelihood(),
+                     area,
+                     PositionsOf(points),
+                     {.min_score = kMinScore, .margin = kModeMargin})
+      .modes;
+}
+
 std::vector<FoundPose> PlacesElsewhere(const RelevantScan& scan,
                                        const ScanMap& map,
                                        const ModeSearchArea& area) {
   const Eigen::Vector2d here_m = scan.map_robot.T_a_b.translation_m();
-  const std::vector<ScanPoint> points = ThinOut(HitsOf(scan.scan), kPointSpacing_m, kMostPoints);
-  std::vector<FoundPose> places = SearchModes(map.surfaces().likelihood(),
-                                              area.Without(here_m, kElsewhere_m + kAroundPath_m),
-                                              PositionsOf(points),
-                                              {.min_score = kMinScore, .margin = kModeMargin})
-                                      .modes;
+  std::vector<FoundPose> places =
+      Places(scan, map, area.Without(here_m, kElsewhere_m + kAroundPath_m));
   // A search begins in blocks that are wider than its reach.
   std::erase_if(places, [&](const FoundPose& place) {
     return (place.T_map_robot.translation_m() - here_m).norm() < kElsewhere_m;
@@ -63,21 +72,36 @@ bool IsSameEcho(const Pose2& one, const Pose2& other, const Eigen::Vector2d& p_m
 }
 
 void Vote(const RelevantScan& scan,
-          const ScanMap& map,
-          const ModeSearchArea& area,
+          const std::vector<FoundPose>& places,
           std::vector<Echo>& echoes) {
-  const Pose2& T_map_scan = scan.map_robot.T_a_b;
-  for (const FoundPose& place : PlacesElsewhere(scan, map, area)) {
-    const Pose2 T_map_map = place.T_map_robot * T_map_scan.Inverse();
+  const Pose2& T_scans_scan = scan.map_robot.T_a_b;
+  for (const FoundPose& place : places) {
+    const Pose2 T_map_scans = place.T_map_robot * T_scans_scan.Inverse();
     const auto known = std::ranges::find_if(echoes, [&](const Echo& echo) {
-      return IsSameEcho(echo.T_map_map, T_map_map, T_map_scan.translation_m());
+      return IsSameEcho(echo.T_map_scans, T_map_scans, T_scans_scan.translation_m());
     });
     if (known == echoes.end()) {
-      echoes.push_back({.T_map_map = T_map_map, .votes = place.score});
+      echoes.push_back({.T_map_scans = T_map_scans, .votes = place.score});
     } else {
       known->votes += place.score;
     }
   }
+}
+
+// Where scans are found, as most of them agree.
+std::vector<Pose2> Elect(std::span<const RelevantScan* const> scans,
+                         const FindPlaces& find,
+                         const std::stop_token& stop) {
+  std::vector<Echo> echoes;
+  for (const RelevantScan* scan : Some(scans)) {
+    if (stop.stop_requested()) break;
+    Vote(*scan, find(*scan), echoes);
+  }
+  std::ranges::stable_sort(echoes, std::ranges::greater{}, &Echo::votes);
+  if (echoes.size() > kMostEchoes) echoes.resize(kMostEchoes);
+  std::vector<Pose2> T_map_scans;
+  for (const Echo& echo : echoes) T_map_scans.push_back(echo.T_map_scans);
+  return T_map_scans;
 }
 
 }  // namespace
@@ -87,16 +111,17 @@ std::vector<Pose2> FindEchoes(std::span<const RelevantScan* const> scans,
                               const std::stop_token& stop) {
   if (scans.empty()) return {};
   const ModeSearchArea area(map.surfaces().likelihood(), PathOf(map), kAroundPath_m);
-  std::vector<Echo> echoes;
-  for (const RelevantScan* scan : Some(scans)) {
-    if (stop.stop_requested()) break;
-    Vote(*scan, map, area, echoes);
-  }
-  std::ranges::stable_sort(echoes, std::ranges::greater{}, &Echo::votes);
-  if (echoes.size() > kMostEchoes) echoes.resize(kMostEchoes);
-  std::vector<Pose2> T_map_map;
-  for (const Echo& echo : echoes) T_map_map.push_back(echo.T_map_map);
-  return T_map_map;
+  return Elect(
+      scans, [&](const RelevantScan& scan) { return PlacesElsewhere(scan, map, area); }, stop);
+}
+
+std::vector<Pose2> FindLikenesses(std::span<const RelevantScan* const> scans,
+                                  const ScanMap& other,
+                                  const std::stop_token& stop) {
+  if (scans.empty()) return {};
+  const ModeSearchArea area(other.surfaces().likelihood(), PathOf(other), kAroundPath_m);
+  return Elect(
+      scans, [&](const RelevantScan& scan) { return Places(scan, other, area); }, stop);
 }
 
 }  // namespace qwsm::team

@@ -19,4 +19,10 @@ std::vector<Pose2> FindEchoes(std::span<const RelevantScan* const> scans,
                               const ScanMap& map,
                               const std::stop_token& stop = {});
 
+/// Finds where another map looks as one does around some of its scans.
+/// @return where the frame of the scans lies in the other map, in the same order; likewise.
+std::vector<Pose2> FindLikenesses(std::span<const RelevantScan* const> scans,
+                                  const ScanMap& other,
+                                  const std::stop_token& stop = {});
+
 }  // namespace qwsm::team

@@ -93,6 +93,7 @@ class MapMerger {
                                         const Sighting& sighting,
                                         const MapComponent& other,
                                         const std::stop_token& stop);
+  std::vector<DrawnMap> ChartsBeside(const Chart& one, const Chart& other) const;
   Search& SearchBy(const std::string& robot,
                    const Sighting& sighting,
                    const MapComponent& other,

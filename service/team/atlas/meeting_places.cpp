@@ -3,7 +3,6 @@
 #include "service/team/atlas/meeting_places.hpp"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -25,12 +24,21 @@ struct Apart {
   std::size_t places_looked_into = 0;  // Of those known.
 };
 
-// A robot adds scans in the order of time.
-std::vector<ScanId> AllScans(const ScanMap& map) {
-  std::vector<ScanId> all(map.scans().size());
-  std::iota(all.begin(), all.end(), ScanId{0});
-  return all;
-}
+/// A map that one robot drew, which adds scans in the order of time.
+class OwnMap {
+ public:
+  explicit OwnMap(const ScanMap& map) : map_(map), scans_of_robots_(1) {
+    scans_of_robots_.front().resize(map.scans().size());
+    std::iota(scans_of_robots_.front().begin(), scans_of_robots_.front().end(), ScanId{0});
+  }
+
+  const ScanMap& map() const { return map_; }
+  DrawnMap Drawn() const { return {.map = map_, .scans_of_robots = scans_of_robots_}; }
+
+ private:
+  const ScanMap& map_;
+  std::vector<std::vector<ScanId>> scans_of_robots_;
+};
 
 /// The maps that have a place, and the search for the others'.
 class MeetingSearch {
@@ -38,12 +46,13 @@ class MeetingSearch {
   MeetingSearch(std::span<const ScanMap* const> maps,
                 const MapperOptions& options,
                 const std::function<bool()>& stop)
-      : maps_(maps),
-        options_(options),
+      : options_(options),
         stop_(stop),
         agreement_(options.locator, options.free_space),
-        met_{.places = {MeetingPlace{}}, .map = *maps.front()},
-        scans_of_met_{AllScans(*maps.front())} {}
+        met_{.places = {MeetingPlace{}}, .map = *maps.front()} {
+    for (const ScanMap* map : maps) maps_.emplace_back(*map);
+    scans_of_met_.push_back(maps_.front().Drawn().scans_of_robots.front());
+  }
 
   /// Looks around in all maps that have a place, and have got one since it was done last.
   /// @return whether the map has a place now.
@@ -53,7 +62,7 @@ class MeetingSearch {
       const std::optional<UncertainPose2> place = LookInto(other, apart);
       if (!place) continue;
       std::vector<ScanId>& scans_of_robot = scans_of_met_.emplace_back();
-      for (const RelevantScan& scan : maps_[apart.map]->scans()) {
+      for (const RelevantScan& scan : maps_[apart.map].map().scans()) {
         scans_of_robot.push_back(
             met_.map.Insert(scan.scan, ToPoints(scan.scan), *place * scan.map_robot));
       }
@@ -70,11 +79,12 @@ class MeetingSearch {
   // asked; and in the end.
   std::optional<UncertainPose2> LookInto(const MeetingPlace& other, Apart& apart) const {
     PlaceFinder finder(options_);
-    for (const RelevantScan& scan : maps_[apart.map]->scans()) {
+    for (const RelevantScan& scan : maps_[apart.map].map().scans()) {
       if (stop_()) return std::nullopt;
       const Pose2& T_own_robot = scan.map_robot.T_a_b;
       const std::optional<Pose2> T_own_looked = finder.T_local_looked();
-      const PlaceBelief& belief = finder.Look(*maps_[other.map], ToPoints(scan.scan), T_own_robot);
+      const PlaceBelief& belief =
+          finder.Look(maps_[other.map].map(), ToPoints(scan.scan), T_own_robot);
       if (finder.T_local_looked() == T_own_looked) continue;
       Propose(belief, T_own_robot, other.first_map, apart.candidates);
       if (belief.verdict != PlaceVerdict::kFound) continue;
@@ -96,14 +106,24 @@ class MeetingSearch {
   }
 
   std::optional<UncertainPose2> Decide(Apart& apart) const {
-    const std::array scans_of_robot{AllScans(*maps_[apart.map])};
     return apart.candidates.Decide(agreement_,
                                    {.map = met_.map, .scans_of_robots = scans_of_met_},
-                                   {.map = *maps_[apart.map], .scans_of_robots = scans_of_robot},
+                                   maps_[apart.map].Drawn(),
+                                   OthersWithoutPlace(apart),
                                    {});
   }
 
-  std::span<const ScanMap* const> maps_;
+  std::vector<DrawnMap> OthersWithoutPlace(const Apart& apart) const {
+    std::vector<DrawnMap> others;
+    for (std::size_t map = 0; map < maps_.size(); ++map) {
+      const bool has_place =
+          std::ranges::find(met_.places, map, &MeetingPlace::map) != met_.places.end();
+      if (map != apart.map && !has_place) others.push_back(maps_[map].Drawn());
+    }
+    return others;
+  }
+
+  std::vector<OwnMap> maps_;
   const MapperOptions& options_;
   const std::function<bool()>& stop_;
   MapAgreement agreement_;
