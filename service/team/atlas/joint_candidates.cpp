@@ -19,9 +19,9 @@ constexpr double kLeadNats = 4.6;
 constexpr double kGrown = 1.1;
 constexpr double kRefutedNats = -9.2;
 // A robot that is not seen where it would be in view: once in ten it is too low, or too thin; and
-// then it always is.
-constexpr double kUnseenNats = 2.3;
-constexpr int kMostUnseen = 4;
+// then it always is. Likewise something else may be where it would be. Who is seen is neither.
+constexpr double kSightNats = 2.3;
+constexpr int kMostSights = 4;
 // Places so near to each other are the same one.
 constexpr double kOnePlace_m = 1.0;
 constexpr double kOnePlace_rad = 0.2;
@@ -35,8 +35,10 @@ bool HasGrown(std::size_t scans, std::size_t before) {
   return static_cast<double>(scans) > kGrown * static_cast<double>(before);
 }
 
-double UnseenNats(const DrawnMap& a, const DrawnMap& b, const Pose2& T_a_b) {
-  return kUnseenNats * CountUnseen(a, b, T_a_b, kMostUnseen);
+double SightNats(const DrawnMap& a, const DrawnMap& b, const Pose2& T_a_b) {
+  const SightCounts counts = CountSights(a, b, T_a_b);
+  return counts.nobody > 0 ? -kSightNats * std::min(counts.nobody, kMostSights)
+                           : kSightNats * std::min(counts.somebody, kMostSights);
 }
 
 }  // namespace
@@ -64,7 +66,7 @@ std::optional<UncertainPose2> JointCandidates::Decide(const MapAgreement& agreem
   if (!HasLeader()) return std::nullopt;
   Candidate& best = candidates_.front();
   if (best.scans_among_echoes != best.scans) Contest(agreement, a.map, b.map, best, stop);
-  if (best.nats_among_echoes - best.unseen_nats < kSureNats) return std::nullopt;
+  if (best.nats_among_echoes + best.sight_nats < kSureNats) return std::nullopt;
   LookForRivals(agreement, a, b, others, best, stop);
   if (best.has_rival) return std::nullopt;
   // Pairs are better ones where it has been fitted.
@@ -96,7 +98,7 @@ void JointCandidates::WeighOne(const MapAgreement& agreement,
   candidate.a_b = judged.a_b;
   candidate.nats = judged.nats;
   candidate.least_known = judged.least_known;
-  candidate.unseen_nats = UnseenNats(a, b, judged.a_b.T_a_b);
+  candidate.sight_nats = SightNats(a, b, judged.a_b.T_a_b);
 }
 
 bool JointCandidates::HasLeader() const {
@@ -156,7 +158,7 @@ bool JointCandidates::IsRival(const MapAgreement& agreement,
                               const std::stop_token& stop) {
   const std::vector<Pose2> in_its_stead = agreement.InSteadOf(b.map, a.map, a_b, third.map, stop);
   return std::ranges::any_of(in_its_stead, [&](const Pose2& T_b_third) {
-    if (UnseenNats(b, third, T_b_third) < kLeadNats) return false;
+    if (SightNats(b, third, T_b_third) > -kLeadNats) return false;
     Candidate rival{.a_b = a_b * UncertainPose2{.T_a_b = T_b_third}};
     WeighOne(agreement, a, third, rival, stop);
     return nats - rival.Total() < kLeadNats;

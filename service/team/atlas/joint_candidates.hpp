@@ -41,8 +41,8 @@ class JointCandidates {
     Pose2 T_b_robot{};      // Who proposed it; turns about there move little of what was seen.
     double nats = 0.0;      // Evidence for it, against its being a place that looks alike.
     std::size_t scans = 0;  // Of both maps, when it was weighed.
-    // Evidence against it: robots that were in view of each other there did not see each other.
-    double unseen_nats = 0.0;
+    // That robots which were in view of each other there saw each other, or did not.
+    double sight_nats = 0.0;
     Eigen::Vector2d least_known = Eigen::Vector2d::UnitX();
     // What is left of the evidence in a building that is as alike as the maps show it, by so many
     // scans of both.
@@ -53,7 +53,7 @@ class JointCandidates {
     std::size_t others = 0;
     std::size_t scans_among_others = 0;
 
-    double Total() const { return nats - unseen_nats; }
+    double Total() const { return nats + sight_nats; }
   };
 
   static void WeighOne(const MapAgreement& agreement,

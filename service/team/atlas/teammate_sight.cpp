@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kBody_m = 0.3;    // Two robots are not nearer to each other,
 constexpr double kMiddle_m = 0.1;  // and beams so near to the middle of one hit it.
+constexpr double kAcross_m = 1.0;  // It is not so large that none pass by so far beside it.
 constexpr double kBehind_m = 0.5;  // It may be so far from where it is said to be.
 constexpr int kMinBeams = 2;
 // Between two of its scans a robot drives steadily; between those farther apart it may have stood.
@@ -37,52 +38,82 @@ std::optional<Pose2> PoseAt(Timestamp stamp,
   return Between(before.map_robot.T_a_b, after.map_robot.T_a_b, share);
 }
 
-// How often the robots of a map do not see that one of the other map.
-int CountUnseen(const DrawnMap& a,
-                const ScanMap& b,
-                std::span<const ScanId> scans_of_robot_b,
-                const Pose2& T_a_b,
-                int at_most) {
-  int unseen = 0;
+// What a beam that leads past a place tells of it.
+enum class Beam { kTellsNothing, kEndsBefore, kEndsThere, kEndsBehind, kGoesOn };
+
+Beam TellOf(float range_m, const LaserGeometry& geometry, double away_m) {
+  switch (StateOf(range_m, geometry)) {
+    case BeamState::kInvalid:
+      return Beam::kEndsThere;  // What moves has been hidden.
+    case BeamState::kMiss:
+      return Beam::kGoesOn;
+    case BeamState::kTooNear:
+      return Beam::kTellsNothing;
+    case BeamState::kHit:
+      break;
+  }
+  const double behind_m = static_cast<double>(range_m) - away_m;
+  if (behind_m < -kBehind_m) return Beam::kEndsBefore;
+  return behind_m < kBehind_m ? Beam::kEndsThere : Beam::kEndsBehind;
+}
+
+// What the robots of a map see where that one of the other map was.
+void CountSights(const DrawnMap& a,
+                 const ScanMap& b,
+                 std::span<const ScanId> scans_of_robot_b,
+                 const Pose2& T_a_b,
+                 SightCounts& counts) {
   for (const RelevantScan& own : a.map.scans()) {
-    if (unseen == at_most) break;
     const std::optional<Pose2> T_b_robot = PoseAt(own.scan.stamp, b, scans_of_robot_b);
     if (!T_b_robot) continue;
     const Pose2 T_own_robot = own.map_robot.T_a_b.Inverse() * T_a_b * *T_b_robot;
-    if (SeesNobodyAt(own.scan, T_own_robot.translation_m())) ++unseen;
+    const Sight sight = LookAt(own.scan, T_own_robot.translation_m());
+    if (sight == Sight::kSomebody) ++counts.somebody;
+    if (sight == Sight::kNobody) ++counts.nobody;
   }
-  return unseen;
 }
 
 }  // namespace
 
-bool SeesNobodyAt(const LaserScan& scan, const Eigen::Vector2d& p_robot_m) {
-  if (p_robot_m.norm() < kBody_m) return true;
+Sight LookAt(const LaserScan& scan, const Eigen::Vector2d& p_robot_m) {
+  if (p_robot_m.norm() < kBody_m) return Sight::kNobody;
   const Eigen::Vector2d p_laser_m = scan.geometry.T_robot_laser.Inverse() * p_robot_m;
   const double away_m = p_laser_m.norm();
   const double bearing_rad = std::atan2(p_laser_m.y(), p_laser_m.x());
-  const double beside_rad = std::atan2(kMiddle_m, away_m);
-  int seen_behind = 0;
+  const double middle_rad = std::atan2(kMiddle_m, away_m);
+  const double across_rad = std::atan2(kAcross_m, away_m);
+  int end_there = 0;
+  int end_behind = 0;
+  bool is_free_to_the_right = false;
+  bool is_free_to_the_left = false;
   for (std::size_t beam = 0; beam < scan.size(); ++beam) {
-    const float range_m = scan.ranges_m[beam];
-    if (StateOf(range_m, scan.geometry) != BeamState::kHit) continue;
     const double off_rad = NormalizeAngle(scan.geometry.Bearing(beam) - bearing_rad);
-    if (std::abs(off_rad) > beside_rad) continue;
-    if (static_cast<double>(range_m) < away_m + kBehind_m) return false;
-    ++seen_behind;
+    if (std::abs(off_rad) > across_rad) continue;
+    const Beam tells = TellOf(scan.ranges_m[beam], scan.geometry, away_m);
+    if (std::abs(off_rad) > middle_rad) {
+      const bool is_free = tells == Beam::kEndsBehind || tells == Beam::kGoesOn;
+      (off_rad < 0.0 ? is_free_to_the_right : is_free_to_the_left) |= is_free;
+      continue;
+    }
+    if (tells == Beam::kEndsBefore) return Sight::kNothing;
+    if (tells == Beam::kEndsThere) ++end_there;
+    if (tells == Beam::kEndsBehind) ++end_behind;
   }
-  return seen_behind >= kMinBeams;
+  if (end_there == 0 && end_behind >= kMinBeams) return Sight::kNobody;
+  const bool stands_free = is_free_to_the_right && is_free_to_the_left;
+  const bool is_somebody = end_behind == 0 && end_there >= kMinBeams && stands_free;
+  return is_somebody ? Sight::kSomebody : Sight::kNothing;
 }
 
-int CountUnseen(const DrawnMap& a, const DrawnMap& b, const Pose2& T_a_b, int at_most) {
-  int unseen = 0;
+SightCounts CountSights(const DrawnMap& a, const DrawnMap& b, const Pose2& T_a_b) {
+  SightCounts counts;
   for (const std::vector<ScanId>& scans : b.scans_of_robots) {
-    unseen += CountUnseen(a, b.map, scans, T_a_b, at_most - unseen);
+    CountSights(a, b.map, scans, T_a_b, counts);
   }
   for (const std::vector<ScanId>& scans : a.scans_of_robots) {
-    unseen += CountUnseen(b, a.map, scans, T_a_b.Inverse(), at_most - unseen);
+    CountSights(b, a.map, scans, T_a_b.Inverse(), counts);
   }
-  return unseen;
+  return counts;
 }
 
 }  // namespace qwsm::team

@@ -18,13 +18,24 @@ struct DrawnMap {
   std::span<const std::vector<ScanId>> scans_of_robots;
 };
 
-/// Whether a scan tells that nobody stands at a place: the robot stands there itself, or sees what
-/// lies behind. Where something hides the place, or beams are too far from each other, it does not.
-bool SeesNobodyAt(const LaserScan& scan, const Eigen::Vector2d& p_robot_m);
+/// What a scan tells of a place.
+enum class Sight {
+  kNothing,   ///< Something hides it, a wall is there, or beams are too far from each other.
+  kNobody,    ///< The robot stands there itself, or sees what lies behind.
+  kSomebody,  ///< Something is there, or was and has been hidden, and beams pass by on both sides.
+};
 
-/// How often, were two maps one, a robot of one would have had one of the other in view, and saw
-/// nobody there. Asks all scans that both maps were drawn by.
-/// @param at_most counts no further.
-int CountUnseen(const DrawnMap& a, const DrawnMap& b, const Pose2& T_a_b, int at_most);
+Sight LookAt(const LaserScan& scan, const Eigen::Vector2d& p_robot_m);
+
+struct SightCounts {
+  int somebody = 0;
+  int nobody = 0;
+
+  friend bool operator==(const SightCounts&, const SightCounts&) = default;
+};
+
+/// What robots of one map saw where those of the other were, were the two maps one. Asks all scans
+/// that both maps were drawn by.
+SightCounts CountSights(const DrawnMap& a, const DrawnMap& b, const Pose2& T_a_b);
 
 }  // namespace qwsm::team
