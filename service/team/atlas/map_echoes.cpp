@@ -14,8 +14,10 @@
 namespace qwsm::team {
 namespace {
 
-constexpr std::size_t kMostScansAsked = 16;  // More make it slower, not surer.
-constexpr std::size_t kMostPoints = 80;      // Likewise, of each scan.
+// More make it slower, not surer.
+constexpr std::size_t kMostScansAsked = 16;
+constexpr std::size_t kMostScansAskedInOthers = 4;
+constexpr std::size_t kMostPoints = 80;  // Likewise, of each scan.
 constexpr double kPointSpacing_m = 0.15;
 // An echo is so far away, and looked for along the path beyond.
 constexpr double kElsewhere_m = 3.0;
@@ -32,8 +34,9 @@ struct Echo {
   double votes = 0.0;  // Scores of the scans that look like that.
 };
 
-std::vector<const RelevantScan*> Some(std::span<const RelevantScan* const> scans) {
-  const std::size_t stride = 1 + (scans.size() - 1) / kMostScansAsked;
+std::vector<const RelevantScan*> Some(std::span<const RelevantScan* const> scans,
+                                      std::size_t at_most) {
+  const std::size_t stride = 1 + (scans.size() - 1) / at_most;
   std::vector<const RelevantScan*> some;
   for (std::size_t i = 0; i < scans.size(); i += stride) some.push_back(scans[i]);
   return some;
@@ -90,10 +93,11 @@ void Vote(const RelevantScan& scan,
 
 // Where scans are found, as most of them agree.
 std::vector<Pose2> Elect(std::span<const RelevantScan* const> scans,
+                         std::size_t at_most,
                          const FindPlaces& find,
                          const std::stop_token& stop) {
   std::vector<Echo> echoes;
-  for (const RelevantScan* scan : Some(scans)) {
+  for (const RelevantScan* scan : Some(scans, at_most)) {
     if (stop.stop_requested()) break;
     Vote(*scan, find(*scan), echoes);
   }
@@ -112,7 +116,10 @@ std::vector<Pose2> FindEchoes(std::span<const RelevantScan* const> scans,
   if (scans.empty()) return {};
   const ModeSearchArea area(map.surfaces().likelihood(), PathOf(map), kAroundPath_m);
   return Elect(
-      scans, [&](const RelevantScan& scan) { return PlacesElsewhere(scan, map, area); }, stop);
+      scans,
+      kMostScansAsked,
+      [&](const RelevantScan& scan) { return PlacesElsewhere(scan, map, area); },
+      stop);
 }
 
 std::vector<Pose2> FindLikenesses(std::span<const RelevantScan* const> scans,
@@ -121,7 +128,10 @@ std::vector<Pose2> FindLikenesses(std::span<const RelevantScan* const> scans,
   if (scans.empty()) return {};
   const ModeSearchArea area(other.surfaces().likelihood(), PathOf(other), kAroundPath_m);
   return Elect(
-      scans, [&](const RelevantScan& scan) { return Places(scan, other, area); }, stop);
+      scans,
+      kMostScansAskedInOthers,
+      [&](const RelevantScan& scan) { return Places(scan, other, area); },
+      stop);
 }
 
 }  // namespace qwsm::team
