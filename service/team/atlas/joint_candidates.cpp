@@ -19,7 +19,8 @@ constexpr double kLeadNats = 4.6;
 constexpr double kGrown = 1.1;
 constexpr double kRefutedNats = -9.2;
 // A robot that is not seen where it would be in view: once in ten it is too low, or too thin; and
-// then it always is. Likewise something else may be where it would be. Who is seen is neither.
+// then it always is. Likewise something else may be where it would be. Who is seen by one scan is
+// not too low for another one, which sees nobody.
 constexpr double kSightNats = 2.3;
 constexpr int kMostSights = 4;
 // Places so near to each other are the same one.
@@ -101,8 +102,10 @@ void JointCandidates::WeighOne(const MapAgreement& agreement,
   candidate.sight_nats = SightNats(a, b, judged.a_b.T_a_b);
 }
 
+// What robots saw of each other tells where one map lies to half a metre: both have to go together.
 bool JointCandidates::HasLeader() const {
   if (candidates_.empty() || candidates_.front().Total() < kSureNats) return false;
+  if (candidates_.front().nats < 0.0) return false;
   return candidates_.size() == 1 ||
          candidates_.front().Total() - candidates_[1].Total() >= kLeadNats;
 }
