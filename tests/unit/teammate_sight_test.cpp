@@ -105,10 +105,15 @@ class CrossingRobots : public testing::Test {
     return map;
   }
 
-  static SightCounts Sights(const ScanMap& a, const ScanMap& b, const Pose2& T_a_b = {}) {
+  static SightCounts Sights(const ScanMap& a,
+                            const ScanMap& b,
+                            const Pose2& T_a_b = {},
+                            int at_most_nobody = 100) {
     const std::array scans{std::vector<ScanId>{0, 1, 2}};
-    return CountSights(
-        {.map = a, .scans_of_robots = scans}, {.map = b, .scans_of_robots = scans}, T_a_b);
+    return CountSights({.map = a, .scans_of_robots = scans},
+                       {.map = b, .scans_of_robots = scans},
+                       T_a_b,
+                       at_most_nobody);
   }
 };
 
@@ -118,6 +123,7 @@ TEST_F(CrossingRobots, AreMissedByEachScanThatTheOtherDroveMeanwhile) {
   const SightCounts all_but_the_first_and_the_last{.somebody = 0, .nobody = 4};
   EXPECT_EQ(Sights(a, b), all_but_the_first_and_the_last);
   EXPECT_EQ(Sights(b, a), all_but_the_first_and_the_last);
+  EXPECT_EQ(Sights(a, b, {}, 3).nobody, 3);
 }
 
 TEST_F(CrossingRobots, AreSeenByOneThatLooksTheirWay) {
@@ -145,7 +151,7 @@ TEST_F(CrossingRobots, AreNotMissedInEmptyMaps) {
   const ScanMap a = MapOf(0s, 1s, 0.0);
   const ScanMap empty;
   EXPECT_EQ(
-      CountSights({.map = a, .scans_of_robots = {}}, {.map = empty, .scans_of_robots = {}}, {}),
+      CountSights({.map = a, .scans_of_robots = {}}, {.map = empty, .scans_of_robots = {}}, {}, 4),
       SightCounts{});
 }
 

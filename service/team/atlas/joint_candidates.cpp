@@ -37,8 +37,8 @@ bool HasGrown(std::size_t scans, std::size_t before) {
 }
 
 double SightNats(const DrawnMap& a, const DrawnMap& b, const Pose2& T_a_b) {
-  const SightCounts counts = CountSights(a, b, T_a_b);
-  return counts.nobody > 0 ? -kSightNats * std::min(counts.nobody, kMostSights)
+  const SightCounts counts = CountSights(a, b, T_a_b, kMostSights);
+  return counts.nobody > 0 ? -kSightNats * counts.nobody
                            : kSightNats * std::min(counts.somebody, kMostSights);
 }
 

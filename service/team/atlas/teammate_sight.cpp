@@ -62,8 +62,10 @@ void CountSights(const DrawnMap& a,
                  const ScanMap& b,
                  std::span<const ScanId> scans_of_robot_b,
                  const Pose2& T_a_b,
+                 int at_most_nobody,
                  SightCounts& counts) {
   for (const RelevantScan& own : a.map.scans()) {
+    if (counts.nobody == at_most_nobody) break;
     const std::optional<Pose2> T_b_robot = PoseAt(own.scan.stamp, b, scans_of_robot_b);
     if (!T_b_robot) continue;
     const Pose2 T_own_robot = own.map_robot.T_a_b.Inverse() * T_a_b * *T_b_robot;
@@ -105,13 +107,16 @@ Sight LookAt(const LaserScan& scan, const Eigen::Vector2d& p_robot_m) {
   return is_somebody ? Sight::kSomebody : Sight::kNothing;
 }
 
-SightCounts CountSights(const DrawnMap& a, const DrawnMap& b, const Pose2& T_a_b) {
+SightCounts CountSights(const DrawnMap& a,
+                        const DrawnMap& b,
+                        const Pose2& T_a_b,
+                        int at_most_nobody) {
   SightCounts counts;
   for (const std::vector<ScanId>& scans : b.scans_of_robots) {
-    CountSights(a, b.map, scans, T_a_b, counts);
+    CountSights(a, b.map, scans, T_a_b, at_most_nobody, counts);
   }
   for (const std::vector<ScanId>& scans : a.scans_of_robots) {
-    CountSights(b, a.map, scans, T_a_b.Inverse(), counts);
+    CountSights(b, a.map, scans, T_a_b.Inverse(), at_most_nobody, counts);
   }
   return counts;
 }

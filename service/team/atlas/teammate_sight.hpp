@@ -36,6 +36,10 @@ struct SightCounts {
 
 /// What robots of one map saw where those of the other were, were the two maps one. Asks all scans
 /// that both maps were drawn by.
-SightCounts CountSights(const DrawnMap& a, const DrawnMap& b, const Pose2& T_a_b);
+/// @param at_most_nobody counts no further once so many scans saw nobody.
+SightCounts CountSights(const DrawnMap& a,
+                        const DrawnMap& b,
+                        const Pose2& T_a_b,
+                        int at_most_nobody);
 
 }  // namespace qwsm::team
