@@ -162,7 +162,7 @@ bool JointCandidates::IsRival(const MapAgreement& agreement,
   const std::vector<Pose2> in_its_stead = agreement.InSteadOf(b.map, a.map, a_b, third.map, stop);
   return std::ranges::any_of(in_its_stead, [&](const Pose2& T_b_third) {
     if (SightNats(b, third, T_b_third) > -kLeadNats) return false;
-    Candidate rival{.a_b = a_b * UncertainPose2{.T_a_b = T_b_third}};
+    Candidate rival{.a_b = a_b * UncertainPose2{.T_a_b = T_b_third}, .T_b_robot = {}};
     WeighOne(agreement, a, third, rival, stop);
     return nats - rival.Total() < kLeadNats;
   });

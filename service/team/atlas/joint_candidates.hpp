@@ -38,7 +38,7 @@ class JointCandidates {
  private:
   struct Candidate {
     UncertainPose2 a_b;
-    Pose2 T_b_robot{};      // Who proposed it; turns about there move little of what was seen.
+    Pose2 T_b_robot;        // Who proposed it; turns about there move little of what was seen.
     double nats = 0.0;      // Evidence for it, against its being a place that looks alike.
     std::size_t scans = 0;  // Of both maps, when it was weighed.
     // That robots which were in view of each other there saw each other, or did not.

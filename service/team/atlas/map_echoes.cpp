@@ -42,8 +42,6 @@ std::vector<const RelevantScan*> Some(std::span<const RelevantScan* const> scans
   return some;
 }
 
-using FindPlaces = std::function<std::vector<FoundPose>(const RelevantScan&)>;
-
 std::vector<FoundPose> Places(const RelevantScan& scan,
                               const ScanMap& map,
                               const ModeSearchArea& area) {
@@ -91,15 +89,18 @@ void Vote(const RelevantScan& scan,
   }
 }
 
-// Where scans are found, as most of them agree.
+// Where scans are found in a map, as most of those asked agree.
 std::vector<Pose2> Elect(std::span<const RelevantScan* const> scans,
                          std::size_t at_most,
-                         const FindPlaces& find,
+                         const ScanMap& map,
+                         decltype(Places) find,
                          const std::stop_token& stop) {
+  if (scans.empty()) return {};
+  const ModeSearchArea area(map.surfaces().likelihood(), PathOf(map), kAroundPath_m);
   std::vector<Echo> echoes;
   for (const RelevantScan* scan : Some(scans, at_most)) {
     if (stop.stop_requested()) break;
-    Vote(*scan, find(*scan), echoes);
+    Vote(*scan, find(*scan, map, area), echoes);
   }
   std::ranges::stable_sort(echoes, std::ranges::greater{}, &Echo::votes);
   if (echoes.size() > kMostEchoes) echoes.resize(kMostEchoes);
@@ -113,25 +114,13 @@ std::vector<Pose2> Elect(std::span<const RelevantScan* const> scans,
 std::vector<Pose2> FindEchoes(std::span<const RelevantScan* const> scans,
                               const ScanMap& map,
                               const std::stop_token& stop) {
-  if (scans.empty()) return {};
-  const ModeSearchArea area(map.surfaces().likelihood(), PathOf(map), kAroundPath_m);
-  return Elect(
-      scans,
-      kMostScansAsked,
-      [&](const RelevantScan& scan) { return PlacesElsewhere(scan, map, area); },
-      stop);
+  return Elect(scans, kMostScansAsked, map, PlacesElsewhere, stop);
 }
 
 std::vector<Pose2> FindLikenesses(std::span<const RelevantScan* const> scans,
                                   const ScanMap& other,
                                   const std::stop_token& stop) {
-  if (scans.empty()) return {};
-  const ModeSearchArea area(other.surfaces().likelihood(), PathOf(other), kAroundPath_m);
-  return Elect(
-      scans,
-      kMostScansAskedInOthers,
-      [&](const RelevantScan& scan) { return Places(scan, other, area); },
-      stop);
+  return Elect(scans, kMostScansAskedInOthers, other, Places, stop);
 }
 
 }  // namespace qwsm::team
