@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "service/apps/output.hpp"
@@ -59,7 +60,12 @@ class TeamMapping {
     WriteMap(marks, save_map);
     for (MappedRobot& robot : apart) {
       FinishAlone(robot);
+      if (robot.alone.map.empty()) continue;
       messages::Error("{}: is not in the map of the others, but in one of its own", robot.name);
+      if (code == ExitCode::kDone) code = ExitCode::kFailed;
+    }
+    for (const std::string& name : blind_) {
+      messages::Error("{}: has seen nothing, and is in no map", name);
       if (code == ExitCode::kDone) code = ExitCode::kFailed;
     }
     return session_.is_interrupted() ? ExitCode::kInterrupted : code;
@@ -90,13 +96,14 @@ class TeamMapping {
 
   ExitCode MapAlone(const std::string& name, pipeline::LogSource& source) {
     MappedRobot robot = Begin(name);
-    std::vector<pipeline::StepSink*> sinks{robot.steps.get()};
-    if (robots_.empty()) sinks.push_back(&marks_);  // Whose moments are those of the first robot.
-    const pipeline::ReplayResult end = Corrects(options_)
-                                           ? MapCorrecting(source, std::move(sinks), robot)
-                                           : MapIncrementally(source, std::move(sinks), robot);
+    const std::vector<pipeline::StepSink*> sinks{robot.steps.get()};
+    const pipeline::ReplayResult end = Corrects(options_) ? MapCorrecting(source, sinks, robot)
+                                                          : MapIncrementally(source, sinks, robot);
     robot.results->SetTitle(robot.session.Title("map", end));
     robot.truth = source.truth();
+    if (end.end == pipeline::ReplayEnd::kExhausted && robot.alone.map.empty()) {
+      blind_.push_back(name);
+    }
     robots_.push_back(std::move(robot));
     return session_.Conclude(end);
   }
@@ -170,7 +177,9 @@ class TeamMapping {
     std::size_t first_scan = 0;
     for (const team::MeetingPlace& place : met.places) {
       MappedRobot& robot = joined.emplace_back(std::move(robots_[place.map]));
-      PlaceAnswers(place.first_map, robot);
+      std::vector<pipeline::StepSink*> sinks{robot.results.get()};
+      if (joined.size() == 1) sinks.push_back(&marks_);  // Whose moments are the first robot's.
+      PlaceAnswers(place.first_map, robot, sinks);
       robot.first_scan = std::exchange(first_scan, first_scan + robot.alone.map.scans().size());
     }
     std::erase_if(robots_, [](const MappedRobot& robot) { return robot.results == nullptr; });
@@ -179,8 +188,10 @@ class TeamMapping {
   }
 
   /// Of a corrected map, where the path ended up in it.
-  void PlaceAnswers(const UncertainPose2& map_own, MappedRobot& robot) const {
-    robot.steps->PassOn(map_own, std::array<pipeline::StepSink*, 1>{robot.results.get()});
+  static void PlaceAnswers(const UncertainPose2& map_own,
+                           MappedRobot& robot,
+                           std::span<pipeline::StepSink* const> sinks) {
+    robot.steps->PassOn(map_own, sinks);
     robot.answers = pipeline::AnswersOf(robot.results->path());
     const std::vector<UncertainPose2>& corrected = robot.alone.correction.map_robot;
     for (std::size_t i = 0; i < corrected.size(); ++i) {
@@ -233,7 +244,7 @@ class TeamMapping {
 
   /// Leaves the results of a robot in a map of its own.
   void FinishAlone(MappedRobot& robot) const {
-    PlaceAnswers({}, robot);
+    PlaceAnswers({}, robot, std::array<pipeline::StepSink*, 1>{robot.results.get()});
     const ScanMap& map = robot.alone.map;
     if (Corrects(options_)) {
       robot.results->Finish(
@@ -278,6 +289,7 @@ class TeamMapping {
   pipeline::JournalMarks marks_;
   ScanMap map_;
   std::vector<MappedRobot> robots_;
+  std::vector<std::string> blind_;  // Whose scans are all without readings.
 };
 
 }  // namespace

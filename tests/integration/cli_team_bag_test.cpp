@@ -8,6 +8,7 @@
 #include <chrono>
 #include <filesystem>
 #include <iterator>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -173,6 +174,35 @@ TEST(TeamBagOfABrokenLaser, IsMappedWithoutItsRobot) {
   EXPECT_NE(mapped.errors.find("robot_2: is not mapped: there is no scan"), std::string::npos)
       << mapped.errors;
   EXPECT_FALSE(io::ReadTumFile(folder.path() / "results/robot_1/trajectory.tum").empty());
+}
+
+// A laser that is covered, or has nothing in reach: its scans are whole, and none has a reading.
+TEST(TeamBagOfABlindRobot, IsOneMapOfThoseThatSee) {
+  std::vector<sim::Reading> readings = ReadingsOf(
+      config::LoadOptions<sim::ScenarioOptions>(
+          {.file = QWSM_SOURCE_DIR "/configs/scenarios/team.yaml", .settings = {"duration_s=100"}}),
+      2);
+  std::vector<sim::Reading> all;
+  for (const sim::Reading& reading : readings) {
+    sim::Reading blind = reading;
+    std::ranges::fill(blind.scan.ranges_m, std::numeric_limits<float>::infinity());
+    blind.robot = 0;
+    if (reading.robot == 0) all.push_back(blind);
+    all.push_back(reading);
+    all.back().robot += 1;
+  }
+  const TemporaryFolder folder;
+  const fs::path bag = folder.path() / "team.mcap";
+  const std::vector<std::string> robots{"robot_0", "robot_1", "robot_2"};
+  WriteTeamBag(all, robots, bag);
+  const fs::path results = folder.path() / "results";
+  const Outcome mapped = RunProgram({"map", bag, "-o", results, "--no-pictures"});
+  EXPECT_EQ(mapped.exit_code, 1);
+  EXPECT_NE(mapped.errors.find("robot_0: has seen nothing"), std::string::npos) << mapped.errors;
+  EXPECT_EQ(mapped.errors.find("robot_1: "), std::string::npos) << mapped.errors;
+  EXPECT_EQ(mapped.errors.find("robot_2: "), std::string::npos) << mapped.errors;
+  EXPECT_TRUE(ReadFile(results / "robot_1/graph.g2o") == ReadFile(results / "robot_2/graph.g2o"));
+  EXPECT_TRUE(fs::exists(results / "map.yaml"));
 }
 
 // Along a corridor that repeats itself, whose robots see each other: each would be held back by the

@@ -101,6 +101,19 @@ TEST_F(MeetingPlaces, AreFoundByWayOfAThirdRobot) {
   ExpectToBeRight(places[2], 160);
 }
 
+// Of the first one the laser may be broken, or covered.
+TEST_F(MeetingPlaces, AreInTheMapOfTheFirstRobotThatSeesAnything) {
+  const ScanMap blind;
+  const ScanMap second = MapFrom(0);
+  const ScanMap third = MapFrom(60);
+  const MetMaps met = FindMeetingPlaces(std::vector{&blind, &blind, &second, &third, &blind}, {});
+  ASSERT_EQ(met.places.size(), 2U);
+  EXPECT_EQ(met.places[0].map, 2U);
+  EXPECT_EQ(met.places[1].map, 3U);
+  ExpectToBeRight(met.places[1], 60);
+  EXPECT_EQ(met.map.scans().size(), second.scans().size() + third.scans().size());
+}
+
 TEST_F(MeetingPlaces, AreNoneWhereRobotsNeverMet) {
   const test::SimulatedDrive elsewhere =
       test::DriveThrough(test::FurnishedRoom(), {.scan_period_s = 0.5});
@@ -122,6 +135,7 @@ TEST_F(MeetingPlaces, AreNoneWithoutMaps) {
   EXPECT_TRUE(FindMeetingPlaces({}, {}).places.empty());
   EXPECT_EQ(FindMeetingPlaces(std::vector{&one, &empty}, {}).places.size(), 1U);
   EXPECT_EQ(FindMeetingPlaces(std::vector{&empty, &one}, {}).places.size(), 1U);
+  EXPECT_EQ(FindMeetingPlaces(std::vector{&empty, &empty}, {}).places.size(), 1U);
 }
 
 }  // namespace

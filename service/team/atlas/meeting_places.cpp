@@ -43,15 +43,17 @@ class OwnMap {
 /// The maps that have a place, and the search for the others'.
 class MeetingSearch {
  public:
+  /// @param first the map that the others are placed in.
   MeetingSearch(std::span<const ScanMap* const> maps,
+                std::size_t first,
                 const MapperOptions& options,
                 const std::function<bool()>& stop)
       : options_(options),
         stop_(stop),
         agreement_(options.locator, options.free_space),
-        met_{.places = {MeetingPlace{}}, .map = *maps.front()} {
+        met_{.places = {MeetingPlace{.map = first, .first_map = {}}}, .map = *maps[first]} {
     for (const ScanMap* map : maps) maps_.emplace_back(*map);
-    scans_of_met_.push_back(maps_.front().Drawn().scans_of_robots.front());
+    scans_of_met_.push_back(maps_[first].Drawn().scans_of_robots.front());
   }
 
   /// Looks around in all maps that have a place, and have got one since it was done last.
@@ -131,15 +133,24 @@ class MeetingSearch {
   std::vector<std::vector<ScanId>> scans_of_met_;  // Of each robot.
 };
 
+/// The first map that anything is in; the first one where there is none.
+std::size_t FirstWithScans(std::span<const ScanMap* const> maps) {
+  const auto first = std::ranges::find_if(maps, [](const ScanMap* map) { return !map->empty(); });
+  return first == maps.end() ? 0 : static_cast<std::size_t>(first - maps.begin());
+}
+
 }  // namespace
 
 MetMaps FindMeetingPlaces(std::span<const ScanMap* const> maps,
                           const MapperOptions& options,
                           const std::function<bool()>& stop) {
   if (maps.empty()) return {.places = {}, .map = ScanMap()};
-  MeetingSearch search(maps, options, stop);
+  const std::size_t first = FirstWithScans(maps);
+  MeetingSearch search(maps, first, options, stop);
   std::vector<Apart> apart;
-  for (std::size_t map = 1; map < maps.size(); ++map) apart.push_back({.map = map});
+  for (std::size_t map = 0; map < maps.size(); ++map) {
+    if (map != first) apart.push_back({.map = map});
+  }
   while (std::erase_if(apart, [&](Apart& one) { return search.Joins(one); }) > 0) {
   }
   return std::move(search).Take();
