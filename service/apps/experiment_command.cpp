@@ -59,7 +59,8 @@ Experiment RunSeeds(const ExperimentArguments& arguments,
   const int first = scenario.seed;
   for (int i = 0; i < arguments.seeds && experiment.end == ReplayEnd::kExhausted; ++i) {
     scenario.seed = first + i;
-    const ResultsFolder folder(session.folder() / fmt::format("seed-{}", scenario.seed), false);
+    const ResultsFolder folder =
+        session.folder().Part(fmt::format("seed-{}", scenario.seed), false);
     io::WriteTextFile(folder / ResultFile::kScenario, ScenarioText(scenario));
     SimulatorSource source(scenario, 0);
     MatcherContest contest(options.mapper, kExperimentMatchers, folder);

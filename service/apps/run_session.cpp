@@ -59,8 +59,7 @@ bool Corrects(const options::ProgramOptions& options) {
 
 std::unique_ptr<LogSource> OpenLogs(const RunArguments& arguments,
                                     const options::LogOptions& options) {
-  auto source =
-      std::make_unique<LogSource>(arguments.logs, LogOptionsOf(options));
+  auto source = std::make_unique<LogSource>(arguments.logs, LogOptionsOf(options));
   if (source->Peek() == nullptr) {
     throw UsageError(fmt::format("there is no scan in {}; {}",
                                  arguments.logs.front().string(),
@@ -92,9 +91,7 @@ RunSession::RunSession(const RunArguments& arguments, const options::ProgramOpti
 }
 
 RunSession RunSession::Part(const std::string& name) const {
-  return {arguments_,
-          ResultsFolder(folder_ / name, arguments_.force, InputsOf(arguments_)),
-          interruption_};
+  return {arguments_, folder_.Part(name, arguments_.force, InputsOf(arguments_)), interruption_};
 }
 
 RunTitle RunSession::Title(const std::string& command, const ReplayResult& result) const {

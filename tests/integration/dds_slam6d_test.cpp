@@ -59,7 +59,9 @@ TEST_F(DdsSlam6d, ServesThePosesOfRegisterBitForBit) {
   ASSERT_GT(expected.size(), 1000U);
   EXPECT_EQ(ReadFile(Path("served/trajectory.tum")), expected);
   EXPECT_TRUE(ReadFile(Path("served/model.ply")) == ReadFile(Path("registered/model.ply")));
-  EXPECT_TRUE(fs::exists(Path("served/top_after.png")));
+  for (const char* name : {"top_after.png", "config.yaml", "run.log"}) {
+    EXPECT_TRUE(fs::exists(Path(std::string("served/") + name))) << name;
+  }
 }
 
 TEST_F(DdsSlam6d, ServesSeveralRobotsAtOnceAndTellsTheirMapToThoseWhoComeLater) {

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -52,6 +53,55 @@ TEST_F(ResultsFolderTest, RemovesFramesOfAnyNameWhereAnEarlierRunWasAndNowhereEl
   EXPECT_TRUE(Has("s7.frames"));
   const ResultsFolder second(results_, false);
   EXPECT_FALSE(Has("s7.frames"));
+}
+
+TEST_F(ResultsFolderTest, HasNoPartsOfAnEarlierRunButWhatElseIsInThem) {
+  const ResultsFolder first(results_, true);
+  for (const char* part : {"robot1", "fleet", "fleet/robot2", "noted"}) {
+    EXPECT_EQ(first.Part(part, false).path(), results_ / part);
+    Put((std::string(part) + "/trajectory.tum").c_str());
+  }
+  Put("noted/notes.txt");
+  EXPECT_EQ(first.Part("", false).path(), results_);
+  const ResultsFolder second(results_, false);
+  for (const char* gone : {"robot1", "fleet", "noted/trajectory.tum"}) {
+    EXPECT_FALSE(Has(gone)) << gone;
+  }
+  EXPECT_TRUE(Has("noted/notes.txt"));
+  EXPECT_EQ(second.Part("noted", false).path(), results_ / "noted");  // Still known as one of ours.
+}
+
+// Runs that had a folder in it of their own, a part that somebody keeps a copy of, or has put
+// elsewhere, and whatever else a marker may name.
+TEST_F(ResultsFolderTest, KeepsResultsThatAreNoPartOfTheEarlierRun) {
+  const ResultsFolder first(results_ / "run", false);
+  for (const char* part : {"robot1", "robot2", "robot3"}) {
+    const ResultsFolder folder = first.Part(part, false);
+    Put((std::string("run/") + part + "/trajectory.tum").c_str());
+  }
+  fs::copy(results_ / "run/robot1", results_ / "run/copy", fs::copy_options::recursive);
+  const ResultsFolder own(results_ / "run/robot2", false);
+  Put("run/robot2/trajectory.tum");
+  fs::rename(results_ / "run/robot3", results_ / "elsewhere");
+  fs::create_directory_symlink(results_ / "elsewhere", results_ / "run/robot3");
+  std::ofstream(results_ / "run/.qwsm-results", std::ios::app)
+      << "part ../elsewhere\npart .\npart \npart " << (results_ / "elsewhere").string() << '\n';
+  const ResultsFolder second(results_ / "run", false);
+  EXPECT_FALSE(Has("run/robot1"));
+  for (const char* kept : {"run/copy/trajectory.tum",
+                           "run/robot2/trajectory.tum",
+                           "run/robot3",
+                           "elsewhere/trajectory.tum"}) {
+    EXPECT_TRUE(Has(kept)) << kept;
+  }
+}
+
+TEST_F(ResultsFolderTest, RefusesAnInputThatIsInAPartOfAnEarlierRun) {
+  const ResultsFolder first(results_, true);
+  const std::array inputs{first.Part("robot1", false) / "answers.mcap"};
+  Put("robot1/answers.mcap");
+  EXPECT_THROW(ResultsFolder(results_, true, inputs), io::WriteError);
+  EXPECT_TRUE(Has("robot1/answers.mcap"));
 }
 
 TEST_F(ResultsFolderTest, RefusesAnInputThatIsInItByALink) {

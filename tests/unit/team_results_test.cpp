@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Q-WSM developers
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a service leaves of its robots where the disk is full for the table of one of them.
+// What a service leaves of its robots, also where the disk is full for the table of one of them.
 #include "service/pipeline/team/team_results.hpp"
 
 #include <gtest/gtest.h>
@@ -10,6 +10,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <iterator>
 #include <memory>
 #include <string>
@@ -27,6 +28,36 @@ std::ptrdiff_t CountOfLines(const fs::path& file) {
   return std::count(std::istreambuf_iterator<char>(stream), {}, '\n');
 }
 
+void Answer(TeamResults& results, const std::string& robot, int count) {
+  for (int i = 0; i < count; ++i) {
+    team::RobotAnswer answer{.robot = robot, .step = {}};
+    answer.step.stamp = std::chrono::milliseconds(100) * i;
+    results.TakeAnswer(answer);
+  }
+}
+
+// Whoever reads all folders, as `qwsm export` does, would take them for robots of this run.
+TEST(TeamResults, HaveNoFoldersOfRobotsOfAnEarlierRun) {
+  const test::TemporaryFolder folder;
+  const auto serve = [&](std::initializer_list<const char*> robots) {
+    TeamResults results(ResultsFolder(folder.path(), false), {.rendering = {}});
+    for (const char* robot : robots) Answer(results, robot, 3);
+    team::TeamService service({}, results);
+    results.Finish(service);
+  };
+  serve({"one", "two", "fleet/three", "noted"});
+  EXPECT_TRUE(fs::exists(folder.path() / "two" / "trajectory.tum"));
+  std::ofstream(folder.path() / "one" / "loops.csv") << "of a map of its own";
+  std::ofstream(folder.path() / "noted" / "notes.txt") << "somebody's";
+  serve({"one"});
+  EXPECT_TRUE(fs::exists(folder.path() / "one" / "trajectory.tum"));
+  EXPECT_FALSE(fs::exists(folder.path() / "one" / "loops.csv"));
+  EXPECT_FALSE(fs::exists(folder.path() / "two"));
+  EXPECT_FALSE(fs::exists(folder.path() / "fleet" / "three"));
+  EXPECT_FALSE(fs::exists(folder.path() / "noted" / "trajectory.tum"));
+  EXPECT_TRUE(fs::exists(folder.path() / "noted" / "notes.txt"));
+}
+
 class TeamResultsOnAFullDisk : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -35,15 +66,8 @@ class TeamResultsOnAFullDisk : public ::testing::Test {
     fs::create_symlink("/dev/full", folder_.path() / "unlucky" / "scans.csv.part");
   }
 
-  /// Answers each of both robots.
-  void Answer(int count) {
-    for (int i = 0; i < count; ++i) {
-      for (const char* robot : {"lucky", "unlucky"}) {
-        team::RobotAnswer answer{.robot = robot, .step = {}};
-        answer.step.stamp = std::chrono::milliseconds(100) * i;
-        results_->TakeAnswer(answer);
-      }
-    }
+  void AnswerBoth(int count) {
+    for (const char* robot : {"lucky", "unlucky"}) Answer(*results_, robot, count);
   }
   void Finish() {
     team::TeamService service({}, *results_);
@@ -56,7 +80,7 @@ class TeamResultsOnAFullDisk : public ::testing::Test {
 };
 
 TEST_F(TeamResultsOnAFullDisk, KeepTheHalfThatCouldBeWritten) {
-  Answer(2000);
+  AnswerBoth(2000);
   EXPECT_NO_THROW(Finish());  // It was told when it was noticed.
   results_.reset();
   EXPECT_GT(CountOfLines(folder_.path() / "unlucky" / "trajectory_live.tum.part"), 100);
@@ -65,7 +89,7 @@ TEST_F(TeamResultsOnAFullDisk, KeepTheHalfThatCouldBeWritten) {
 }
 
 TEST_F(TeamResultsOnAFullDisk, ThatIsNoticedInTheEndCostNoOtherRobotItsOwn) {
-  Answer(20);  // All of it fits in a buffer.
+  AnswerBoth(20);  // All of it fits in a buffer.
   try {
     Finish();
     FAIL() << "nothing was thrown";

@@ -20,7 +20,7 @@ MatcherContest::MatcherContest(const MapperOptions& options,
   for (const MatcherKind matcher : matchers) {
     MapperOptions own = options;
     own.matcher = matcher;
-    contestants_.emplace_back(own, ResultsFolder(folder / Name(matcher), false));
+    contestants_.emplace_back(own, folder.Part(std::string(Name(matcher)), false));
   }
 }
 

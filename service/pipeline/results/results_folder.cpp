@@ -4,9 +4,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <ctime>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -20,8 +25,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// By it a folder of results is known; what it says is for people.
+// By it a folder of results is known. A line for people, then one for each part of the run.
 constexpr std::string_view kMarker = ".qwsm-results";
+constexpr std::string_view kOfRun = "Results of a run; the next run may replace them.\n";
+constexpr std::string_view kOfPart = "Part of a run's results; the next run may remove them.\n";
+constexpr std::string_view kPart = "part ";
 
 io::WriteError Refused(const fs::path& folder, const std::string& why) {
   return io::WriteError(folder.string() + ": " + why);
@@ -47,8 +55,46 @@ bool IsOfResults(fs::path name, bool is_marked) {
          (is_marked && name.extension() == ".frames");
 }
 
+std::string MarkingOf(const fs::path& folder) {
+  std::ifstream marker(folder / kMarker, std::ios::binary);
+  return {std::istreambuf_iterator<char>(marker), {}};
+}
+
+/// Adds a part to those of a run: at once, for robots may begin at the same time.
+void List(const std::string& part, const fs::path& folder) {
+  std::ofstream marker(folder / kMarker, std::ios::binary | std::ios::app);
+  marker << fmt::format("{}{}\n", kPart, part) << std::flush;
+  if (!marker) throw Refused(folder / kMarker, "cannot be written");
+}
+
+/// Whether a folder has a real one of that name in it, and no link to another.
+bool HasFolder(const fs::path& folder, const fs::path& name) {
+  fs::path path = folder;
+  std::error_code error;
+  return name.is_relative() && !name.empty() && std::ranges::all_of(name, [&](const auto& part) {
+           path /= part;
+           return part != "." && part != ".." &&
+                  fs::symlink_status(path, error).type() == fs::file_type::directory;
+         });
+}
+
+/// The parts that an earlier run has left in its folder. A copy of one that somebody keeps there is
+/// none, nor is a folder that another run has had since.
+std::vector<fs::path> PartsIn(const fs::path& folder) {
+  std::vector<fs::path> parts;
+  std::istringstream marking(MarkingOf(folder));
+  for (std::string line; std::getline(marking, line);) {
+    if (!line.starts_with(kPart)) continue;
+    const std::string name = line.substr(kPart.size());
+    if (!HasFolder(folder, name) || !MarkingOf(folder / name).starts_with(kOfPart)) continue;
+    parts.push_back(folder / name);
+  }
+  std::ranges::sort(parts, std::greater());  // What is in another one comes before that.
+  return parts;
+}
+
 /// Whatever else is in the folder is somebody else's.
-void RemoveEarlierResults(const fs::path& folder) {
+void RemoveFilesOfResults(const fs::path& folder) {
   std::error_code error;
   const bool is_marked = fs::exists(folder / kMarker, error);
   std::vector<fs::path> files;
@@ -61,6 +107,19 @@ void RemoveEarlierResults(const fs::path& folder) {
     fs::remove(file, error);
     ThrowIf(error, file, "be removed");
   }
+}
+
+void RemoveEarlierResults(const fs::path& folder) {
+  for (const fs::path& part : PartsIn(folder)) {
+    RemoveEarlierResults(part);
+    std::error_code error;
+    const auto left = std::distance(fs::directory_iterator(part, error), {});
+    if (left > 1) continue;  // Something besides the marker.
+    fs::remove(part / kMarker, error);
+    fs::remove(part, error);
+    ThrowIf(error, part, "be removed");
+  }
+  RemoveFilesOfResults(folder);
 }
 
 /// Whether a file is in a folder, or the folder itself, by its name or by what that links to.
@@ -83,6 +142,7 @@ void RefuseInputsIn(const fs::path& folder, std::span<const fs::path> inputs) {
                   fmt::format("holds {}, which is an input; name another folder for the results",
                               input.string()));
   }
+  for (const fs::path& part : PartsIn(folder)) RefuseInputsIn(part, inputs);
 }
 
 std::string UtcTime() {
@@ -116,13 +176,28 @@ bool IsMade(const fs::path& folder) {
 }  // namespace
 
 ResultsFolder::ResultsFolder(fs::path folder, bool force, std::span<const fs::path> inputs)
+    : ResultsFolder(std::move(folder), force, inputs, kOfRun) {}
+
+ResultsFolder::ResultsFolder(fs::path folder,
+                             bool force,
+                             std::span<const fs::path> inputs,
+                             std::string_view marking)
     : folder_(std::move(folder)) {
   Check(folder_, force, inputs);
   std::error_code error;
   fs::create_directories(folder_, error);
   ThrowIf(error, folder_, "be created");
   RemoveEarlierResults(folder_);
-  io::WriteTextFile(folder_ / kMarker, "Results of a run; the next run may replace them.\n");
+  io::WriteTextFile(folder_ / kMarker, marking);
+}
+
+ResultsFolder ResultsFolder::Part(const std::string& name,
+                                  bool force,
+                                  std::span<const fs::path> inputs) const {
+  if (name.empty()) return *this;
+  ResultsFolder part(folder_ / name, force, inputs, kOfPart);
+  List(name, folder_);
+  return part;
 }
 
 ResultsFolder ResultsFolder::ForNow(const fs::path& parent) {

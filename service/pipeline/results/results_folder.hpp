@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "service/pipeline/results/result_file.hpp"
@@ -14,8 +15,9 @@ namespace qwsm::pipeline {
 class ResultsFolder {
  public:
   /// Creates the folder. One that exists must be empty or hold results of an earlier run; with
-  /// `force`, any folder will do. Files that have the names of results are removed first, so that
-  /// nothing of an earlier run is mistaken for this one's; whatever else is there stays.
+  /// `force`, any folder will do. Files that have the names of results are removed first, there and
+  /// in the parts of the earlier run, so that nothing of it is mistaken for this one's; whatever
+  /// else is there stays, such as results of other runs in folders of their own.
   /// @param inputs files, or folders of files, that the run reads or goes on with; "-" is none.
   /// @throws io::WriteError where that is not so, where the folder holds an input, or where it
   ///         cannot be written to.
@@ -25,6 +27,14 @@ class ResultsFolder {
 
   /// Creates the folder `results/<UTC time>/`, with a link `results/latest` to it.
   static ResultsFolder ForNow(const std::filesystem::path& parent);
+
+  /// A folder in it for a part of the run, such as a robot: it goes with the run's results. One
+  /// that exists is taken as the constructor takes it. May be called from any thread.
+  /// @param name of the folder; empty for what has no folder of its own.
+  /// @throws io::WriteError as the constructor does.
+  ResultsFolder Part(const std::string& name,
+                     bool force,
+                     std::span<const std::filesystem::path> inputs = {}) const;
 
   /// Throws what the constructor would object to. @throws io::WriteError.
   static void Check(const std::filesystem::path& folder,
@@ -36,6 +46,11 @@ class ResultsFolder {
   std::filesystem::path operator/(ResultFile file) const { return folder_ / file; }
 
  private:
+  ResultsFolder(std::filesystem::path folder,
+                bool force,
+                std::span<const std::filesystem::path> inputs,
+                std::string_view marking);
+
   std::filesystem::path folder_;
 };
 

@@ -30,8 +30,7 @@ void CloudResults::Finish(qwsm::team::CloudService& service) {
     registration.series_size = registration.scans.size();
     registration.T_map_scan = refinement.T_map_scan;
     registration.refinement = std::move(refinement);
-    const qwsm::pipeline::ResultsFolder folder(folder_.path() / robot, true);
-    WriteResults(registration, options_, folder);
+    WriteResults(registration, options_, folder_.Part(robot, true));
   }
 }
 

@@ -7,7 +7,6 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -35,7 +34,11 @@ constexpr std::size_t kMostPoses = 20'000;
 /// What one robot leaves.
 class TeamResults::RobotResults {
  public:
-  RobotResults(fs::path folder, bool corrects) : folder_(std::move(folder)), corrects_(corrects) {}
+  RobotResults(const ResultsFolder& of_team, std::string robot, bool corrects)
+      : of_team_(of_team),
+        robot_(std::move(robot)),
+        folder_(of_team / robot_),
+        corrects_(corrects) {}
 
   void Take(const TimedStep& timed, const team::RobotAnswer& answer) {
     if (has_failed_) return;
@@ -100,16 +103,16 @@ class TeamResults::RobotResults {
   }
 
   void Open() {
-    std::error_code error;
-    fs::create_directories(folder_, error);
-    if (error) throw io::WriteError(folder_.string() + ": cannot be created: " + error.message());
+    const ResultsFolder folder = of_team_.Part(robot_, true);  // Of an earlier run nothing is left.
     files_ = std::make_unique<std::pair<TrajectorySink, ScanTableSink>>(
         std::piecewise_construct,
-        std::forward_as_tuple(folder_ /
+        std::forward_as_tuple(folder /
                               (corrects_ ? ResultFile::kLiveTrajectory : ResultFile::kTrajectory)),
-        std::forward_as_tuple(folder_ / ResultFile::kScans));
+        std::forward_as_tuple(folder / ResultFile::kScans));
   }
 
+  const ResultsFolder& of_team_;
+  std::string robot_;
   fs::path folder_;
   bool corrects_;
   bool has_failed_ = false;
@@ -172,7 +175,7 @@ TeamResults::RobotResults& TeamResults::ResultsOf(const std::string& robot) {
   const std::lock_guard lock(mutex_);
   std::unique_ptr<RobotResults>& results = robots_[robot];
   if (!results) {
-    results = std::make_unique<RobotResults>(folder_.path() / robot, options_.corrects);
+    results = std::make_unique<RobotResults>(folder_, robot, options_.corrects);
   }
   return *results;
 }
