@@ -77,6 +77,34 @@ TEST_F(EvalCommand, TellsOfPosesWithoutTruth) {
   EXPECT_NE(outcome.output.find("29 poses skipped"), std::string::npos) << outcome.output;
 }
 
+// Two runs in one file, or stamps that were rounded: some poses are not judged, or by another
+// truth.
+TEST_F(EvalCommand, TellsOfPosesThatShareAStamp) {
+  const fs::path twice = folder_.path() / "twice.tum";
+  const auto write = [&](const fs::path& first, const fs::path& second) {
+    std::ofstream(twice) << ReadFile(first) << ReadFile(second);
+  };
+  write(truth_, shifted_);
+  const std::string told = twice.string() + ": 30 poses have the stamp of another one, that of 0";
+  const Outcome estimate = RunProgram({"eval", twice, "--truth", truth_});
+  EXPECT_EQ(estimate.exit_code, 0) << estimate.errors;
+  EXPECT_NE(estimate.output.find(told), std::string::npos) << estimate.output;
+  EXPECT_NE(estimate.output.find("ate              m        30  0.0000"), std::string::npos)
+      << estimate.output;  // The first of each stamp, as evo does it.
+  EXPECT_NE(RunProgram({"eval", twice, "--relations", relations_}).output.find(told),
+            std::string::npos);
+  const Outcome truth = RunProgram({"eval", truth_, shifted_, "--truth", twice});
+  EXPECT_NE(truth.output.find(told), std::string::npos) << truth.output;
+  EXPECT_EQ(truth.output.find(told), truth.output.rfind(told)) << truth.output;
+  const Outcome json = RunProgram({"eval", shifted_, "--truth", twice, "--json"});
+  EXPECT_NE(json.output.find("\"poses_repeated\": 0"), std::string::npos) << json.output;
+  EXPECT_NE(json.output.find("\"truth_repeated\": 30"), std::string::npos) << json.output;
+  // As of two lasers that scan at the same time, whose truth is the same.
+  write(truth_, truth_);
+  EXPECT_EQ(RunProgram({"eval", shifted_, "--truth", twice}).output.find("stamp of another"),
+            std::string::npos);
+}
+
 TEST_F(EvalCommand, FailsAboveItsBounds) {
   EXPECT_EQ(RunProgram({"eval", shifted_, "--truth", truth_, "--max-ate", "0.0301"}).exit_code, 0);
   const Outcome outcome = RunProgram({"eval", shifted_, "--truth", truth_, "--max-ate", "0.0299"});

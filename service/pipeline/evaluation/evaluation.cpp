@@ -6,23 +6,46 @@
 #include <stdexcept>
 #include <utility>
 
+#include "qwsm/metrics/pose_lookup.hpp"
 #include "service/io/logs/evaluation_odometry.hpp"
 #include "service/io/trajectories/relations_file.hpp"
 #include "service/io/trajectories/trajectory_file.hpp"
 #include "service/pipeline/results/result_file.hpp"
 
 namespace qwsm::pipeline {
+namespace {
+
+RepeatedStamps RepeatedIn(const Trajectory& trajectory) {
+  RepeatedStamps repeated;
+  const Trajectory sorted = SortedByStamp(trajectory);
+  for (auto first = sorted.begin(); first != sorted.end();) {
+    const auto next = std::find_if(
+        first, sorted.end(), [&](const StampedPose2& pose) { return pose.stamp != first->stamp; });
+    const auto others =
+        std::count_if(first, next, [&](const StampedPose2& pose) { return pose != *first; });
+    if (repeated.count == 0 && others > 0) repeated.first = first->stamp;
+    repeated.count += static_cast<std::size_t>(others);
+    first = next;
+  }
+  return repeated;
+}
+
+}  // namespace
 
 Evaluator::Evaluator(EvaluationOptions options) : options_(std::move(options)) {
   if (options_.relations) relations_ = io::ReadRelationsFile(*options_.relations);
   if (options_.truth) truth_ = io::ReadTumFile(*options_.truth);
+  truth_repeated_ = RepeatedIn(truth_);
 }
 
 Evaluation Evaluator::Evaluate(const std::filesystem::path& file) const {
   const bool is_folder = std::filesystem::is_directory(file);
   const Trajectory trajectory = io::ReadTumFile(is_folder ? file / ResultFile::kTrajectory : file);
-  Evaluation evaluation{
-      .trajectory = file.string(), .relations = {}, .absolute_m = {}, .relative = {}};
+  Evaluation evaluation{.trajectory = file.string(),
+                        .relations = {},
+                        .absolute_m = {},
+                        .relative = {},
+                        .repeated = RepeatedIn(trajectory)};
   if (options_.relations) {
     try {
       evaluation.relations = EvaluateAtRelations(trajectory);
@@ -37,6 +60,8 @@ Evaluation Evaluator::Evaluate(const std::filesystem::path& file) const {
     }
   }
   if (options_.truth) {
+    evaluation.truth = options_.truth->string();
+    evaluation.truth_repeated = truth_repeated_;
     const std::vector<PosePair> pairs = Associate(truth_, trajectory, options_.max_time_difference);
     if (pairs.empty()) {
       throw std::runtime_error(file.string() + ": has no stamp in common with " +

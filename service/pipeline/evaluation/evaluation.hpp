@@ -26,6 +26,13 @@ struct EvaluationOptions {
   std::size_t relative_step = 1;  ///< Poses between the two ends of a relative pose error.
 };
 
+/// Poses of a trajectory at the same time as one before them, and elsewhere: of two lasers, of two
+/// runs in one file, of stamps that were rounded.
+struct RepeatedStamps {
+  std::size_t count = 0;
+  Timestamp first{};  ///< The first stamp that repeats.
+};
+
 /// How good one trajectory is; what was not asked for is absent.
 struct Evaluation {
   std::string trajectory;
@@ -34,6 +41,9 @@ struct Evaluation {
   std::optional<RelativePoseError> relative;
   /// Poses without a true one at their time, or the other way round, of whichever are fewer.
   std::size_t unpaired = 0;
+  RepeatedStamps repeated{};
+  std::string truth{};  ///< What it was compared with.
+  RepeatedStamps truth_repeated{};
 };
 
 /// Compares trajectories with what is known to be true.
@@ -54,6 +64,7 @@ class Evaluator {
   EvaluationOptions options_;
   std::vector<Relation> relations_;
   Trajectory truth_;
+  RepeatedStamps truth_repeated_;
 };
 
 /// A line per trajectory and metric, with units: metres and degrees.

@@ -4,6 +4,7 @@
 
 #include "qwsm/geometry/angle.hpp"
 #include "service/config/text_table.hpp"
+#include "service/io/files/number_text.hpp"
 #include "service/pipeline/evaluation/evaluation.hpp"
 #include "service/pipeline/text/json.hpp"
 
@@ -83,6 +84,20 @@ Json ToJson(const RelationsResult& relations) {
   return json;
 }
 
+/// A note of poses at the same time; nothing where there are none.
+std::string NoteOf(const RepeatedStamps& repeated, const std::string& trajectory) {
+  if (repeated.count == 0) return {};
+  std::string stamp;
+  io::AppendStamp(stamp, repeated.first);
+  return fmt::format(
+      "{}: {} poses have the stamp of another one, that of {} first; where the other trajectory "
+      "has "
+      "fewer poses, and by relations, only the first of a stamp counts\n",
+      trajectory,
+      repeated.count,
+      stamp);
+}
+
 }  // namespace
 
 std::string EvaluationTable(std::span<const Evaluation> evaluations) {
@@ -111,6 +126,10 @@ std::string EvaluationTable(std::span<const Evaluation> evaluations) {
           evaluation.trajectory,
           evaluation.unpaired);
     }
+    notes += NoteOf(evaluation.repeated, evaluation.trajectory);
+  }
+  if (!evaluations.empty()) {  // Of one truth, all of them.
+    notes += NoteOf(evaluations.front().truth_repeated, evaluations.front().truth);
   }
   return config::FormatTable(rows) + notes;
 }
@@ -120,6 +139,8 @@ std::string EvaluationJson(std::span<const Evaluation> evaluations) {
   for (const Evaluation& evaluation : evaluations) {
     Json json;
     json["trajectory"] = evaluation.trajectory;
+    json["poses_repeated"] = evaluation.repeated.count;
+    if (evaluation.absolute_m) json["truth_repeated"] = evaluation.truth_repeated.count;
     if (evaluation.relations) json["relations"] = ToJson(*evaluation.relations);
     if (evaluation.absolute_m) json["poses_skipped"] = evaluation.unpaired;
     if (evaluation.absolute_m) json["ate"] = ToJson(*evaluation.absolute_m, "m");
