@@ -90,9 +90,8 @@ std::string NoteOf(const RepeatedStamps& repeated, const std::string& trajectory
   std::string stamp;
   io::AppendStamp(stamp, repeated.first);
   return fmt::format(
-      "{}: {} poses have the stamp of another one, that of {} first; where the other trajectory "
-      "has "
-      "fewer poses, and by relations, only the first of a stamp counts\n",
+      "{}: {} poses have the stamp of another one, that of {} first; only the first of a stamp "
+      "counts by relations, and where the other trajectory has fewer poses\n",
       trajectory,
       repeated.count,
       stamp);
