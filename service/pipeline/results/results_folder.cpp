@@ -60,10 +60,12 @@ std::string MarkingOf(const fs::path& folder) {
   return {std::istreambuf_iterator<char>(marker), {}};
 }
 
-/// Adds a part to those of a run: at once, for robots may begin at the same time.
-void List(const std::string& part, const fs::path& folder) {
-  std::ofstream marker(folder / kMarker, std::ios::binary | std::ios::app);
-  marker << fmt::format("{}{}\n", kPart, part) << std::flush;
+/// At once, for robots may begin at the same time; and without waiting for the disk, as a robot
+/// does that is answered meanwhile.
+/// @param mode std::ios::app to add to what it says.
+void Mark(const fs::path& folder, const std::string& text, std::ios::openmode mode) {
+  std::ofstream marker(folder / kMarker, std::ios::binary | mode);
+  marker << text << std::flush;
   if (!marker) throw Refused(folder / kMarker, "cannot be written");
 }
 
@@ -176,27 +178,27 @@ bool IsMade(const fs::path& folder) {
 }  // namespace
 
 ResultsFolder::ResultsFolder(fs::path folder, bool force, std::span<const fs::path> inputs)
-    : ResultsFolder(std::move(folder), force, inputs, kOfRun) {}
-
-ResultsFolder::ResultsFolder(fs::path folder,
-                             bool force,
-                             std::span<const fs::path> inputs,
-                             std::string_view marking)
     : folder_(std::move(folder)) {
+  Begin(force, inputs);
+  io::WriteTextFile(folder_ / kMarker, kOfRun);
+}
+
+void ResultsFolder::Begin(bool force, std::span<const fs::path> inputs) const {
   Check(folder_, force, inputs);
   std::error_code error;
   fs::create_directories(folder_, error);
   ThrowIf(error, folder_, "be created");
   RemoveEarlierResults(folder_);
-  io::WriteTextFile(folder_ / kMarker, marking);
 }
 
 ResultsFolder ResultsFolder::Part(const std::string& name,
                                   bool force,
                                   std::span<const fs::path> inputs) const {
   if (name.empty()) return *this;
-  ResultsFolder part(folder_ / name, force, inputs, kOfPart);
-  List(name, folder_);
+  ResultsFolder part(folder_ / name);
+  part.Begin(force, inputs);
+  Mark(part.folder_, std::string(kOfPart), std::ios::trunc);
+  Mark(folder_, fmt::format("{}{}\n", kPart, name), std::ios::app);
   return part;
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "service/pipeline/results/result_file.hpp"
 
@@ -46,10 +47,10 @@ class ResultsFolder {
   std::filesystem::path operator/(ResultFile file) const { return folder_ / file; }
 
  private:
-  ResultsFolder(std::filesystem::path folder,
-                bool force,
-                std::span<const std::filesystem::path> inputs,
-                std::string_view marking);
+  explicit ResultsFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// Creates the folder, or takes one that exists, and removes what an earlier run left there.
+  void Begin(bool force, std::span<const std::filesystem::path> inputs) const;
 
   std::filesystem::path folder_;
 };
