@@ -35,10 +35,7 @@ constexpr std::size_t kMostPoses = 20'000;
 class TeamResults::RobotResults {
  public:
   RobotResults(const ResultsFolder& of_team, std::string robot, bool corrects)
-      : of_team_(of_team),
-        robot_(std::move(robot)),
-        folder_(of_team / robot_),
-        corrects_(corrects) {}
+      : of_team_(of_team), robot_(std::move(robot)), corrects_(corrects) {}
 
   void Take(const TimedStep& timed, const team::RobotAnswer& answer) {
     if (has_failed_) return;
@@ -74,7 +71,7 @@ class TeamResults::RobotResults {
   /// Leaves what is known of them in the end. @pre they are placed in the map.
   void Finish(const FinalMap& map);
 
-  const fs::path& folder() const { return folder_; }
+  fs::path folder() const { return of_team_ / robot_; }
 
  private:
   // Says where what was written until now is, if anything was.
@@ -113,7 +110,6 @@ class TeamResults::RobotResults {
 
   const ResultsFolder& of_team_;
   std::string robot_;
-  fs::path folder_;
   bool corrects_;
   bool has_failed_ = false;
   std::unique_ptr<std::pair<TrajectorySink, ScanTableSink>> files_;
@@ -139,21 +135,21 @@ struct TeamResults::FinalMap {
 void TeamResults::RobotResults::Finish(const FinalMap& map) {
   if (has_failed_ || !files_) return;
   if (corrects_) {
-    AddCorrectedPoses(folder_ / ResultFile::kScans, map_robot_);
+    AddCorrectedPoses(folder() / ResultFile::kScans, map_robot_);
     const Trajectory trajectory = io::TrajectoryOf(placed_);
-    io::WriteTumFile(folder_ / ResultFile::kTrajectory, trajectory);
-    io::WriteKittiFile(folder_ / ResultFile::kTrajectoryKitti, trajectory);
+    io::WriteTumFile(folder() / ResultFile::kTrajectory, trajectory);
+    io::WriteKittiFile(folder() / ResultFile::kTrajectoryKitti, trajectory);
   }
   const team::TeamMap::State::View known = map.known->Read();
   std::optional<LoopCounts> loops;
   if (map.correction) loops = CountLoops(*map.correction, known->epoch);
   io::WriteTextFile(
-      folder_ / ResultFile::kMetrics,
+      folder() / ResultFile::kMetrics,
       MetricsJson(statistics_, known->map, MatcherKind::kQWsm, std::nullopt, loops).Text());
   if (!map.grid) return;
   io::MapOverlay overlay = OverlayOf(std::move(placed_), map.known->VersionOf(*known).map);
   if (map.correction) overlay.loops = LoopLines(*map.correction);
-  io::WriteTrajectoryPicture(folder_ / ResultFile::kTrajectoryPicture, *map.grid, overlay);
+  io::WriteTrajectoryPicture(folder() / ResultFile::kTrajectoryPicture, *map.grid, overlay);
 }
 
 TeamResults::TeamResults(const ResultsFolder& folder, const TeamResultsOptions& options)
