@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include "service/apps/output.hpp"
@@ -58,16 +59,16 @@ class TeamMapping {
     const std::vector<team::Mark> marks =
         Corrects(options_) ? FinishCorrected() : FinishAsAnswered();
     WriteMap(marks, save_map);
+    const auto tell = [&](const std::string& name, std::string_view what) {
+      messages::Error("{}: {}", name, what);
+      if (code == ExitCode::kDone) code = ExitCode::kFailed;
+    };
     for (MappedRobot& robot : apart) {
       FinishAlone(robot);
       if (robot.alone.map.empty()) continue;
-      messages::Error("{}: is not in the map of the others, but in one of its own", robot.name);
-      if (code == ExitCode::kDone) code = ExitCode::kFailed;
+      tell(robot.name, "is not in the map of the others, but in one of its own");
     }
-    for (const std::string& name : blind_) {
-      messages::Error("{}: has seen nothing, and is in no map", name);
-      if (code == ExitCode::kDone) code = ExitCode::kFailed;
-    }
+    for (const std::string& name : blind_) tell(name, "has seen nothing, and is in no map");
     return session_.is_interrupted() ? ExitCode::kInterrupted : code;
   }
 
