@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "qwsm/mapping/scan_map.hpp"
@@ -252,9 +253,10 @@ TEST(WeightedScanMatcher, TrunksFarAwayDoNotPullAhead) {
   EXPECT_LE(unsettled, kScans / 100);
 }
 
+constexpr double kSpacing_m = 0.01;
+
 // Points along a wall, as a laser at the origin sees them.
 std::vector<ScanPoint> WallPoints(const Wall& wall, const Eigen::Vector2d& normal) {
-  constexpr double kSpacing_m = 0.01;
   const Eigen::Vector2d way_m = wall.to_m - wall.from_m;
   std::vector<ScanPoint> points;
   for (double along_m = 0.0; along_m <= way_m.norm(); along_m += kSpacing_m) {
@@ -269,6 +271,15 @@ std::vector<ScanPoint> WallPoints(const Wall& wall, const Eigen::Vector2d& norma
   return points;
 }
 
+// Every so many of the points.
+void Insert(std::span<const ScanPoint> points, std::size_t step, SurfaceMap& map) {
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    const ScanPoint& p = points[i];
+    const double spacing_m = static_cast<double>(step) * p.spacing_m;
+    map.Insert({.p_map_m = p.p_robot_m, .normal_map = p.normal_robot, .spacing_m = spacing_m}, 0);
+  }
+}
+
 // Of a wall that is seen for the first time, the end face of another one beside it is the nearest
 // that is known: the wall would creep up to it.
 TEST(WeightedScanMatcher, PairsNoWallWithAFaceAtRightAnglesToIt) {
@@ -277,12 +288,7 @@ TEST(WeightedScanMatcher, PairsNoWallWithAFaceAtRightAnglesToIt) {
   const std::vector<ScanPoint> opposite = WallPoints({{0.0, -1.0}, {0.5, -1.0}}, left);
   const std::vector<ScanPoint> face = WallPoints({{1.0, 0.5}, {1.0, 1.0}}, -ahead);
   SurfaceMap map;
-  for (const auto& wall : {opposite, face}) {
-    for (const ScanPoint& p : wall) {
-      map.Insert({.p_map_m = p.p_robot_m, .normal_map = p.normal_robot, .spacing_m = p.spacing_m},
-                 0);
-    }
-  }
+  for (const auto& wall : {opposite, face}) Insert(wall, 1, map);
   std::vector<ScanPoint> scan = opposite;
   for (const ScanPoint& p : WallPoints({{1.03, 0.46}, {1.1, 0.46}}, -left)) scan.push_back(p);
   const MatchPrior odometry{.predicted = {{}, Eigen::Vector3d(1e-2, 1e-2, 1e-4).asDiagonal()},
@@ -291,6 +297,64 @@ TEST(WeightedScanMatcher, PairsNoWallWithAFaceAtRightAnglesToIt) {
   const MatchResult result = WeightedScanMatcher().Match(map, scan, odometry);
   EXPECT_EQ(result.status, MatchStatus::kConverged);
   EXPECT_NEAR(result.T_ref_cur.x_m, 0.0, 1e-3);
+}
+
+// A corner, and of one wall more than is stored.
+struct CornerSeenFurther {
+  CornerSeenFurther() {
+    points = WallPoints({{0.0, -1.0}, {0.98, -1.0}}, Eigen::Vector2d::UnitY());
+    const auto ahead = WallPoints({{1.0, -0.98}, {1.0, 0.5}}, -Eigen::Vector2d::UnitX());
+    points.insert(points.end(), ahead.begin(), ahead.end());
+    further = points;
+    const auto beyond = WallPoints({{1.0, 0.53}, {1.0, 0.62}}, -Eigen::Vector2d::UnitX());
+    further.insert(further.end(), beyond.begin(), beyond.end());
+  }
+
+  static MatchResult Match(const SurfaceMap& map,
+                           std::span<const ScanPoint> scan,
+                           PairSelection selection) {
+    WeightedScanMatcherOptions options;
+    options.selection = selection;
+    return WeightedScanMatcher(options).Match(map, scan, WeakPriorAt({}));
+  }
+
+  std::vector<ScanPoint> points;
+  std::vector<ScanPoint> further;
+};
+
+TEST(WeightedScanMatcher, OneToOneTakesNoPointBeyondAnEnd) {
+  const CornerSeenFurther corner;
+  SurfaceMap map;
+  Insert(corner.points, 1, map);
+  const auto pairs = [&](std::span<const ScanPoint> scan, PairSelection selection) {
+    return CornerSeenFurther::Match(map, scan, selection).pairs;
+  };
+  const int stored = static_cast<int>(corner.points.size());
+  const int seen = static_cast<int>(corner.further.size());
+  EXPECT_EQ(pairs(corner.further, PairSelection::kEveryPoint), seen);
+  EXPECT_EQ(pairs(corner.points, PairSelection::kOneToOne), stored);
+  EXPECT_EQ(pairs(corner.further, PairSelection::kOneToOne), stored);
+}
+
+// However many points of a scan lie about a stored one, they tell no more than one of them does.
+TEST(WeightedScanMatcher, OneToOneCountsAStoredPointOnce) {
+  constexpr std::size_t kStep = 4;
+  const CornerSeenFurther corner;
+  std::vector<ScanPoint> every_fourth;
+  for (std::size_t i = 0; i < corner.points.size(); i += kStep) {
+    every_fourth.push_back(corner.points[i]);
+  }
+  SurfaceMap map;
+  Insert(corner.points, kStep, map);
+  const auto information = [&](std::span<const ScanPoint> scan, PairSelection selection) {
+    const MatchResult result = CornerSeenFurther::Match(map, scan, selection);
+    EXPECT_EQ(result.status, MatchStatus::kConverged);
+    EXPECT_GT(result.overlap, 0.95);
+    return result.pair_information.topLeftCorner<2, 2>().trace();
+  };
+  const double of_fourth = information(every_fourth, PairSelection::kOneToOne);
+  EXPECT_GT(information(corner.points, PairSelection::kEveryPoint), 3.0 * of_fourth);
+  EXPECT_NEAR(information(corner.points, PairSelection::kOneToOne) / of_fourth, 1.0, 0.1);
 }
 
 TEST(WeightedScanMatcher, SaysThatThereIsNothingToMatch) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "correction_matcher.hpp"
 #include "loop_finder.hpp"
 #include "map_contradiction.hpp"
 #include "path_refinement.hpp"
@@ -142,7 +143,7 @@ std::optional<SolvedGraph> MapCorrector::State::Solve(std::vector<FoundLoop>& fo
 
 // From where loops have the nodes, by all that was seen.
 void MapCorrector::State::Refine(SolvedGraph& solved) const {
-  const WeightedScanMatcher matcher(options.locator.matcher);
+  const WeightedScanMatcher matcher = CorrectionMatcher(options.locator.matcher);
   std::vector<Pose2>& T_map_node = solved.graph.T_map_node;
   T_map_node = RefinedPath(nodes, chains, matcher, std::move(T_map_node));
 }

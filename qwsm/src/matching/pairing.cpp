@@ -90,17 +90,21 @@ Pairing::Pairing(const SurfaceMap& map,
 
 NormalEquations Pairing::Linearize(const Pose2& T_map_cur, const AnnealedError& start_error) {
   FindNearest(T_map_cur, start_error);
-  NormalEquations equations;
   const Eigen::Matrix2d R = T_map_cur.Rotation();
+  for (std::size_t i = 0; i < points_.size(); ++i) FindSurface(R, points_[i], pairs_[i]);
+  if (options_.selection == PairSelection::kOneToOne) SelectOneToOne(R);
+
+  NormalEquations equations;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const ScanPoint& point = points_[i];
     Pair& pair = pairs_[i];
-    if (!IsPaired(R, point, pair)) continue;
+    if (!pair.id) continue;
     ++equations.pairs;
     equations.sum_of_distances_m += std::sqrt(pair.nearest->distance_m2);
     if (options_.weighting == PairWeighting::kIdentity) {
-      equations.AddPoint(
-          Eigen::Matrix2d::Identity(), pair.nearest->position_m - pair.p_map, pair.arm);
+      equations.AddPoint(pair.share * Eigen::Matrix2d::Identity(),
+                         pair.nearest->position_m - pair.p_map,
+                         pair.arm);
       equations.inliers += pair.news;
     } else if (pair.surface.is_line) {
       AddLine(R, point, pair, equations);
@@ -135,28 +139,55 @@ void Pairing::FindNearest(const Pose2& T_map_cur, const AnnealedError& start_err
   }
 }
 
-// Whether there is a surface to pair a point with; if so, it is looked up.
-bool Pairing::IsPaired(const Eigen::Matrix2d& R_map_cur, const ScanPoint& point, Pair& pair) const {
-  if (pair.nearest && pair.nearest->id == pair.id) return true;
+// The surface to pair a point with, if there is one.
+void Pairing::FindSurface(const Eigen::Matrix2d& R_map_cur,
+                          const ScanPoint& point,
+                          Pair& pair) const {
+  if (pair.nearest && pair.nearest->id == pair.id) return;
   const Eigen::Vector2d normal_map = R_map_cur * point.normal_robot;
   if (pair.nearest && !MayPair(pair.nearest->id, normal_map)) {
     pair.nearest = map_.quadtree().NearestIf(
         pair.p_map, Reach(pair.inflation_m2), [&](PointId id) { return MayPair(id, normal_map); });
   }
-  if (!pair.nearest) {
-    pair.id.reset();
-    return false;
-  }
+  if (!pair.nearest) return pair.id.reset();
   if (pair.id != pair.nearest->id) {
     pair.surface = map_.SurfaceAt(*pair.nearest);
     pair.mean_near_m.reset();
   }
-  if (LinesCross(pair.surface, point, normal_map)) {
-    pair.id.reset();
-    return false;
-  }
   pair.id = pair.nearest->id;
-  return true;
+  if (LinesCross(pair.surface, point, normal_map)) pair.id.reset();
+}
+
+// Points that are left out still tell that they agree, those beyond an end do not even that.
+void Pairing::SelectOneToOne(const Eigen::Matrix2d& R_map_cur) {
+  Pair* selected = nullptr;  // Of the points with the same stored one, up to here.
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    Pair& pair = pairs_[i];
+    if (pair.id && IsBeyondEnd(R_map_cur, points_[i], pair)) pair.id.reset();
+    pair.share = 1.0;
+    if (!pair.id || !selected || selected->id != pair.id) {
+      selected = pair.id ? &pair : nullptr;
+    } else if (pair.nearest->distance_m2 < selected->nearest->distance_m2) {
+      selected->share = 0.0;
+      selected = &pair;
+    } else {
+      pair.share = 0.0;
+    }
+  }
+}
+
+// Whether a point lies further along the surface than its samples are apart: beyond its end, or in
+// a gap.
+bool Pairing::IsBeyondEnd(const Eigen::Matrix2d& R_map_cur,
+                          const ScanPoint& point,
+                          const Pair& pair) {
+  const Surface& surface = pair.surface;
+  const Eigen::Vector2d normal = surface.is_line ? surface.normal : R_map_cur * point.normal_robot;
+  if (normal.isZero()) return false;
+  const Eigen::Vector2d tangent(-normal.y(), normal.x());
+  const double along_m = std::abs(tangent.dot(pair.nearest->position_m - pair.p_map));
+  const double spacing_m = std::max(point.spacing_m, UniformLength(surface.sampling_m2));
+  return along_m > spacing_m + std::sqrt(pair.inflation_m2);
 }
 
 void Pairing::AddLine(const Eigen::Matrix2d& R_map_cur,
@@ -208,7 +239,7 @@ void Pairing::AddObject(const Eigen::Matrix2d& R_map_cur,
 }
 
 void Pairing::Weigh(double mahalanobis2, Pair& pair, NormalEquations& equations) const {
-  pair.weight = RobustWeight(mahalanobis2, options_.outlier_sigmas);
+  pair.weight = pair.share * RobustWeight(mahalanobis2, options_.outlier_sigmas);
   if (mahalanobis2 < kInlierSigmas * kInlierSigmas) equations.inliers += pair.news;
   equations.sum_of_weights += pair.weight;
   equations.weighted_chi2 += pair.weight * mahalanobis2;

@@ -93,6 +93,7 @@ class Pairing {
     SearchCursor cursor;
     std::optional<Neighbor> nearest;
     std::optional<PointId> id;                   // The stored point it is paired with.
+    double share = 1.0;                          // Of its point: none where another was selected.
     Surface surface;                             // The surface at that point.
     std::optional<Eigen::Vector2d> mean_near_m;  // There, once it was asked for.
     double weight = 1.0;                         // Of the robust estimate.
@@ -100,7 +101,11 @@ class Pairing {
   };
 
   void FindNearest(const Pose2& T_map_cur, const AnnealedError& start_error);
-  bool IsPaired(const Eigen::Matrix2d& R_map_cur, const ScanPoint& point, Pair& pair) const;
+  void FindSurface(const Eigen::Matrix2d& R_map_cur, const ScanPoint& point, Pair& pair) const;
+  void SelectOneToOne(const Eigen::Matrix2d& R_map_cur);
+  static bool IsBeyondEnd(const Eigen::Matrix2d& R_map_cur,
+                          const ScanPoint& point,
+                          const Pair& pair);
   void AddLine(const Eigen::Matrix2d& R_map_cur,
                const ScanPoint& point,
                Pair& pair,

@@ -76,6 +76,8 @@ struct Surface {
 /// Variance of what is uniform over a length: the correspondence error along a surface whose
 /// samples lie so far apart (Pfister et al. 2002, with the neighbours at equal distances).
 inline double UniformVariance(double length_m) { return length_m * length_m / 12.0; }
+/// The length from that variance.
+inline double UniformLength(double variance_m2) { return std::sqrt(12.0 * variance_m2); }
 
 /// What scans are matched against: points in a quadtree, each with the moments of its
 /// neighbourhood, kept up to date as points come. A thin wall has two surfaces, one on each

@@ -20,9 +20,18 @@ enum class PairWeighting {
   kIdentity,  ///< All count the same: plain point-to-point ICP.
 };
 
+/// Says which points of a scan count.
+enum class PairSelection {
+  kEveryPoint,  ///< Each with the stored point nearest to it.
+  /// Of successive points with the same stored one only the nearest, and none beyond the end of
+  /// what is stored (Turk & Levoy 1994): all of these share the error of that end.
+  kOneToOne,
+};
+
 struct WeightedScanMatcherOptions {
   RangeNoise noise;
   PairWeighting weighting = PairWeighting::kModelled;
+  PairSelection selection = PairSelection::kEveryPoint;
   int max_iterations = 30;
   double translation_tolerance_m = 0.002;
   double rotation_tolerance_rad = 0.0007;
