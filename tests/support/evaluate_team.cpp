@@ -10,8 +10,8 @@
 // carried, wings, corridor, campus; or a file. Robots are told where they start as the scenario has
 // it. A scenario or a recorded log with `@3` behind it is one drive in three parts, each driven by
 // another robot at the same time, of which only the first one is told where it starts. Prints a
-// line for each robot that was apart for a while, or is astray in the end: how far it had driven,
-// until it was found, where the robots that it was found with had been; how far off it was then,
+// line for each robot that was apart or astray for a while: how far it had driven, and until it was
+// found, how far where the robots that it was found with had been; how far off it was then,
 // and how far it had drifted in its own component, which no place of that can mend; how many of its
 // answers in the team's map were farther off than half a metre; and its error in that map, beside
 // that of a run in which all were told rightly. And one for the team: how wrong its map and all
@@ -269,6 +269,12 @@ double RmsAt(const Fate& fate, const std::vector<std::size_t>& steps) {
   return Rms(errors_m);
 }
 
+/// How many answers in the team's map were far off.
+int CountAstray(const Fate& fate) {
+  return static_cast<int>(
+      std::ranges::count_if(fate.errors_m, [](double error_m) { return error_m > kWrong_m; }));
+}
+
 using Fates = std::map<std::size_t, Fate>;
 
 /// Absolute trajectory error of a team in its map, wherever that lies in the world, of what both
@@ -298,8 +304,7 @@ void Print(int seed, std::size_t robot, const Fate& fate, const Fate& told, Sum&
   const bool is_found = fate.was_apart && !fate.is_apart;
   const bool is_wrong = fate.beyond_drift_m > kWrong_m || fate.is_beside_others_wrongly;
   const bool had_time = is_found || fate.found_in_common_m > kInTime_m;
-  const auto astray =
-      std::ranges::count_if(fate.errors_m, [](double error_m) { return error_m > kWrong_m; });
+  const bool is_astray = !fate.errors_m.empty() && fate.errors_m.back() > kWrong_m;
   ++sum.robots;
   sum.found += is_found ? 1 : 0;
   sum.with_enough_in_common += had_time ? 1 : 0;
@@ -316,10 +321,11 @@ void Print(int seed, std::size_t robot, const Fate& fate, const Fate& told, Sum&
       fate.found_in_common_m,
       is_found        ? "found"
       : fate.is_apart ? "apart"
-                      : "not noticed",
+      : is_astray     ? "not noticed"
+                      : "put right",
       fate.found_off_m,
       fate.beyond_drift_m,
-      static_cast<int>(astray),
+      CountAstray(fate),
       Rms(fate.errors_m),
       RmsAt(told, fate.steps),
       is_wrong ? " WRONG" : "");
@@ -335,8 +341,8 @@ void Evaluate(const std::string& name, int seed, const std::string& duration, Su
     told.Take(drive.readings[step], step);
   }
   for (const auto& [robot, fate] : trial.fates()) {
-    const bool is_astray = !fate.errors_m.empty() && fate.errors_m.back() > kWrong_m;
-    if (fate.was_apart || is_astray) Print(seed, robot, fate, told.fates().at(robot), sum);
+    const bool had_trouble = fate.was_apart || CountAstray(fate) > 0;
+    if (had_trouble) Print(seed, robot, fate, told.fates().at(robot), sum);
   }
   const double error_m = TeamError(trial.fates(), told.fates());
   const double told_m = TeamError(told.fates(), trial.fates());
