@@ -79,10 +79,10 @@ UncertainPose2 At(double x_m, double y_m) {
 
 MapAgreement Agreement() { return {ScanLocatorOptions{}, FreeSpaceOptions{}}; }
 
-std::optional<UncertainPose2> DecideOn(const UncertainPose2& a_b,
-                                       const ScanMap& a,
-                                       const ScanMap& b,
-                                       const std::stop_token& stop = {}) {
+std::optional<Joint> DecideOn(const UncertainPose2& a_b,
+                              const ScanMap& a,
+                              const ScanMap& b,
+                              const std::stop_token& stop = {}) {
   JointCandidates candidates;
   candidates.Propose(a_b, b.scans().front().map_robot.T_a_b);
   return candidates.Decide(
@@ -138,9 +138,10 @@ TEST(MapAgreement, BelievesAPlaceThatIsThereOnce) {
   const double nats = Agreement().Judge(a, b, At(0.0, 0.0)).nats;
   EXPECT_GT(nats, kSureNats);
   EXPECT_NEAR(Agreement().NatsAmongEchoes(a, b, At(0.0, 0.0)), nats, 0.5);
-  const std::optional<UncertainPose2> found = DecideOn(At(0.1, -0.1), a, b);
+  const std::optional<Joint> found = DecideOn(At(0.1, -0.1), a, b);
   ASSERT_TRUE(found);
-  EXPECT_LT(found->T_a_b.translation_m().norm(), 0.02);
+  EXPECT_LT(found->a_b.T_a_b.translation_m().norm(), 0.02);
+  EXPECT_NEAR(found->nats, nats, 0.5);
 }
 
 TEST(MapAgreement, TellsNothingOnceItIsStopped) {

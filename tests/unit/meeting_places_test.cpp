@@ -101,6 +101,20 @@ TEST_F(MeetingPlaces, AreFoundByWayOfAThirdRobot) {
   ExpectToBeRight(places[2], 160);
 }
 
+// A place of which little is known is judged with what is known well.
+TEST_F(MeetingPlaces, AreFirstThoseForWhichMostSpeaks) {
+  const ScanMap first = MapFrom(0);
+  const ScanMap little_in_common = MapFrom(80);
+  const ScanMap much_in_common = MapFrom(20);
+  const std::vector<MeetingPlace> places =
+      FindMeetingPlaces(std::vector{&first, &little_in_common, &much_in_common}, {}).places;
+  ASSERT_EQ(places.size(), 3U);
+  EXPECT_EQ(places[1].map, 2U);
+  ExpectToBeRight(places[1], 20);
+  EXPECT_EQ(places[2].map, 1U);
+  ExpectToBeRight(places[2], 80);
+}
+
 // Of the first one the laser may be broken, or covered.
 TEST_F(MeetingPlaces, AreInTheMapOfTheFirstRobotThatSeesAnything) {
   const ScanMap blind;

@@ -57,22 +57,24 @@ void JointCandidates::Propose(const UncertainPose2& a_b, const Pose2& T_b_robot)
   if (!is_known) candidates_.push_back(proposed);
 }
 
-std::optional<UncertainPose2> JointCandidates::Decide(const MapAgreement& agreement,
-                                                      const DrawnMap& a,
-                                                      const DrawnMap& b,
-                                                      std::span<const DrawnMap> others,
-                                                      const std::stop_token& stop) {
+std::optional<Joint> JointCandidates::Decide(const MapAgreement& agreement,
+                                             const DrawnMap& a,
+                                             const DrawnMap& b,
+                                             std::span<const DrawnMap> others,
+                                             const std::stop_token& stop) {
   if (!Weigh(agreement, a, b, stop)) return std::nullopt;
   KeepBest();
   if (!HasLeader()) return std::nullopt;
   Candidate& best = candidates_.front();
   if (best.scans_among_echoes != best.scans) Contest(agreement, a.map, b.map, best, stop);
-  if (best.nats_among_echoes + best.sight_nats < kSureNats) return std::nullopt;
+  const double nats = best.nats_among_echoes + best.sight_nats;
+  if (nats < kSureNats) return std::nullopt;
   LookForRivals(agreement, a, b, others, best, stop);
   if (best.has_rival) return std::nullopt;
   // Pairs are better ones where it has been fitted.
   const UncertainPose2 fitted = agreement.Judge(a.map, b.map, best.a_b, stop).a_b;
-  return stop.stop_requested() ? std::nullopt : std::optional(fitted);
+  if (stop.stop_requested()) return std::nullopt;
+  return Joint{.a_b = fitted, .nats = nats};
 }
 
 // @return false if it was stopped.

@@ -15,6 +15,12 @@
 
 namespace qwsm::team {
 
+/// How one map lies in another one, beyond doubt.
+struct Joint {
+  UncertainPose2 a_b;
+  double nats = 0.0;  ///< What speaks for it, against its being a place that looks alike.
+};
+
 /// The places where one component of a team's map may lie in another one. Robots that look around
 /// propose them; what decides is all that both maps show there, and whether robots saw each other
 /// where they would have been in view. Maps show more of it as they grow.
@@ -29,11 +35,11 @@ class JointCandidates {
   /// Weighs all places anew of which the maps may show more than they did.
   /// @param others all other maps of which it is not known how they lie in these.
   /// @return the place where the two lie beyond doubt, leading all others; none once it is stopped.
-  std::optional<UncertainPose2> Decide(const MapAgreement& agreement,
-                                       const DrawnMap& a,
-                                       const DrawnMap& b,
-                                       std::span<const DrawnMap> others,
-                                       const std::stop_token& stop);
+  std::optional<Joint> Decide(const MapAgreement& agreement,
+                              const DrawnMap& a,
+                              const DrawnMap& b,
+                              std::span<const DrawnMap> others,
+                              const std::stop_token& stop);
 
  private:
   struct Candidate {

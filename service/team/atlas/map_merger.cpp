@@ -92,14 +92,14 @@ std::optional<ComponentPlace> MapMerger::LookFor(const std::string& robot,
     candidates.Propose(into_robot * Inverse(from_robot), from_robot.T_a_b);
   }
   const auto [into, from] = IntoAndFrom(sighting.component, &own, other, &std::as_const(there));
-  const auto into_from =
+  const std::optional<Joint> joint =
       candidates.Decide(agreement_, into->Drawn(), from->Drawn(), ChartsBeside(*into, *from), stop);
-  if (!into_from) return std::nullopt;
+  if (!joint) return std::nullopt;
   return ComponentPlace{.from = from->version,
                         .from_name = from->component,
                         .into = into->version,
                         .into_name = into->component,
-                        .into_from = *into_from};
+                        .into_from = joint->a_b};
 }
 
 std::vector<DrawnMap> MapMerger::ChartsBeside(const Chart& one, const Chart& other) const {

@@ -56,44 +56,59 @@ class MeetingSearch {
     scans_of_met_.push_back(maps_[first].Drawn().scans_of_robots.front());
   }
 
-  /// Looks around in all maps that have a place, and have got one since it was done last.
-  /// @return whether the map has a place now.
-  bool Joins(Apart& apart) {
-    while (apart.places_looked_into < met_.places.size()) {
-      const MeetingPlace& other = met_.places[apart.places_looked_into++];
-      const std::optional<UncertainPose2> place = LookInto(other, apart);
-      if (!place) continue;
-      std::vector<ScanId>& scans_of_robot = scans_of_met_.emplace_back();
-      for (const RelevantScan& scan : maps_[apart.map].map().scans()) {
-        scans_of_robot.push_back(
-            met_.map.Insert(scan.scan, ToPoints(scan.scan), *place * scan.map_robot));
-      }
-      met_.places.push_back({.map = apart.map, .first_map = *place});
-      return true;
+  /// Gives a place to that of the maps for whose place most speaks: those that might be there in
+  /// its stead are judged with it.
+  /// @return whether one has got a place.
+  bool JoinOne(std::vector<Apart>& apart) {
+    auto best = apart.end();
+    std::optional<Joint> best_joint;
+    for (auto one = apart.begin(); one != apart.end(); ++one) {
+      LookAround(*one);
+      if (stop_()) return false;
+      const std::optional<Joint> joint = Decide(*one);
+      if (!joint || (best_joint && joint->nats <= best_joint->nats)) continue;
+      best = one;
+      best_joint = joint;
     }
-    return false;
+    if (!best_joint) return false;
+    Insert(best->map, best_joint->a_b);
+    apart.erase(best);
+    return true;
   }
 
   MetMaps Take() && { return std::move(met_); }
 
  private:
-  // As soon as the robot by itself would think that it is found, all that both have mapped is
-  // asked; and in the end.
-  std::optional<UncertainPose2> LookInto(const MeetingPlace& other, Apart& apart) const {
+  // In all maps that have a place, and have got one since it was done last.
+  void LookAround(Apart& apart) const {
+    while (apart.places_looked_into < met_.places.size()) {
+      LookInto(met_.places[apart.places_looked_into++], apart);
+    }
+  }
+
+  // Once the robot by itself would think that it is found, it looks around anew: in one place it
+  // sees no more.
+  void LookInto(const MeetingPlace& other, Apart& apart) const {
     PlaceFinder finder(options_);
     for (const RelevantScan& scan : maps_[apart.map].map().scans()) {
-      if (stop_()) return std::nullopt;
+      if (stop_()) return;
       const Pose2& T_own_robot = scan.map_robot.T_a_b;
       const std::optional<Pose2> T_own_looked = finder.T_local_looked();
       const PlaceBelief& belief =
           finder.Look(maps_[other.map].map(), ToPoints(scan.scan), T_own_robot);
       if (finder.T_local_looked() == T_own_looked) continue;
       Propose(belief, T_own_robot, other.first_map, apart.candidates);
-      if (belief.verdict != PlaceVerdict::kFound) continue;
-      if (const std::optional<UncertainPose2> place = Decide(apart)) return place;
-      finder = PlaceFinder(options_);
+      if (belief.verdict == PlaceVerdict::kFound) finder = PlaceFinder(options_);
     }
-    return Decide(apart);
+  }
+
+  void Insert(std::size_t map, const UncertainPose2& first_map) {
+    std::vector<ScanId>& scans_of_robot = scans_of_met_.emplace_back();
+    for (const RelevantScan& scan : maps_[map].map().scans()) {
+      scans_of_robot.push_back(
+          met_.map.Insert(scan.scan, ToPoints(scan.scan), first_map * scan.map_robot));
+    }
+    met_.places.push_back({.map = map, .first_map = first_map});
   }
 
   static void Propose(const PlaceBelief& belief,
@@ -107,7 +122,7 @@ class MeetingSearch {
     }
   }
 
-  std::optional<UncertainPose2> Decide(Apart& apart) const {
+  std::optional<Joint> Decide(Apart& apart) const {
     return apart.candidates.Decide(agreement_,
                                    {.map = met_.map, .scans_of_robots = scans_of_met_},
                                    maps_[apart.map].Drawn(),
@@ -151,7 +166,7 @@ MetMaps FindMeetingPlaces(std::span<const ScanMap* const> maps,
   for (std::size_t map = 0; map < maps.size(); ++map) {
     if (map != first) apart.push_back({.map = map});
   }
-  while (std::erase_if(apart, [&](Apart& one) { return search.Joins(one); }) > 0) {
+  while (search.JoinOne(apart)) {
   }
   return std::move(search).Take();
 }

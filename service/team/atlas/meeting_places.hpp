@@ -30,8 +30,8 @@ struct MetMaps {
 /// whom anything is mapped: where each may be by what its scans look like in the others' maps, and
 /// is by all that both have mapped. What a place has for it counts no more than the building
 /// repeats itself; against it is what robots saw at the same time, who would have been in view of
-/// each other and were not. Maps that are found in none but each other have no place in the
-/// first's.
+/// each other and were not. The one for which most speaks gets its place first. Maps that are found
+/// in none but each other have no place in the first's.
 /// @param stop asked before each look; when true, it is left at what was found.
 MetMaps FindMeetingPlaces(
     std::span<const ScanMap* const> maps,
