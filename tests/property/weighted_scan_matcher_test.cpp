@@ -253,10 +253,9 @@ TEST(WeightedScanMatcher, TrunksFarAwayDoNotPullAhead) {
   EXPECT_LE(unsettled, kScans / 100);
 }
 
-constexpr double kSpacing_m = 0.01;
-
 // Points along a wall, as a laser at the origin sees them.
 std::vector<ScanPoint> WallPoints(const Wall& wall, const Eigen::Vector2d& normal) {
+  constexpr double kSpacing_m = 0.01;
   const Eigen::Vector2d way_m = wall.to_m - wall.from_m;
   std::vector<ScanPoint> points;
   for (double along_m = 0.0; along_m <= way_m.norm(); along_m += kSpacing_m) {
@@ -310,24 +309,22 @@ struct CornerSeenFurther {
     further.insert(further.end(), beyond.begin(), beyond.end());
   }
 
-  static MatchResult Match(const SurfaceMap& map,
-                           std::span<const ScanPoint> scan,
-                           PairSelection selection) {
-    WeightedScanMatcherOptions options;
-    options.selection = selection;
-    return WeightedScanMatcher(options).Match(map, scan, WeakPriorAt({}));
-  }
-
   std::vector<ScanPoint> points;
   std::vector<ScanPoint> further;
 };
+
+MatchResult Match(const SurfaceMap& map, std::span<const ScanPoint> scan, PairSelection selection) {
+  WeightedScanMatcherOptions options;
+  options.selection = selection;
+  return WeightedScanMatcher(options).Match(map, scan, WeakPriorAt({}));
+}
 
 TEST(WeightedScanMatcher, OneToOneTakesNoPointBeyondAnEnd) {
   const CornerSeenFurther corner;
   SurfaceMap map;
   Insert(corner.points, 1, map);
   const auto pairs = [&](std::span<const ScanPoint> scan, PairSelection selection) {
-    return CornerSeenFurther::Match(map, scan, selection).pairs;
+    return Match(map, scan, selection).pairs;
   };
   const int stored = static_cast<int>(corner.points.size());
   const int seen = static_cast<int>(corner.further.size());
@@ -347,7 +344,7 @@ TEST(WeightedScanMatcher, OneToOneCountsAStoredPointOnce) {
   SurfaceMap map;
   Insert(corner.points, kStep, map);
   const auto information = [&](std::span<const ScanPoint> scan, PairSelection selection) {
-    const MatchResult result = CornerSeenFurther::Match(map, scan, selection);
+    const MatchResult result = Match(map, scan, selection);
     EXPECT_EQ(result.status, MatchStatus::kConverged);
     EXPECT_GT(result.overlap, 0.95);
     return result.pair_information.topLeftCorner<2, 2>().trace();

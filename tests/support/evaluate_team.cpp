@@ -10,8 +10,8 @@
 // carried, wings, corridor, campus; or a file. Robots are told where they start as the scenario has
 // it. A scenario or a recorded log with `@3` behind it is one drive in three parts, each driven by
 // another robot at the same time, of which only the first one is told where it starts. Prints a
-// line for each robot that was apart or astray for a while: how far it had driven, and until it was
-// found, how far where the robots that it was found with had been; how far off it was then,
+// line for each robot that was apart or astray for a while: how far it had driven, until it was
+// found, where the robots that it was found with had been; how far off it was then,
 // and how far it had drifted in its own component, which no place of that can mend; how many of its
 // answers in the team's map were farther off than half a metre; and its error in that map, beside
 // that of a run in which all were told rightly. And one for the team: how wrong its map and all

@@ -52,6 +52,21 @@ class MeetingPlaces : public testing::Test {
     EXPECT_LT(std::abs(off.theta_rad), 0.01);
   }
 
+  /// That of three robots the third one gets its place before the second one, and both the right
+  /// one.
+  void ExpectThirdBeforeSecond(std::size_t second_from, std::size_t third_from) const {
+    const ScanMap first = MapFrom(0);
+    const ScanMap second = MapFrom(second_from);
+    const ScanMap third = MapFrom(third_from);
+    const std::vector<MeetingPlace> places =
+        FindMeetingPlaces(std::vector{&first, &second, &third}, {}).places;
+    ASSERT_EQ(places.size(), 3U);
+    EXPECT_EQ(places[1].map, 2U);
+    ExpectToBeRight(places[1], third_from);
+    EXPECT_EQ(places[2].map, 1U);
+    ExpectToBeRight(places[2], second_from);
+  }
+
   test::SimulatedDrive drive_ = test::DriveThrough(test::OfficeLoop(), {.scan_period_s = 0.5});
 };
 
@@ -88,32 +103,10 @@ TEST_F(MeetingPlaces, AreNoneWhereOneOfTwoRobotsIsAndNobodyKnowsWhich) {
   EXPECT_EQ(FindMeetingPlaces(std::vector{&first, &second, &later}, {}).places.size(), 3U);
 }
 
-TEST_F(MeetingPlaces, AreFoundByWayOfAThirdRobot) {
-  const ScanMap first = MapFrom(0);
-  const ScanMap second = MapFrom(160);
-  const ScanMap third = MapFrom(80);
-  const std::vector<MeetingPlace> places =
-      FindMeetingPlaces(std::vector{&first, &second, &third}, {}).places;
-  ASSERT_EQ(places.size(), 3U);
-  EXPECT_EQ(places[1].map, 2U);
-  ExpectToBeRight(places[1], 80);
-  EXPECT_EQ(places[2].map, 1U);
-  ExpectToBeRight(places[2], 160);
-}
+TEST_F(MeetingPlaces, AreFoundByWayOfAThirdRobot) { ExpectThirdBeforeSecond(160, 80); }
 
 // A place of which little is known is judged with what is known well.
-TEST_F(MeetingPlaces, AreFirstThoseForWhichMostSpeaks) {
-  const ScanMap first = MapFrom(0);
-  const ScanMap little_in_common = MapFrom(80);
-  const ScanMap much_in_common = MapFrom(20);
-  const std::vector<MeetingPlace> places =
-      FindMeetingPlaces(std::vector{&first, &little_in_common, &much_in_common}, {}).places;
-  ASSERT_EQ(places.size(), 3U);
-  EXPECT_EQ(places[1].map, 2U);
-  ExpectToBeRight(places[1], 20);
-  EXPECT_EQ(places[2].map, 1U);
-  ExpectToBeRight(places[2], 80);
-}
+TEST_F(MeetingPlaces, AreFirstThoseForWhichMostSpeaks) { ExpectThirdBeforeSecond(80, 20); }
 
 // Of the first one the laser may be broken, or covered.
 TEST_F(MeetingPlaces, AreInTheMapOfTheFirstRobotThatSeesAnything) {

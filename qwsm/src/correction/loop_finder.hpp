@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "correction_matcher.hpp"
 #include "loop_agreement.hpp"
 #include "pose_estimate.hpp"
 #include "qwsm/correction/loop.hpp"
@@ -32,7 +31,7 @@ class LoopFinder {
              const ScanChains& chains,
              RecentSurfaces& recent)
       : locator_(options.locator),
-        matcher_(CorrectionMatcher(options.locator.matcher)),
+        matcher_(options.locator.matcher),
         nodes_(nodes),
         chains_(chains),
         recent_(recent) {}

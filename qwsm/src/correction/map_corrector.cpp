@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "correction_matcher.hpp"
 #include "loop_finder.hpp"
 #include "map_contradiction.hpp"
 #include "path_refinement.hpp"
@@ -69,6 +68,13 @@ struct SolvedGraph {
   SolvedPoses poses() const { return SolvedPoses(graph, solution); }
 };
 
+// A submap is what a robot saw from one place and ends close by: a scan's points beyond its ends
+// would turn a match, and let it be more certain than it is.
+MapperOptions MatchingOneToOne(MapperOptions options) {
+  options.locator.matcher.selection = PairSelection::kOneToOne;
+  return options;
+}
+
 }  // namespace
 
 std::string_view Name(LoopVerdict verdict) {
@@ -86,7 +92,8 @@ std::string_view Name(LoopVerdict verdict) {
 }
 
 struct MapCorrector::State {
-  explicit State(const MapperOptions& mapper) : options(mapper), chains(mapper) {}
+  explicit State(const MapperOptions& mapper)
+      : options(MatchingOneToOne(mapper)), chains(options) {}
 
   void Look();
   std::optional<SolvedGraph> Solve(std::vector<FoundLoop>& found);
@@ -143,7 +150,7 @@ std::optional<SolvedGraph> MapCorrector::State::Solve(std::vector<FoundLoop>& fo
 
 // From where loops have the nodes, by all that was seen.
 void MapCorrector::State::Refine(SolvedGraph& solved) const {
-  const WeightedScanMatcher matcher = CorrectionMatcher(options.locator.matcher);
+  const WeightedScanMatcher matcher(options.locator.matcher);
   std::vector<Pose2>& T_map_node = solved.graph.T_map_node;
   T_map_node = RefinedPath(nodes, chains, matcher, std::move(T_map_node));
 }

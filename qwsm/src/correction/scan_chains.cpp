@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "correction_matcher.hpp"
 #include "qwsm/geometry/along_axes.hpp"
 #include "qwsm/geometry/frame_covariance.hpp"
 #include "qwsm/mapping/paths_apart.hpp"
@@ -95,7 +94,7 @@ ScanChains::ScanChains(const MapperOptions& options)
     : map_options_(SubmapOptions(options.map)),
       free_space_(OfAllScans(options.free_space)),
       locator_(options.locator),
-      matcher_(CorrectionMatcher(options.locator.matcher)) {}
+      matcher_(options.locator.matcher) {}
 
 void ScanChains::Add(std::span<const ScanNode> nodes) {
   const auto id = static_cast<NodeId>(T_chain_node_.size());
