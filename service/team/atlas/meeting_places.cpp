@@ -63,9 +63,8 @@ class MeetingSearch {
     auto best = apart.end();
     std::optional<Joint> best_joint;
     for (auto one = apart.begin(); one != apart.end(); ++one) {
-      LookAround(*one);
+      const std::optional<Joint> joint = FindPlace(*one);
       if (stop_()) return false;
-      const std::optional<Joint> joint = Decide(*one);
       if (!joint || (best_joint && joint->nats <= best_joint->nats)) continue;
       best = one;
       best_joint = joint;
@@ -79,27 +78,35 @@ class MeetingSearch {
   MetMaps Take() && { return std::move(met_); }
 
  private:
-  // In all maps that have a place, and have got one since it was done last.
-  void LookAround(Apart& apart) const {
-    while (apart.places_looked_into < met_.places.size()) {
-      LookInto(met_.places[apart.places_looked_into++], apart);
+  // By what was thought of it before, now that the maps have grown; then by looking around in maps
+  // that have got a place since that was done last.
+  std::optional<Joint> FindPlace(Apart& apart) const {
+    std::optional<Joint> joint = Decide(apart);
+    while (!joint && apart.places_looked_into < met_.places.size()) {
+      joint = LookInto(met_.places[apart.places_looked_into], apart);
+      if (!joint)
+        ++apart.places_looked_into;  // Else not all of it, and another map may come first.
     }
+    return joint;
   }
 
-  // Once the robot by itself would think that it is found, it looks around anew: in one place it
-  // sees no more.
-  void LookInto(const MeetingPlace& other, Apart& apart) const {
+  // As soon as the robot by itself would think that it is found, all that both have mapped is
+  // asked; and in the end.
+  std::optional<Joint> LookInto(const MeetingPlace& other, Apart& apart) const {
     PlaceFinder finder(options_);
     for (const RelevantScan& scan : maps_[apart.map].map().scans()) {
-      if (stop_()) return;
+      if (stop_()) return std::nullopt;
       const Pose2& T_own_robot = scan.map_robot.T_a_b;
       const std::optional<Pose2> T_own_looked = finder.T_local_looked();
       const PlaceBelief& belief =
           finder.Look(maps_[other.map].map(), ToPoints(scan.scan), T_own_robot);
       if (finder.T_local_looked() == T_own_looked) continue;
       Propose(belief, T_own_robot, other.first_map, apart.candidates);
-      if (belief.verdict == PlaceVerdict::kFound) finder = PlaceFinder(options_);
+      if (belief.verdict != PlaceVerdict::kFound) continue;
+      if (const std::optional<Joint> joint = Decide(apart)) return joint;
+      finder = PlaceFinder(options_);
     }
+    return Decide(apart);
   }
 
   void Insert(std::size_t map, const UncertainPose2& first_map) {
