@@ -134,10 +134,13 @@ std::vector<team::Mark> WithThoseOfPage(std::vector<team::Mark> marks,
 /// Leaves what is marked on the map among the results, and both where the map is to be saved.
 void KeepMap(const MapArguments& arguments,
              const RunSession& session,
-             const ScanMap& map,
+             std::span<const RelevantScan> scans,
+             const ScanMapOptions& options,
              const std::vector<team::Mark>& marks) {
   pipeline::WriteMarks(session.folder().path(), marks);
-  if (arguments.save_map) pipeline::SaveMap(*arguments.save_map, map, marks);
+  if (!arguments.save_map) return;
+  const ScanMap map = MapOf({scans.begin(), scans.end()}, options);
+  pipeline::SaveMap(*arguments.save_map, map, marks);
 }
 
 constexpr const char* kAtEnd = "the log is at its end";
@@ -151,9 +154,23 @@ MappingStep AnswerAndTell(const Observation& observation,
   MappingStep step = mapper.Process(observation);
   losses.Take(step);
   if (live != nullptr && mapper.epochs().size() > epochs) {
-    live->Correct(mapper.epochs().back(), mapper.mapper().map());
+    live->Correct(mapper.epochs().back(), mapper.mapper().map().scans());
   }
   return step;
+}
+
+/// Writes what can only be known at the end.
+void FinishResults(const Mapper& mapper,
+                   const std::optional<pipeline::CorrectedRun>& corrected,
+                   const OccupancyGridOptions& rendering,
+                   const Trajectory& truth,
+                   pipeline::ResultsWriter& results) {
+  const MatcherKind matcher = mapper.options().matcher;
+  if (corrected) {
+    results.Finish(mapper.map().scans(), matcher, *corrected, rendering, truth);
+  } else {
+    results.Finish(mapper.map(), matcher, rendering, truth);
+  }
 }
 
 ExitCode MapAll(const MapArguments& arguments,
@@ -187,32 +204,29 @@ ExitCode MapAll(const MapArguments& arguments,
   const pipeline::ReplayResult end = session.Run("map", source, answer, sinks);
   results.SetTitle(session.Title("map", end));
 
-  std::optional<pipeline::CorrectedRun> corrected;
   const Mapper& mapper = correcting ? correcting->mapper() : incremental;
+  std::optional<pipeline::CorrectedRun> corrected;
   if (correcting) {
     losses->Finish();
     corrected = pipeline::CorrectAtTheEnd(*correcting);
-    results.Finish(
-        mapper.map(), mapper.options().matcher, *corrected, options.rendering, source.truth());
     if (arguments.bag) answers.Correct(corrected->correction.map_robot);
-  } else {
-    results.Finish(mapper.map(), mapper.options().matcher, options.rendering, source.truth());
   }
-  const ScanMap& map = corrected ? corrected->map : mapper.map();
+  FinishResults(mapper, corrected, options.rendering, source.truth(), results);
+  const std::span<const RelevantScan> scans = corrected ? corrected->scans : mapper.map().scans();
   if (arguments.bag) {
-    answers.Write(session.folder() / ResultFile::kAnswers, RenderOrWarn(map, options.rendering));
+    answers.Write(session.folder() / ResultFile::kAnswers, RenderOrWarn(scans, options.rendering));
   }
   const std::vector<team::Mark> of_log =
       marks.Placed(corrected ? corrected->correction.map_robot : std::vector<UncertainPose2>());
-  if (live && corrected) live->Correct({.map_node = corrected->correction.map_node}, map);
-  if (live) live->Finish(map, corrected ? "the log is at its end, the map corrected" : kAtEnd);
-  KeepMap(arguments, session, map, WithThoseOfPage(of_log, live.get()));
-  session.Summarize(results, map);
+  if (live && corrected) live->Correct({.map_node = corrected->correction.map_node}, scans);
+  if (live) live->Finish(scans, corrected ? "the log is at its end, the map corrected" : kAtEnd);
+  KeepMap(arguments, session, scans, options.mapper.map, WithThoseOfPage(of_log, live.get()));
+  session.Summarize(results);
   const ExitCode code = session.Conclude(end);
   if (live && code == ExitCode::kDone) {
     KeepPage(
         [&live](const pipeline::Interruption& interruption) { live->StayUntil(interruption); });
-    KeepMap(arguments, session, map, WithThoseOfPage(of_log, live.get()));
+    KeepMap(arguments, session, scans, options.mapper.map, WithThoseOfPage(of_log, live.get()));
   }
   return code;
 }
@@ -234,10 +248,13 @@ ExitCode ContinueMap(const MapArguments& arguments,
     return code;
   }
   pipeline::JournalMarks marks(arguments.run.logs);
-  const auto [code, map, all_marks] =
+  ContinuedMap both =
       CorrectAfterFollowing({localizer, marks}, known.marks, source, options, session);
-  if (arguments.save_map) pipeline::SaveMap(*arguments.save_map, map, all_marks);
-  return code;
+  if (arguments.save_map) {
+    const ScanMap map = MapOf(std::move(both.scans), localizer.map().options());
+    pipeline::SaveMap(*arguments.save_map, map, both.marks);
+  }
+  return both.code;
 }
 
 /// Maps all robots of a bag. @param several says which.

@@ -130,10 +130,10 @@ ReplayResult RunSession::Run(const std::string& task,
   return result;
 }
 
-void RunSession::Summarize(const ResultsWriter& results, const ScanMap& map) const {
+void RunSession::Summarize(const ResultsWriter& results) const {
   if (arguments_.verbosity.quiet || arguments_.verbosity.json) return;
   Print("{}results        {}\n",
-        SummaryText(results.statistics(), map, results.truth_report(), results.loops()),
+        SummaryText(results.statistics(), results.map(), results.truth_report(), results.loops()),
         folder_.path().string());
 }
 

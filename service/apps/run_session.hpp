@@ -82,7 +82,7 @@ class RunSession {
                              std::vector<pipeline::MappingRun> runs) const;
 
   /// Tells what came out, if a person reads standard output.
-  void Summarize(const pipeline::ResultsWriter& results, const ScanMap& map) const;
+  void Summarize(const pipeline::ResultsWriter& results) const;
 
   bool is_interrupted() const { return interruption_->requested(); }
 

@@ -61,7 +61,10 @@ pipeline::CorrectedRun CorrectTogether(const ScanMap& map,
   const std::array<DriveInMap, 1> last{{{.first_scan = first_scan, .answers = answers}}};
   JointCorrection joint = CorrectJointly(map, last, options);
   joint.correction.map_robot = std::move(joint.map_robot.front());
-  return {.correction = std::move(joint.correction), .map = std::move(joint.map), .epochs = {}};
+  return {.correction = std::move(joint.correction),
+          .scans = std::move(joint.scans),
+          .answered_in = pipeline::FiguresOf(map),
+          .epochs = {}};
 }
 
 /// The exit code of a drive that ended so; tells of a robot that is lost in the end.
@@ -115,7 +118,7 @@ ExitCode FollowInMap(const std::string& task,
   results.SetTitle(session.Title(task, end));
   results.Finish(localizer.map(), options.mapper.matcher, options.rendering);
   pipeline::WriteMarks(session.folder().path(), robot.marks.Placed({}));
-  session.Summarize(results, localizer.map());
+  session.Summarize(results);
   return ConcludeDrive(task, session, end, localizer, lost_and_found);
 }
 
@@ -135,15 +138,15 @@ ContinuedMap CorrectAfterFollowing(const RobotInMap& robot,
   results.SetTitle(session.Title("map", end));
   pipeline::CorrectedRun corrected =
       CorrectTogether(localizer.map(), scans_before, results.path(), options.mapper);
-  results.Finish(localizer.map(), options.mapper.matcher, corrected, options.rendering);
-  session.Summarize(results, corrected.map);
+  results.Finish(localizer.map().scans(), options.mapper.matcher, corrected, options.rendering);
+  session.Summarize(results);
   const Correction& correction = corrected.correction;
   std::vector<team::Mark> marks =
       MovedWithScans(marks_before, localizer.map().scans(), correction.map_node);
   std::ranges::move(robot.marks.Placed(correction.map_robot), std::back_inserter(marks));
   pipeline::WriteMarks(session.folder().path(), marks);
   return {.code = ConcludeDrive("map", session, end, localizer, lost_and_found),
-          .map = std::move(corrected.map),
+          .scans = std::move(corrected.scans),
           .marks = std::move(marks)};
 }
 

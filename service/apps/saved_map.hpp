@@ -41,10 +41,10 @@ ExitCode FollowInMap(const std::string& task,
                      const options::ProgramOptions& options,
                      const RunSession& session);
 
-/// How a drive ended that went on with a map, and the map of both.
+/// How a drive ended that went on with a map, and what the map of both is of.
 struct ContinuedMap {
   ExitCode code = ExitCode::kDone;
-  ScanMap map;
+  std::vector<RelevantScan> scans;
   std::vector<team::Mark> marks{};
 };
 

@@ -36,7 +36,8 @@ struct MappedRobot {
   RunSession session;
   std::unique_ptr<pipeline::ResultsWriter> results;
   std::unique_ptr<pipeline::KeptSteps> steps;
-  pipeline::CorrectedRun alone;        ///< In a frame of its own. Without a graph, the map alone.
+  ScanMap map;                         ///< In a frame of its own.
+  pipeline::CorrectedRun alone;        ///< How that was corrected; its scans are the map's.
   std::size_t first_scan = 0;          ///< Its first one in the map of all.
   std::vector<StampedAnswer> answers;  ///< Its path in the map of all.
   Trajectory truth;                    ///< Empty where it is not known.
@@ -65,7 +66,7 @@ class TeamMapping {
     };
     for (MappedRobot& robot : apart) {
       FinishAlone(robot);
-      if (robot.alone.map.empty()) continue;
+      if (robot.map.empty()) continue;
       tell(robot.name, "is not in the map of the others, but in one of its own");
     }
     for (const std::string& name : blind_) tell(name, "has seen nothing, and is in no map");
@@ -102,7 +103,7 @@ class TeamMapping {
                                                           : MapIncrementally(source, sinks, robot);
     robot.results->SetTitle(robot.session.Title("map", end));
     robot.truth = source.truth();
-    if (end.end == pipeline::ReplayEnd::kExhausted && robot.alone.map.empty()) {
+    if (end.end == pipeline::ReplayEnd::kExhausted && robot.map.empty()) {
       blind_.push_back(name);
     }
     robots_.push_back(std::move(robot));
@@ -114,7 +115,8 @@ class TeamMapping {
                       .session = session_.Part(name),
                       .results = {},
                       .steps = std::make_unique<pipeline::KeptSteps>(),
-                      .alone = {.correction = {}, .map = ScanMap(), .epochs = {}},
+                      .map = ScanMap(),
+                      .alone = {.correction = {}, .scans = {}, .answered_in = {}, .epochs = {}},
                       .answers = {},
                       .truth = {}};
     robot.results = std::make_unique<pipeline::ResultsWriter>(
@@ -142,7 +144,7 @@ class TeamMapping {
     Mapper mapper(options_.mapper);
     const auto end =
         Feed(robot.session, source, std::bind_front(&Mapper::Process, &mapper), std::move(sinks));
-    robot.alone.map = mapper.map();
+    robot.map = mapper.map();
     return end;
   }
 
@@ -156,6 +158,7 @@ class TeamMapping {
                           std::bind_front(&SelfCorrectingMapper::Process, &mapper),
                           std::move(sinks));
     robot.alone = pipeline::CorrectAtTheEnd(mapper);
+    robot.map = MapOf(std::exchange(robot.alone.scans, {}), options_.mapper.map);
     return end;
   }
 
@@ -171,7 +174,7 @@ class TeamMapping {
       return code == ExitCode::kInterrupted;
     };
     std::vector<const ScanMap*> maps;
-    for (const MappedRobot& robot : robots_) maps.push_back(&robot.alone.map);
+    for (const MappedRobot& robot : robots_) maps.push_back(&robot.map);
     team::MetMaps met = team::FindMeetingPlaces(maps, options_.mapper, is_interrupted);
     map_ = std::move(met.map);
     std::vector<MappedRobot> joined;
@@ -181,7 +184,7 @@ class TeamMapping {
       std::vector<pipeline::StepSink*> sinks{robot.results.get()};
       if (joined.size() == 1) sinks.push_back(&marks_);  // Whose moments are the first robot's.
       PlaceAnswers(place.first_map, robot, sinks);
-      robot.first_scan = std::exchange(first_scan, first_scan + robot.alone.map.scans().size());
+      robot.first_scan = std::exchange(first_scan, first_scan + robot.map.scans().size());
     }
     std::erase_if(robots_, [](const MappedRobot& robot) { return robot.results == nullptr; });
     std::swap(robots_, joined);
@@ -213,7 +216,7 @@ class TeamMapping {
     for (const MappedRobot& robot : robots_) {
       ShareWorld(robot);
       robot.results->Finish(map_, options_.mapper.matcher, options_.rendering, robot.truth);
-      Summarize(robot, map_);
+      Summarize(robot);
     }
     return marks_.Placed({});
   }
@@ -226,39 +229,43 @@ class TeamMapping {
       drives.push_back({.first_scan = robot.first_scan, .answers = robot.answers});
     }
     JointCorrection joint = CorrectJointly(map_, drives, options_.mapper);
-    pipeline::CorrectedRun run{
-        .correction = std::move(joint.correction), .map = std::move(joint.map), .epochs = {}};
+    pipeline::CorrectedRun run{.correction = std::move(joint.correction),
+                               .scans = std::move(joint.scans),
+                               .answered_in = pipeline::FiguresOf(map_),
+                               .epochs = {}};
     for (std::size_t i = 0; i < robots_.size(); ++i) {
       MappedRobot& robot = robots_[i];
       run.correction.map_robot = joint.map_robot[i];
       run.epochs = std::move(robot.alone.epochs);
       ShareWorld(robot);
-      robot.results->Finish(map_, options_.mapper.matcher, run, options_.rendering, robot.truth);
-      Summarize(robot, run.map);
+      robot.results->Finish(
+          map_.scans(), options_.mapper.matcher, run, options_.rendering, robot.truth);
+      Summarize(robot);
       for (std::size_t k = 0; k < robot.answers.size(); ++k) {
         robot.answers[k].map_robot = run.correction.map_robot[k];
       }
     }
-    map_ = std::move(run.map);
+    map_ = MapOf(std::move(run.scans), options_.mapper.map);
     return marks_.Placed(joint.map_robot.front());
   }
 
   /// Leaves the results of a robot in a map of its own.
   void FinishAlone(MappedRobot& robot) const {
     PlaceAnswers({}, robot, std::array<pipeline::StepSink*, 1>{robot.results.get()});
-    const ScanMap& map = robot.alone.map;
+    const ScanMap& map = robot.map;
     if (Corrects(options_)) {
+      robot.alone.scans.assign(map.scans().begin(), map.scans().end());
       robot.results->Finish(
-          map, options_.mapper.matcher, robot.alone, options_.rendering, robot.truth);
+          map.scans(), options_.mapper.matcher, robot.alone, options_.rendering, robot.truth);
     } else {
       robot.results->Finish(map, options_.mapper.matcher, options_.rendering, robot.truth);
     }
-    Summarize(robot, map);
+    Summarize(robot);
   }
 
   void WriteMap(const std::vector<team::Mark>& marks,
                 const std::optional<std::filesystem::path>& save_map) const {
-    if (const auto grid = pipeline::RenderOrWarn(map_, options_.rendering)) {
+    if (const auto grid = pipeline::RenderOrWarn(map_.scans(), options_.rendering)) {
       io::WriteRosMap(session_.folder() / pipeline::ResultFile::kMap, *grid);
       if (session_.has_pictures()) {
         io::WriteTeamPicture(session_.folder() / pipeline::ResultFile::kMapPicture, *grid, Paths());
@@ -279,9 +286,9 @@ class TeamMapping {
     return paths;
   }
 
-  void Summarize(const MappedRobot& robot, const ScanMap& map) const {
+  void Summarize(const MappedRobot& robot) const {
     if (!arguments_.verbosity.quiet) Print("{}\n", robot.name);
-    robot.session.Summarize(*robot.results, map);
+    robot.session.Summarize(*robot.results);
   }
 
   const RunArguments& arguments_;

@@ -44,8 +44,8 @@ TEST(JointCorrection, MendsAMapThatAnotherDriveWentOnWith) {
   ASSERT_EQ(joint.map_robot.size(), 1U);
   ASSERT_EQ(joint.map_robot.front().size(), answers.size());
   EXPECT_LT(WorstError_m(joint.map_robot.front(), second.T_map_true), 0.2 * before_m);
-  ASSERT_EQ(joint.map.scans().size(), map.scans().size());
-  EXPECT_EQ(joint.map.scans().back().map_robot.T_a_b, joint.correction.map_node.back().T_a_b);
+  ASSERT_EQ(joint.scans.size(), map.scans().size());
+  EXPECT_EQ(joint.scans.back().map_robot.T_a_b, joint.correction.map_node.back().T_a_b);
   const auto accepted =
       std::ranges::count(joint.correction.loops, LoopVerdict::kAccepted, &Loop::verdict);
   EXPECT_GT(accepted, 3);
@@ -88,8 +88,8 @@ TEST(JointCorrection, LeavesAMapToWhichNothingWasAdded) {
   EXPECT_TRUE(joint.correction.loops.empty());
   ASSERT_EQ(joint.map_robot.front().size(), 1U);
   EXPECT_EQ(joint.map_robot.front().front().T_a_b, answers.front().map_robot.T_a_b);
-  ASSERT_EQ(joint.map.scans().size(), map.scans().size());
-  EXPECT_EQ(joint.map.scans().back().map_robot.T_a_b, map.scans().back().map_robot.T_a_b);
+  ASSERT_EQ(joint.scans.size(), map.scans().size());
+  EXPECT_EQ(joint.scans.back().map_robot.T_a_b, map.scans().back().map_robot.T_a_b);
 }
 
 }  // namespace

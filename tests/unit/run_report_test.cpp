@@ -21,7 +21,7 @@ std::string SummaryOf(std::chrono::milliseconds each) {
     timed.duration = 10 * each;  // The machine had other work.
     run.Take(timed);
   }
-  return SummaryText(run, ScanMap(), std::nullopt);
+  return SummaryText(run, MapFigures(), std::nullopt);
 }
 
 TEST(RunReport, SaysWhenMappingIsSlowerThanTheRobotDrove) {
@@ -39,11 +39,11 @@ TEST(RunReport, SaysWhetherALostRobotWasFoundAgain) {
   };
   take(StepStatus::kLost);
   take(StepStatus::kMatched);
-  const std::string found = SummaryText(run, ScanMap(), std::nullopt);
+  const std::string found = SummaryText(run, MapFigures(), std::nullopt);
   EXPECT_NE(found.find("lost           1, and placed once"), std::string::npos) << found;
   take(StepStatus::kLost);
   take(StepStatus::kLost);
-  const std::string lost = SummaryText(run, ScanMap(), std::nullopt);
+  const std::string lost = SummaryText(run, MapFigures(), std::nullopt);
   EXPECT_NE(lost.find("lost           3, of which the last 2 are"), std::string::npos) << lost;
 }
 

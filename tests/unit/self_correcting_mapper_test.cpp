@@ -51,9 +51,9 @@ TEST(SelfCorrectingMapper, GivesThePathOfAllScans) {
   EXPECT_TRUE(mapper.mapper().map().surfaces().empty());
   const std::span<const RelevantScan> answered = mapper.mapper().map().scans();
   EXPECT_EQ(answered.size(), correction.map_node.size());
-  ASSERT_EQ(finished.map.scans().size(), answered.size());
+  ASSERT_EQ(finished.scans.size(), answered.size());
   for (std::size_t i = 0; i < answered.size(); ++i) {
-    const RelevantScan& corrected = finished.map.scans()[i];
+    const RelevantScan& corrected = finished.scans[i];
     EXPECT_EQ(ToPoints(corrected.scan).size(), ToPoints(answered[i].scan).size()) << i;
     EXPECT_EQ(corrected.map_robot.T_a_b, finished.correction.map_node[i].T_a_b) << i;
   }

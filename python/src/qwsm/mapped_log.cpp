@@ -47,9 +47,9 @@ void Append(const MappingStep& step, MappedLog& mapped) {
   mapped.status.emplace_back(Name(step.status));
 }
 
-void Correct(SelfCorrectingMapper& mapper, MappedLog& mapped) {
+void Correct(SelfCorrectingMapper& mapper, const ScanMapOptions& options, MappedLog& mapped) {
   FinishedDrive finished = mapper.Finish();
-  mapped.map = std::move(finished.map);
+  mapped.map = MapOf(std::move(finished.scans), options);
   mapped.map_robot = std::move(finished.correction.map_robot);
   mapped.loops = std::move(finished.correction.loops);
 }
@@ -64,7 +64,7 @@ MappedLog MapScans(pipeline::LogSource& source, const MapperOptions& options, bo
     if (mapped.live.size() % kScansBetweenSignals == 0) HandleSignals();
   }
   if (correct) {
-    Correct(correcting, mapped);
+    Correct(correcting, options.map, mapped);
   } else {
     mapped.map = incremental.map();
   }

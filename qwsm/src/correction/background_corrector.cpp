@@ -188,9 +188,10 @@ Correction BackgroundCorrector::Correct() {
   return corrector_.Correct();
 }
 
-ScanMap BackgroundCorrector::MapAt(std::span<const UncertainPose2> map_node) && {
+std::vector<RelevantScan> BackgroundCorrector::ScansAt(
+    std::span<const UncertainPose2> map_node) && {
   Finish();
-  return std::move(corrector_).MapAt(map_node);
+  return std::move(corrector_).ScansAt(map_node);
 }
 
 }  // namespace qwsm

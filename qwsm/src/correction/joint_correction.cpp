@@ -103,10 +103,10 @@ JointCorrection CorrectJointly(const ScanMap& map,
   if (is_extended) {
     MapCorrector corrector = CorrectorOf(map, drives, options);
     joint.correction = corrector.Correct();
-    joint.map = std::move(corrector).MapAt(joint.correction.map_node);
+    joint.scans = std::move(corrector).ScansAt(joint.correction.map_node);
   } else {
     joint.correction = Uncorrected(map);
-    joint.map = map;
+    joint.scans.assign(map.scans().begin(), map.scans().end());
   }
   for (std::size_t i = 0; i < drives.size(); ++i) {
     const std::size_t first = drives[i].first_scan;

@@ -230,7 +230,7 @@ void MapCorrector::ForgetSince(NodeId first) {
   state.settled_loops = std::min(state.settled_loops, CountAccepted(state.loops));
 }
 
-ScanMap MapCorrector::MapAt(std::span<const UncertainPose2> map_node) const& {
+ScanMap MapCorrector::MapAt(std::span<const UncertainPose2> map_node) const {
   ScanMap map(state_->options.map);
   for (NodeId node = 0; node < map_node.size(); ++node) {
     const LaserScan& scan = state_->nodes[node].scan;
@@ -239,16 +239,15 @@ ScanMap MapCorrector::MapAt(std::span<const UncertainPose2> map_node) const& {
   return map;
 }
 
-ScanMap MapCorrector::MapAt(std::span<const UncertainPose2> map_node) && {
-  ScanMap map(state_->options.map);
-  std::vector<ScanNode> nodes = std::move(state_->nodes);
-  state_.reset();  // Room for the points of the map.
-  for (NodeId id = 0; id < nodes.size(); ++id) {
-    LaserScan& scan = nodes[id].scan;
-    const std::vector<ScanPoint> points = ToPoints(scan);
-    map.Insert(std::move(scan), points, map_node[id]);
+std::vector<RelevantScan> MapCorrector::ScansAt(std::span<const UncertainPose2> map_node) && {
+  std::vector<RelevantScan> scans;
+  scans.reserve(map_node.size());
+  for (NodeId id = 0; id < map_node.size(); ++id) {
+    LaserScan& scan = state_->nodes[id].scan;
+    scans.push_back({.id = id, .scan = std::move(scan), .map_robot = map_node[id]});
   }
-  return map;
+  state_.reset();
+  return scans;
 }
 
 Correction MapCorrector::Correct() {

@@ -103,12 +103,13 @@ void ScanChains::Add(std::span<const ScanNode> nodes) {
   position_.push_back(chain.nodes.size());
   robot_.push_back(node.robot);
   parts_.push_back(chain.turns.Take(id, node.scan.geometry.T_robot_laser));
+  const std::vector<ScanPoint> points = ToPoints(node.scan);
   if (chain.nodes.empty()) {
     Begin(node);
   } else {
     const NodeId last = chain.nodes.back();
     const bool hangs = !parts_[id].completes && node.T_last_node;
-    const Attachment attached = hangs ? Hang(node, chain) : Attach(id, nodes, chain);
+    const Attachment attached = hangs ? Hang(node, chain) : Attach(id, points, nodes, chain);
     edges_.push_back(EdgeTo(last, id, T_chain_node_[last], attached.chain_node));
     T_chain_node_.push_back(attached.chain_node.T_a_b);
     NoteMotion(attached);
@@ -117,7 +118,7 @@ void ScanChains::Add(std::span<const ScanNode> nodes) {
   }
   chain.nodes.push_back(id);
   unmatched_.push_back(chain.unmatched);
-  InsertIntoSubmaps(id, ToPoints(node.scan), chain);
+  InsertIntoSubmaps(id, points, chain);
 }
 
 void ScanChains::ForgetSince(std::span<const ScanNode> nodes) {
@@ -215,10 +216,10 @@ ScanChains::Attachment ScanChains::Hang(const ScanNode& node, const Chain& chain
   return {.chain_node = hung, .of_motion = hung.covariance.inverse()};
 }
 
-std::vector<ScanPoint> ScanChains::PointsAround(NodeId node,
-                                                const Pose2& T_chain_robot,
-                                                std::span<const ScanNode> nodes) const {
-  std::vector<ScanPoint> points = ToPoints(nodes[node].scan);
+std::vector<ScanPoint> ScanChains::WithThoseBeside(std::vector<ScanPoint> points,
+                                                   NodeId node,
+                                                   const Pose2& T_chain_robot,
+                                                   std::span<const ScanNode> nodes) const {
   for (const NodeId other : parts_[node].beside) {
     const RigidTransform2 T_robot_other(T_chain_robot.Inverse() * T_chain_node_[other]);
     for (const ScanPoint& point : ToPoints(nodes[other].scan)) {
@@ -242,13 +243,14 @@ ScanChains::Attachment ScanChains::Matched(const MatchResult& match,
 
 // The last submap but one ends with the node before and began at least eight turns ago.
 ScanChains::Attachment ScanChains::Attach(NodeId id,
+                                          const std::vector<ScanPoint>& own_points,
                                           std::span<const ScanNode> nodes,
                                           Chain& chain) const {
   const ScanNode& node = nodes[id];
   SubmapSurfaces& reference = chain.last_surfaces.front();
   const UncertainPose2 chain_last{.T_a_b = T_chain_node_[chain.nodes.back()]};
   const UncertainPose2 predicted = PredictedAfter(chain_last, node);
-  const std::vector<ScanPoint> points = PointsAround(id, predicted.T_a_b, nodes);
+  const std::vector<ScanPoint> points = WithThoseBeside(own_points, id, predicted.T_a_b, nodes);
   MatchPrior prior{.predicted = predicted,
                    .start = predicted.T_a_b,
                    .start_error = {.translation_m = locator_.search_error_m}};

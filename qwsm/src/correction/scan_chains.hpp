@@ -82,7 +82,7 @@ class ScanChains {
   /// What was seen at a node, with what the robot's other lasers have just seen, in the frame of
   /// the robot at that node. @param nodes all that were added
   std::vector<ScanPoint> PointsAround(NodeId node, std::span<const ScanNode> nodes) const {
-    return PointsAround(node, T_chain_node_[node], nodes);
+    return WithThoseBeside(ToPoints(nodes[node].scan), node, T_chain_node_[node], nodes);
   }
 
   /// How points are stored of scans that serve others like them.
@@ -114,15 +114,19 @@ class ScanChains {
 
   void Begin(const ScanNode& node);
   Attachment Hang(const ScanNode& node, const Chain& chain) const;
-  Attachment Attach(NodeId id, std::span<const ScanNode> nodes, Chain& chain) const;
+  Attachment Attach(NodeId id,
+                    const std::vector<ScanPoint>& own_points,
+                    std::span<const ScanNode> nodes,
+                    Chain& chain) const;
   Attachment Matched(const MatchResult& match,
                      const UncertainPose2& predicted,
                      const Eigen::Matrix3d& growth) const;
   void NoteMotion(const Attachment& attached);
   void NoteMatch(NodeId id, const Attachment& attached, const Chain& chain);
-  std::vector<ScanPoint> PointsAround(NodeId node,
-                                      const Pose2& T_chain_robot,
-                                      std::span<const ScanNode> nodes) const;
+  std::vector<ScanPoint> WithThoseBeside(std::vector<ScanPoint> points,
+                                         NodeId node,
+                                         const Pose2& T_chain_robot,
+                                         std::span<const ScanNode> nodes) const;
   static void NoteHold(const Attachment& attached, Chain& chain);
   void ForgetSubmapsSince(NodeId first);
   void GoOn(std::span<const ScanNode> nodes, Chain& chain);

@@ -243,8 +243,8 @@ FinishedDrive SelfCorrectingMapper::Finish() {
   ForgetPoints();
   Correction correction = Correct();
   path_.reset();
-  ScanMap map = std::move(corrector_).MapAt(correction.map_node);
-  return {.correction = std::move(correction), .map = std::move(map)};
+  std::vector<RelevantScan> scans = std::move(corrector_).ScansAt(correction.map_node);
+  return {.correction = std::move(correction), .scans = std::move(scans)};
 }
 
 }  // namespace qwsm

@@ -105,6 +105,15 @@ FrameCovariance ScanMap::CovarianceUnder(std::span<const ScanPoint> points,
   return mean;
 }
 
+ScanMap MapOf(std::vector<RelevantScan> scans, const ScanMapOptions& options) {
+  ScanMap map(options);
+  for (RelevantScan& relevant : scans) {
+    const std::vector<ScanPoint> points = ToPoints(relevant.scan);
+    map.Insert(std::move(relevant.scan), points, relevant.map_robot);
+  }
+  return map;
+}
+
 std::vector<Eigen::Vector2d> PathOf(const ScanMap& map) {
   std::vector<Eigen::Vector2d> path_m;
   path_m.reserve(map.scans().size());

@@ -91,7 +91,7 @@ std::string ComparisonJson(const std::list<Contestant>& contestants) {
   Json json;
   for (const Contestant& contestant : contestants) {
     json["matchers"].Add(MetricsJson(contestant.results.statistics(),
-                                     contestant.mapper.map(),
+                                     FiguresOf(contestant.mapper.map()),
                                      contestant.matcher(),
                                      contestant.results.truth_report()));
   }

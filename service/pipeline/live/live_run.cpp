@@ -145,7 +145,7 @@ team::ScanKey LiveRun::KeyOf(std::uint64_t relevant) const {
   return {.service = name_, .robot = kOnlyRobot, .sequence = relevant};
 }
 
-void LiveRun::Correct(const MapEpoch& epoch, const ScanMap& map) {
+void LiveRun::Correct(const MapEpoch& epoch, std::span<const RelevantScan> scans) {
   team::TeamEpoch told{
       .rank = {.number = ++epochs_, .service = name_}, .stamp = epoch.stamp, .scans = {}};
   for (std::size_t i = 0; i < std::min(relevant_.size(), epoch.map_node.size()); ++i) {
@@ -155,7 +155,7 @@ void LiveRun::Correct(const MapEpoch& epoch, const ScanMap& map) {
   }
   topics_->Show(told);
   painter_ = OccupancyPainter(rendering_);
-  for (const RelevantScan& scan : map.scans()) painter_.Add(scan);
+  for (const RelevantScan& scan : scans) painter_.Add(scan);
   has_new_cells_ = true;
 }
 
@@ -174,10 +174,10 @@ void LiveRun::ShowHealth() const {
       {.name = "qwsm: " + team::DisplayName(kOnlyRobot), .message = state_}});
 }
 
-void LiveRun::Finish(const ScanMap& map, const std::string& end) {
+void LiveRun::Finish(std::span<const RelevantScan> scans, const std::string& end) {
   state_ = end;
   painter_ = OccupancyPainter(rendering_);
-  for (const RelevantScan& scan : map.scans()) painter_.Add(scan);
+  for (const RelevantScan& scan : scans) painter_.Add(scan);
   ShowMap();
   ShowHealth();
 }

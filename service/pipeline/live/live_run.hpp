@@ -5,12 +5,13 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "qwsm/correction/self_correcting_mapper.hpp"
 #include "qwsm/mapping/occupancy_painter.hpp"
-#include "qwsm/mapping/scan_map.hpp"
+#include "qwsm/mapping/relevant_scan.hpp"
 #include "service/options/program_options.hpp"
 #include "service/pipeline/run/interruption.hpp"
 #include "service/pipeline/run/step_sink.hpp"
@@ -35,10 +36,10 @@ class LiveRun final : public StepSink {
   /// What has been marked on the page so far.
   std::vector<team::Mark> marks() const;
   /// Shows a correction of the map. @param map with what was corrected.
-  void Correct(const MapEpoch& epoch, const ScanMap& map);
+  void Correct(const MapEpoch& epoch, std::span<const RelevantScan> scans);
   /// Shows that the run is over. @param map with all that was corrected in the end.
   /// @param end in words.
-  void Finish(const ScanMap& map, const std::string& end);
+  void Finish(std::span<const RelevantScan> scans, const std::string& end);
   /// Leaves the page there until the interruption.
   void StayUntil(const Interruption& interruption);
 

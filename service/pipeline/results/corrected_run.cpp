@@ -36,6 +36,10 @@ std::string LineOf(const Loop& loop, std::span<const RelevantScan> scans) {
 
 }  // namespace
 
+MapFigures FiguresOf(const ScanMap& map) {
+  return {.points = map.surfaces().quadtree().Statistics(), .scans = map.scans().size()};
+}
+
 LoopCounts CountLoops(const Correction& correction, std::size_t epochs) {
   const std::vector<Loop>& loops = correction.loops;
   const auto accepted = std::ranges::count(loops, LoopVerdict::kAccepted, &Loop::verdict);
@@ -52,11 +56,13 @@ std::vector<StampedAnswer> AnswersOf(std::span<const io::PathPose> path) {
 }
 
 CorrectedRun CorrectAtTheEnd(SelfCorrectingMapper& mapper) {
+  const MapFigures answered_in = FiguresOf(mapper.mapper().map());
   mapper.ForgetPoints();  // Now, so that the last correction can take their room.
   GiveBackFreeMemory();
   FinishedDrive finished = mapper.Finish();
   return {.correction = std::move(finished.correction),
-          .map = std::move(finished.map),
+          .scans = std::move(finished.scans),
+          .answered_in = answered_in,
           .epochs = {mapper.epochs().begin(), mapper.epochs().end()}};
 }
 
@@ -81,7 +87,7 @@ void WriteEpochs(const std::filesystem::path& folder, const CorrectedRun& run) {
       io::CsvRow row;
       row.Add(static_cast<double>(i + 1));
       row.Add(epoch.stamp);
-      row.Add(run.map.scans()[node].scan.stamp);
+      row.Add(run.scans[node].scan.stamp);
       row.Add(epoch.map_node[node]);
       table.stream() << row.Finish();
     }

@@ -13,11 +13,19 @@
 
 namespace qwsm::pipeline {
 
+/// What a map comes to.
+struct MapFigures {
+  PointQuadtreeStatistics points;
+  std::size_t scans = 0;
+};
+MapFigures FiguresOf(const ScanMap& map);
+
 /// What is left of a run once its map is corrected.
 struct CorrectedRun {
   Correction correction;
-  ScanMap map;                   ///< The scans at their corrected poses.
-  std::vector<MapEpoch> epochs;  ///< The corrections while the robot drove.
+  std::vector<RelevantScan> scans;  ///< At their corrected poses; MapOf() makes them searchable.
+  MapFigures answered_in;           ///< Of the map that the last scans were matched to.
+  std::vector<MapEpoch> epochs;     ///< The corrections while the robot drove.
 };
 
 /// Counts the loops that came to each end.

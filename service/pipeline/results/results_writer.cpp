@@ -43,14 +43,14 @@ void ResultsWriter::Finish(const ScanMap& map,
                            const Trajectory& truth) {
   trajectory_.Commit();
   table_.Commit();
-  Drawing drawing{.map = map, .overlay = std::move(history_).Overlay()};
+  Drawing drawing{.scans = map.scans(), .overlay = std::move(history_).Overlay()};
   const std::vector<io::PathPose>& path = drawing.overlay.path;
   io::WriteKittiFile(folder_ / ResultFile::kTrajectoryKitti, io::TrajectoryOf(path));
-  WriteFigures({.map = map, .matcher = matcher, .path = path, .loops = {}}, truth);
+  WriteFigures({.map = FiguresOf(map), .matcher = matcher, .path = path, .loops = {}}, truth);
   Draw(std::move(drawing), rendering);
 }
 
-void ResultsWriter::Finish(const ScanMap& map_live,
+void ResultsWriter::Finish(std::span<const RelevantScan> answered,
                            MatcherKind matcher,
                            const CorrectedRun& corrected,
                            const OccupancyGridOptions& rendering,
@@ -58,8 +58,9 @@ void ResultsWriter::Finish(const ScanMap& map_live,
   trajectory_.Commit();
   table_.Commit();
   const Correction& correction = corrected.correction;
-  Drawing drawing{
-      .map = corrected.map, .overlay = std::move(history_).Overlay(), .correction = &correction};
+  Drawing drawing{.scans = corrected.scans,
+                  .overlay = std::move(history_).Overlay(),
+                  .correction = &correction};
   io::MapOverlay& overlay = drawing.overlay;
   overlay.answered = io::TrajectoryOf(overlay.path);
   Correct(overlay.path, correction);
@@ -70,14 +71,14 @@ void ResultsWriter::Finish(const ScanMap& map_live,
   const Trajectory trajectory = io::TrajectoryOf(overlay.path);
   io::WriteTumFile(folder_ / ResultFile::kTrajectory, trajectory);
   io::WriteKittiFile(folder_ / ResultFile::kTrajectoryKitti, trajectory);
-  WriteLoops(folder_.path(), correction, corrected.map.scans());
+  WriteLoops(folder_.path(), correction, corrected.scans);
   WriteEpochs(folder_.path(), corrected);
-  WriteFigures({.map = corrected.map,
+  WriteFigures({.map = corrected.answered_in,
                 .matcher = matcher,
                 .path = overlay.path,
                 .loops = CountLoops(correction, corrected.epochs.size())},
                truth);
-  if (has_pictures_) drawing.before = RenderOrWarn(map_live, rendering);
+  if (has_pictures_) drawing.before = RenderOrWarn(answered, rendering);
   Draw(std::move(drawing), rendering);
 }
 
@@ -85,6 +86,7 @@ void ResultsWriter::WriteFigures(const Outcome& outcome, const Trajectory& truth
   if (!T_world_map_) T_world_map_ = TrueMapInWorld(outcome.path, truth);
   if (T_world_map_) truth_in_map_ = TruthInMap(truth, *T_world_map_);
   truth_report_ = CompareWithTruth(outcome.path, truth_in_map_);
+  map_ = outcome.map;
   loops_ = outcome.loops;
   if (!truth_in_map_.empty()) io::WriteTumFile(folder_ / ResultFile::kTruth, truth_in_map_);
   metrics_ = MetricsJson(statistics_, outcome.map, outcome.matcher, truth_report_, outcome.loops);
@@ -97,7 +99,7 @@ void ResultsWriter::WriteFigures(const Outcome& outcome, const Trajectory& truth
 
 void ResultsWriter::Draw(Drawing drawing, const OccupancyGridOptions& rendering) const {
   drawing.overlay.truth = truth_in_map_;
-  const std::optional<OccupancyGrid> grid = RenderOrWarn(drawing.map, rendering);
+  const std::optional<OccupancyGrid> grid = RenderOrWarn(drawing.scans, rendering);
   if (grid) io::WriteRosMap(folder_ / ResultFile::kMap, *grid);
   if (!has_pictures_) return;
   if (grid) {
@@ -119,12 +121,7 @@ void ResultsWriter::WriteReport(const Drawing& drawing, const OccupancyGrid* gri
                   .times_ms = history_.times_ms(),
                   .doubtful = doubtful_.Worst(),
                   .correction = drawing.correction,
-                  .relevant = drawing.map.scans()});
-}
-
-std::optional<OccupancyGrid> RenderOrWarn(const ScanMap& map,
-                                          const OccupancyGridOptions& rendering) {
-  return RenderOrWarn(map.scans(), rendering);
+                  .relevant = drawing.scans});
 }
 
 std::optional<OccupancyGrid> RenderOrWarn(std::span<const RelevantScan> scans,

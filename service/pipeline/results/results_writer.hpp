@@ -55,7 +55,8 @@ class ResultsWriter final : public StepSink {
               const Trajectory& truth = {});
   /// Writes what can only be known at the end of a corrected run: the corrected poses are the
   /// trajectory, and the map is that of the scans there; the map as it was goes into map_live.png.
-  void Finish(const ScanMap& map_live,
+  /// @param answered the relevant scans where they were answered.
+  void Finish(std::span<const RelevantScan> answered,
               MatcherKind matcher,
               const CorrectedRun& corrected,
               const OccupancyGridOptions& rendering,
@@ -64,6 +65,8 @@ class ResultsWriter final : public StepSink {
   /// The poses as they were answered, before Finish().
   const std::vector<io::PathPose>& path() const { return history_.path(); }
   const RunStatistics& statistics() const { return statistics_; }
+  /// What the map came to that scans were matched to, after Finish().
+  const MapFigures& map() const { return map_; }
   /// Counts of loops, after Finish() of a corrected run.
   const std::optional<LoopCounts>& loops() const { return loops_; }
   /// The report on the truth, after Finish(), where the truth is known.
@@ -75,14 +78,14 @@ class ResultsWriter final : public StepSink {
  private:
   // What is known at the end of a run.
   struct Outcome {
-    const ScanMap& map;
+    MapFigures map;
     MatcherKind matcher;
     std::span<const io::PathPose> path;
     std::optional<LoopCounts> loops{};
   };
   // What a run and its correction are drawn from.
   struct Drawing {
-    const ScanMap& map;
+    std::span<const RelevantScan> scans;
     io::MapOverlay overlay;
     const Correction* correction = nullptr;
     std::optional<OccupancyGrid> before{};  // The map before it was corrected.
@@ -104,6 +107,7 @@ class ResultsWriter final : public StepSink {
   std::optional<Pose2> T_world_map_;
   Trajectory truth_in_map_;
   std::optional<TruthReport> truth_report_;
+  MapFigures map_;
   std::optional<LoopCounts> loops_;
 };
 
@@ -111,7 +115,5 @@ class ResultsWriter final : public StepSink {
 /// nothing where there is nothing to render.
 std::optional<OccupancyGrid> RenderOrWarn(std::span<const RelevantScan> scans,
                                           OccupancyGridOptions rendering);
-std::optional<OccupancyGrid> RenderOrWarn(const ScanMap& map,
-                                          const OccupancyGridOptions& rendering);
 
 }  // namespace qwsm::pipeline

@@ -42,11 +42,10 @@ std::string_view Name(MatcherKind matcher) {
 }
 
 Json MetricsJson(const RunStatistics& run,
-                 const ScanMap& map,
+                 const MapFigures& map,
                  MatcherKind matcher,
                  const std::optional<TruthReport>& truth,
                  const std::optional<LoopCounts>& loops) {
-  const PointQuadtreeStatistics points = map.surfaces().quadtree().Statistics();
   Json json;
   json["matcher"] = Name(matcher);
   json["scans"] = run.scans();
@@ -65,11 +64,11 @@ Json MetricsJson(const RunStatistics& run,
     json["ms_p99"] = run.TimeQuantile_ms(0.99);
     json["ms_max"] = run.longest_time_ms();
   }
-  json["map"]["points"] = points.points;
-  json["map"]["scans"] = map.scans().size();
-  json["map"]["quadtree_nodes"] = points.nodes;
-  json["map"]["quadtree_depth"] = points.depth;
-  json["map"]["quadtree_bytes"] = points.bytes;
+  json["map"]["points"] = map.points.points;
+  json["map"]["scans"] = map.scans;
+  json["map"]["quadtree_nodes"] = map.points.nodes;
+  json["map"]["quadtree_depth"] = map.points.depth;
+  json["map"]["quadtree_bytes"] = map.points.bytes;
   if (loops) {
     json["loops"]["found"] = loops->found;
     json["loops"]["accepted"] = loops->accepted;
@@ -80,10 +79,9 @@ Json MetricsJson(const RunStatistics& run,
 }
 
 std::string SummaryText(const RunStatistics& run,
-                        const ScanMap& map,
+                        const MapFigures& map,
                         const std::optional<TruthReport>& truth,
                         const std::optional<LoopCounts>& loops) {
-  const PointQuadtreeStatistics points = map.surfaces().quadtree().Statistics();
   std::string text = fmt::format("scans          {}", WithThousands(run.scans()));
   if (run.scans() == 0) return text + "\n";
   text += fmt::format(", {:.0f} per second (median {:.2f} ms, p99 {:.2f} ms, longest {:.1f} ms)\n",
@@ -113,9 +111,9 @@ std::string SummaryText(const RunStatistics& run,
   }
   text += fmt::format("mean residual  {:.2f} mm\n", run.MeanResidual_mm());
   text += fmt::format("map            {} points of {} relevant scans, {:.1f} MB\n",
-                      WithThousands(points.points),
-                      WithThousands(map.scans().size()),
-                      static_cast<double>(points.bytes) * 1e-6);
+                      WithThousands(map.points.points),
+                      WithThousands(map.scans),
+                      static_cast<double>(map.points.bytes) * 1e-6);
   if (loops) {
     text += fmt::format("loops          {} accepted of {} found; path and map {}\n",
                         WithThousands(loops->accepted),

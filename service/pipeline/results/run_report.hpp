@@ -18,14 +18,14 @@ std::string_view Name(MatcherKind matcher);
 
 /// The figures of a run; every name ends in its unit. Names are only ever added.
 Json MetricsJson(const RunStatistics& run,
-                 const ScanMap& map,
+                 const MapFigures& map,
                  MatcherKind matcher,
                  const std::optional<TruthReport>& truth,
                  const std::optional<LoopCounts>& loops = {});
 
 /// The figures of a run in a few lines for people.
 std::string SummaryText(const RunStatistics& run,
-                        const ScanMap& map,
+                        const MapFigures& map,
                         const std::optional<TruthReport>& truth,
                         const std::optional<LoopCounts>& loops = {});
 

@@ -145,7 +145,8 @@ void TeamResults::RobotResults::Finish(const FinalMap& map) {
   if (map.correction) loops = CountLoops(*map.correction, known->epoch);
   io::WriteTextFile(
       folder() / ResultFile::kMetrics,
-      MetricsJson(statistics_, known->map, MatcherKind::kQWsm, std::nullopt, loops).Text());
+      MetricsJson(statistics_, FiguresOf(known->map), MatcherKind::kQWsm, std::nullopt, loops)
+          .Text());
   if (!map.grid) return;
   io::MapOverlay overlay = OverlayOf(std::move(placed_), map.known->VersionOf(*known).map);
   if (map.correction) overlay.loops = LoopLines(*map.correction);

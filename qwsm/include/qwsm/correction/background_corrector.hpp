@@ -71,9 +71,9 @@ class BackgroundCorrector {
   /// Corrects all that was added once more, in the end: loops are looked for from where others have
   /// moved the scans, too.
   Correction Correct();
-  /// The scans that were added, inserted at these poses in the order they came, when it is not
-  /// needed any more. @param map_node as Correct() gives them.
-  ScanMap MapAt(std::span<const UncertainPose2> map_node) &&;
+  /// The scans that were added, at these poses in the order they came, when they are not needed
+  /// here any more. @param map_node as Correct() gives them.
+  std::vector<RelevantScan> ScansAt(std::span<const UncertainPose2> map_node) &&;
 
  private:
   // A pose in the map as it was, and as it is.

@@ -27,7 +27,7 @@ struct DriveInMap {
 /// A map that several drives made, and their paths, consistent as a whole.
 struct JointCorrection {
   Correction correction;                               ///< `map_robot` is left empty.
-  ScanMap map;                                         ///< The scans at their corrected poses.
+  std::vector<RelevantScan> scans;                     ///< At their corrected poses.
   std::vector<std::vector<UncertainPose2>> map_robot;  ///< The path of each drive.
 };
 

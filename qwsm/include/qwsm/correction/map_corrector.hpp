@@ -45,14 +45,14 @@ class MapCorrector {
   /// Forgets the last nodes, as if they had never been added. @param first of them.
   void ForgetSince(NodeId first);
   /// The nodes' scans inserted at these poses, in the order they were taken.
-  ScanMap MapAt(std::span<const UncertainPose2> map_node) const&;
-  /// Likewise when it is not needed any more: the scans are moved into the map.
+  ScanMap MapAt(std::span<const UncertainPose2> map_node) const;
+  /// The nodes' scans at these poses, when they are not needed here any more.
   /// @param map_node of all nodes.
-  ScanMap MapAt(std::span<const UncertainPose2> map_node) &&;
+  std::vector<RelevantScan> ScansAt(std::span<const UncertainPose2> map_node) &&;
 
   /// Finds the loops among what was taken so far, the poses that agree best with them, and from
-  /// there those on which every scan agrees best with all others. Where the map would contradict the
-  /// scans more than before, poses stay as they are.
+  /// there those on which every scan agrees best with all others. Where the map would contradict
+  /// the scans more than before, poses stay as they are.
   Correction Correct();
 
  private:

@@ -27,7 +27,7 @@ struct MapEpoch {
 /// What a drive comes to.
 struct FinishedDrive {
   Correction correction;
-  ScanMap map;  ///< The relevant scans at the corrected poses.
+  std::vector<RelevantScan> scans;  ///< At the corrected poses; MapOf() makes them searchable.
 };
 
 /// A mapper whose map is corrected while the robot drives: each scan is answered at once, loops

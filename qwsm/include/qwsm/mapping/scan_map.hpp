@@ -113,6 +113,9 @@ class ScanMap {
   std::vector<ScanError> errors_;    // By ScanId.
 };
 
+/// The map of scans where they are, inserted in their order.
+ScanMap MapOf(std::vector<RelevantScan> scans, const ScanMapOptions& options = {});
+
 /// The positions of all scans of a map.
 std::vector<Eigen::Vector2d> PathOf(const ScanMap& map);
 
