@@ -191,6 +191,27 @@ TEST_F(PointFiles, WithPosesThatAreNowhereAreRefused) {
   EXPECT_THROW(ReadPoses(tum), std::runtime_error);
 }
 
+TEST_F(PointFiles, WithTwoPosesOfOneScanAreRefused) {
+  const auto complaint = [](const fs::path& poses) -> std::string {
+    try {
+      ReadPoses(poses);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  const fs::path tum = Write("poses.tum", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n0 2 0 0 0 0 0 1\n");
+  EXPECT_NE(complaint(tum).find("poses.tum:3: a pose of this number or stamp stands before"),
+            std::string::npos)
+      << complaint(tum);
+  const fs::path folder = folder_.path() / "poses";
+  fs::create_directory(folder);
+  Write("poses/scan001.pose", "0 0 0\n0 0 0\n");
+  Write("poses/scan1.pose", "1 0 0\n0 0 0\n");
+  EXPECT_NE(complaint(folder).find(": another file has the number 1, too"), std::string::npos)
+      << complaint(folder);
+}
+
 TEST_F(PointFiles, AreInTheUnitThatIsStated) {
   const fs::path xyz = Write("a.xyz", "1000 0 0\n");
   const fs::path uos = Write("a.3d", "0 0 1\n");

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/io/clouds/trajectory3_file.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <fstream>
@@ -32,7 +34,7 @@ NumberedPoses ReadTum3(const fs::path& file) {
         for (double* const part : {&q.x(), &q.y(), &q.z(), &q.w()}) *part = fields.Number();
         if (!(q.norm() > 0.0)) fields.Fail(qwsm::io::FieldFault::kNoRotation);
         pose.rotation = q.normalized().toRotationMatrix();
-        poses[stamp] = pose;
+        if (!poses.emplace(stamp, pose).second) fields.Fail(qwsm::io::FieldFault::kRepeated);
       });
   if (poses.empty()) throw std::runtime_error(file.string() + ": holds no poses");
   return poses;
@@ -44,8 +46,14 @@ NumberedPoses ReadFolder(const fs::path& folder, const std::string& ending) {
     if (entry.path().extension() != ending) continue;
     const auto number = qwsm::io::NumberedName::Of(entry.path().stem().string()).Number();
     if (!number) continue;
-    poses[static_cast<double>(*number)] =
+    const Pose3 pose =
         ending == ".frames" ? ReadUosFrames(entry.path()) : ReadUosPose(entry.path());
+    if (!poses.emplace(static_cast<double>(*number), pose).second) {
+      throw std::runtime_error(
+          fmt::format("{}: another file has the number {}, too; leave the one that is meant",
+                      entry.path().string(),
+                      *number));
+    }
   }
   return poses;
 }

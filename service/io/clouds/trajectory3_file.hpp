@@ -32,7 +32,7 @@ void WriteKitti3(const std::filesystem::path& file, const std::vector<Pose3>& T_
 
 /// Reads poses: a TUM trajectory, a folder of results that holds one, or a folder of `.frames` or
 /// else `.pose` files of 3DTK.
-/// @throws std::runtime_error naming file and line where there are none.
+/// @throws std::runtime_error naming file and line where there are none, or two of one scan.
 NumberedPoses ReadPoses(const std::filesystem::path& file_or_folder);
 
 /// Poses that are only counted, 0 to N - 1, by as many numbers in order: they are of the

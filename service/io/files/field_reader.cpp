@@ -67,6 +67,8 @@ std::string_view Explain(FieldFault fault) {
       return "the stated bearings are no sweep of a laser; correct field of view and resolution";
     case FieldFault::kNoRotation:
       return "the quaternion is all zero and stands for no rotation";
+    case FieldFault::kRepeated:
+      return "a pose of this number or stamp stands before; leave the one that is meant";
     case FieldFault::kSurplus:
       return "the line goes on after its last field; the count of readings may be wrong";
     case FieldFault::kTooLong:

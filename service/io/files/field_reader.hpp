@@ -22,6 +22,7 @@ enum class FieldFault {
   kBadStamp,
   kBadGeometry,
   kNoRotation,
+  kRepeated,
   kSurplus,
   kTooLong,
   kNotText,
