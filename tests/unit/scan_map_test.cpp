@@ -70,6 +70,19 @@ TEST_F(MapOfARoom, IsAsUncertainAsItsLastScanWhereNothingIsNear) {
   EXPECT_TRUE(covariance.isApprox(Variance(0.05)));
 }
 
+TEST_F(MapOfARoom, IsMadeAnewOfItsScans) {
+  Insert(0.01);
+  Insert(0.02);
+  const ScanMap anew = MapOf({map_.scans().begin(), map_.scans().end()}, map_.options());
+  ASSERT_EQ(anew.scans().size(), 2U);
+  EXPECT_EQ(anew.scans()[1].id, 1U);
+  EXPECT_EQ(anew.scans()[1].map_robot.covariance, Variance(0.02));
+  EXPECT_EQ(anew.surfaces().quadtree().Positions(), map_.surfaces().quadtree().Positions());
+  const std::vector<ScanPoint> points = ToPoints(NextScan());
+  EXPECT_EQ(anew.CovarianceUnder(points, {}).about_origin,
+            map_.CovarianceUnder(points, {}).about_origin);
+}
+
 // As in the coordinates of a country's survey.
 TEST_F(MapOfARoom, KnowsItsErrorsFarFromTheOrigin) {
   const Pose2 far_off{5e5, 5.4e6, 0.0};
