@@ -134,13 +134,10 @@ std::vector<team::Mark> WithThoseOfPage(std::vector<team::Mark> marks,
 /// Leaves what is marked on the map among the results, and both where the map is to be saved.
 void KeepMap(const MapArguments& arguments,
              const RunSession& session,
-             std::span<const RelevantScan> scans,
-             const ScanMapOptions& options,
+             const ScanMap& map,
              const std::vector<team::Mark>& marks) {
   pipeline::WriteMarks(session.folder().path(), marks);
-  if (!arguments.save_map) return;
-  const ScanMap map = MapOf({scans.begin(), scans.end()}, options);
-  pipeline::SaveMap(*arguments.save_map, map, marks);
+  if (arguments.save_map) pipeline::SaveMap(*arguments.save_map, map, marks);
 }
 
 constexpr const char* kAtEnd = "the log is at its end";
@@ -220,13 +217,16 @@ ExitCode MapAll(const MapArguments& arguments,
       marks.Placed(corrected ? corrected->correction.map_robot : std::vector<UncertainPose2>());
   if (live && corrected) live->Correct({.map_node = corrected->correction.map_node}, scans);
   if (live) live->Finish(scans, corrected ? "the log is at its end, the map corrected" : kAtEnd);
-  KeepMap(arguments, session, scans, options.mapper.map, WithThoseOfPage(of_log, live.get()));
+  std::optional<ScanMap> searchable;  // The corrected one, only where it is to be saved.
+  if (arguments.save_map && corrected) searchable = MapOf(corrected->scans, options.mapper.map);
+  const ScanMap& map = searchable ? *searchable : mapper.map();
+  KeepMap(arguments, session, map, WithThoseOfPage(of_log, live.get()));
   session.Summarize(results);
   const ExitCode code = session.Conclude(end);
   if (live && code == ExitCode::kDone) {
     KeepPage(
         [&live](const pipeline::Interruption& interruption) { live->StayUntil(interruption); });
-    KeepMap(arguments, session, scans, options.mapper.map, WithThoseOfPage(of_log, live.get()));
+    KeepMap(arguments, session, map, WithThoseOfPage(of_log, live.get()));
   }
   return code;
 }

@@ -35,9 +35,9 @@ class LiveRun final : public StepSink {
   void Take(const TimedStep& timed) override;
   /// What has been marked on the page so far.
   std::vector<team::Mark> marks() const;
-  /// Shows a correction of the map. @param map with what was corrected.
+  /// Shows a correction of the map. @param scans where they are now.
   void Correct(const MapEpoch& epoch, std::span<const RelevantScan> scans);
-  /// Shows that the run is over. @param map with all that was corrected in the end.
+  /// Shows that the run is over. @param scans where they are in the end.
   /// @param end in words.
   void Finish(std::span<const RelevantScan> scans, const std::string& end);
   /// Leaves the page there until the interruption.
