@@ -23,7 +23,7 @@ MatchResult MatchScans(const LaserScan& reference,
     return {.status = MatchStatus::kDegenerate, .T_ref_cur = guess.T_a_b, .predicted = guess};
   }
   ScanMap map;
-  map.Insert(reference, ToPoints(reference), {});
+  map.Insert(reference, {});
   return ScanLocator().Locate(map, ToPoints(scan), guess);
 }
 

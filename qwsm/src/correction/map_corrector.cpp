@@ -233,8 +233,7 @@ void MapCorrector::ForgetSince(NodeId first) {
 ScanMap MapCorrector::MapAt(std::span<const UncertainPose2> map_node) const {
   ScanMap map(state_->options.map);
   for (NodeId node = 0; node < map_node.size(); ++node) {
-    const LaserScan& scan = state_->nodes[node].scan;
-    map.Insert(scan, ToPoints(scan), map_node[node]);
+    map.Insert(state_->nodes[node].scan, map_node[node]);
   }
   return map;
 }

@@ -39,7 +39,7 @@ ScanMap NearbyBefore(const ScanMap& map,
   ScanMap nearby(map.options());
   for (const RelevantScan& scan : map.scans().first(before)) {
     if ((scan.map_robot.T_a_b.translation_m() - here_m).norm() > reach_m) continue;
-    nearby.Insert(scan.scan, ToPoints(scan.scan), scan.map_robot);
+    nearby.Insert(scan.scan, scan.map_robot);
   }
   return nearby;
 }

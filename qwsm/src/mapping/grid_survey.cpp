@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "qwsm/geometry/moments.hpp"
@@ -102,7 +103,7 @@ class Surveyor {
     const double half_cell_m2 = UniformVariance(grid_.cell_m);
     UncertainPose2 map_laser{.T_a_b = {.x_m = p_map_m.x(), .y_m = p_map_m.y()}};
     map_laser.covariance.diagonal() = Eigen::Vector3d(half_cell_m2, half_cell_m2, 0.0);
-    map.Insert(scan, ToPoints(scan), map_laser);
+    map.Insert(std::move(scan), map_laser);
   }
 
   // To the surface of the first cell that is not free: infinite where that is unknown, or there is

@@ -51,7 +51,7 @@ void Localizer::Extend(const TrackedScan& tracked) {
 
 void Localizer::Join(const ScanMap& local) {
   for (const RelevantScan& scan : local.scans()) {
-    map_.Insert(scan.scan, ToPoints(scan.scan), map_local_ * scan.map_robot);
+    map_.Insert(scan.scan, map_local_ * scan.map_robot);
   }
 }
 

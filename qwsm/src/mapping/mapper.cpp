@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "qwsm/mapping/mapper.hpp"
 
+#include <span>
 #include <utility>
-
-#include "qwsm/sensor/scan_points.hpp"
 
 namespace qwsm {
 
@@ -23,13 +22,13 @@ void Mapper::GoOnIn(ScanMap corrected, const UncertainPose2& map_robot) {
 void Mapper::PlaceAt(const UncertainPose2& map_robot) { tracker_.PlaceAt(map_robot); }
 
 void Mapper::Extend(const LaserScan& scan, const UncertainPose2& map_robot) {
-  map_.Insert(scan, ToPoints(scan), map_robot);
+  map_.Insert(scan, map_robot);
 }
 
 // Points that were kept out as others were there already are to be inserted: all begins anew.
 void Mapper::ForgetSince(ScanId first) {
-  const ScanMap before = std::exchange(map_, ScanMap(map_.options()));
-  for (const RelevantScan& scan : before.scans().first(first)) Extend(scan.scan, scan.map_robot);
+  const std::span<const RelevantScan> left = map_.scans().first(first);
+  map_ = MapOf({left.begin(), left.end()}, map_.options());
 }
 
 MappingStep Mapper::Process(const Observation& observation) {

@@ -54,6 +54,11 @@ ScanId ScanMap::Insert(LaserScan scan,
   return Add(Prepare(std::move(scan), points, map_robot));
 }
 
+ScanId ScanMap::Insert(LaserScan scan, const UncertainPose2& map_robot) {
+  const std::vector<ScanPoint> points = ToPoints(scan);
+  return Insert(std::move(scan), points, map_robot);
+}
+
 MapAddition ScanMap::Prepare(LaserScan scan,
                              std::span<const ScanPoint> points,
                              const UncertainPose2& map_robot) const {
@@ -108,8 +113,7 @@ FrameCovariance ScanMap::CovarianceUnder(std::span<const ScanPoint> points,
 ScanMap MapOf(std::vector<RelevantScan> scans, const ScanMapOptions& options) {
   ScanMap map(options);
   for (RelevantScan& relevant : scans) {
-    const std::vector<ScanPoint> points = ToPoints(relevant.scan);
-    map.Insert(std::move(relevant.scan), points, relevant.map_robot);
+    map.Insert(std::move(relevant.scan), relevant.map_robot);
   }
   return map;
 }

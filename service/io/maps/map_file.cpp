@@ -6,8 +6,8 @@
 
 #include <cstdint>
 #include <fstream>
+#include <utility>
 
-#include "qwsm/sensor/scan_points.hpp"
 #include "service/io/files/atomic_file.hpp"
 #include "service/io/files/binary.hpp"
 #include "service/io/files/file_error.hpp"
@@ -80,8 +80,8 @@ ScanMap DecodeContents(const Contents& contents) {
   ScanMap map(ReadMapOptions(reader));
   const std::size_t scans = reader.Count(kScanBytes);
   for (std::size_t i = 0; i < scans; ++i) {
-    const RelevantScan relevant = ReadScan(reader);
-    map.Insert(relevant.scan, ToPoints(relevant.scan), relevant.map_robot);
+    RelevantScan relevant = ReadScan(reader);
+    map.Insert(std::move(relevant.scan), relevant.map_robot);
   }
   if (!HoldsPoints(reader, map.surfaces().quadtree())) {
     throw BinaryError("its points are not those of its scans; was it saved by another release?");

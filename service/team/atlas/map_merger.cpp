@@ -171,7 +171,7 @@ double MapMerger::NatsOfPlace(const std::vector<TeamScan>& scans,
     if (stop.stop_requested()) break;
     const bool is_of_robot = scan.key.robot == robot;
     if (!is_of_robot && !elders.contains(scan.key.robot)) continue;
-    (is_of_robot ? of_robot : of_elders).Insert(scan.scan, ToPoints(scan.scan), scan.map_robot);
+    (is_of_robot ? of_robot : of_elders).Insert(scan.scan, scan.map_robot);
   }
   return agreement_.Judge(of_elders, of_robot, {}, stop).nats;
 }

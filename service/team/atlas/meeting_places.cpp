@@ -112,8 +112,7 @@ class MeetingSearch {
   void Insert(std::size_t map, const UncertainPose2& first_map) {
     std::vector<ScanId>& scans_of_robot = scans_of_met_.emplace_back();
     for (const RelevantScan& scan : maps_[map].map().scans()) {
-      scans_of_robot.push_back(
-          met_.map.Insert(scan.scan, ToPoints(scan.scan), first_map * scan.map_robot));
+      scans_of_robot.push_back(met_.map.Insert(scan.scan, first_map * scan.map_robot));
     }
     met_.places.push_back({.map = map, .first_map = first_map});
   }

@@ -83,6 +83,8 @@ class ScanMap {
 
   /// Adds a relevant scan. @param points the scan's points, as ToPoints() gives them.
   ScanId Insert(LaserScan scan, std::span<const ScanPoint> points, const UncertainPose2& map_robot);
+  /// Likewise, where the points of the scan are not at hand.
+  ScanId Insert(LaserScan scan, const UncertainPose2& map_robot);
   /// Prepares what Insert() would add to the map as it is now.
   MapAddition Prepare(LaserScan scan,
                       std::span<const ScanPoint> points,
@@ -114,7 +116,7 @@ class ScanMap {
 };
 
 /// The map of scans where they are, inserted in their order.
-ScanMap MapOf(std::vector<RelevantScan> scans, const ScanMapOptions& options = {});
+ScanMap MapOf(std::vector<RelevantScan> scans, const ScanMapOptions& options);
 
 /// The positions of all scans of a map.
 std::vector<Eigen::Vector2d> PathOf(const ScanMap& map);
