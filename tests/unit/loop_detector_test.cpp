@@ -80,22 +80,15 @@ TEST_F(LoopClosure, IsMostlyFoundByOneClumpWithTheHelpOfTheEstimate) {
   EXPECT_GE(found, 8);
 }
 
-// Now and then the noise of a scan tells them apart, rightly or not.
-TEST_F(LoopClosure, MostlyStaysWhereItIsBetweenTwoPlacesThatLookAlike) {
-  const World clump = ClumpAt(9.0, 2.0);
+TEST_F(LoopClosure, StaysWhereItIsBetweenTwoPlacesThatLookAlike) {
+  See(ClumpAt(9.0, 2.0));
+  const std::vector<ScanPoint> one_clump = points_;
+  World twins = ClumpAt(9.0, 2.0);
   const World other = ClumpAt(9.0, -0.5);
-  World twins = clump;
   twins.columns.insert(twins.columns.end(), other.columns.begin(), other.columns.end());
-  constexpr unsigned kSeeds = 60;
-  unsigned found = 0;
-  for (unsigned seed = 0; seed < kSeeds; ++seed) {
-    See(clump, seed);
-    const std::vector<ScanPoint> one_clump = points_;
-    See(twins, seed);
-    points_ = one_clump;
-    found += Find({0.2, -1.15, 0.02}, 0.8) ? 1U : 0U;
-  }
-  EXPECT_LE(found, kSeeds / 5);
+  See(twins);
+  points_ = one_clump;
+  EXPECT_FALSE(Find({0.2, -1.15, 0.02}, 0.8));
 }
 
 TEST_F(LoopClosure, StaysWhereItIsBetweenWallsThatLookTheSameEverywhere) {
