@@ -34,8 +34,10 @@ LaserScan AnyScan(std::mt19937_64& random) {
   return scan;
 }
 
-/// Mean of the neighbours of one surface and closer than kSurfaceReach_m, as its definition has it.
-Eigen::Vector2d ToMeanOfClose(const std::vector<ScanPoint>& points, std::size_t center) {
+/// Mean of the neighbours of one surface within reach, as its definition has it.
+Eigen::Vector2d ToMeanWithin(double reach_m,
+                             const std::vector<ScanPoint>& points,
+                             std::size_t center) {
   const ScanPoint& point = points[center];
   const double gap_m = std::max(0.03, 3.0 * point.arc_m);
   Eigen::Vector2d sum_m = Eigen::Vector2d::Zero();
@@ -45,7 +47,7 @@ Eigen::Vector2d ToMeanOfClose(const std::vector<ScanPoint>& points, std::size_t 
     for (std::size_t i = center + static_cast<std::size_t>(step); i < points.size();
          i += static_cast<std::size_t>(step)) {
       const Eigen::Vector2d offset = points[i].p_robot_m - point.p_robot_m;
-      if (offset.norm() > kSurfaceReach_m) break;
+      if (offset.norm() > reach_m) break;
       if ((points[i].p_robot_m - points[last].p_robot_m).norm() > gap_m) break;
       sum_m += offset;
       ++count;
@@ -62,7 +64,10 @@ TEST(ScanSurface, MeansAreOfTheNeighborsOfOneSurface) {
     const std::vector<ScanPoint> points = ToPoints(AnyScan(random));
     ASSERT_GT(points.size(), 150U);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      EXPECT_LT((points[i].to_mean_robot_m - ToMeanOfClose(points, i)).norm(), 1e-12) << i;
+      const Eigen::Vector2d to_mean_m = ToMeanWithin(kSurfaceReach_m, points, i);
+      const Eigen::Vector2d to_mean_near_m = ToMeanWithin(0.5 * kSurfaceReach_m, points, i);
+      EXPECT_LT((points[i].to_mean_robot_m - to_mean_m).norm(), 1e-12) << i;
+      EXPECT_LT((points[i].to_mean_near_robot_m - to_mean_near_m).norm(), 1e-12) << i;
     }
   }
 }

@@ -124,6 +124,23 @@ TEST(SurfaceMap, NearPointsHaveAMeanThatLiesLessBehindACurve) {
   EXPECT_NEAR(front->position_m.x() - map.MeanNear(*front).x(), 0.25 * depth_m, 0.05 * depth_m);
 }
 
+// Where matching asks often they are kept as points come, else searched for.
+TEST(SurfaceMap, TellsTheMeanOfNearPointsKeptOrSearched) {
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> any_m(-0.15, 0.15);
+  SurfaceMap searched;
+  SurfaceMap kept = SurfaceMap::ForMatching({});
+  for (int i = 0; i < 300; ++i) {
+    const Eigen::Vector2d p_m(3.0 + any_m(random), -2.0 + any_m(random));
+    for (SurfaceMap* map : {&searched, &kept}) map->Insert({.p_map_m = p_m}, 0);
+    if (i % 10 > 0) continue;
+    kept.quadtree().ForEach([&](PointId id, const Eigen::Vector2d& p_map_m) {
+      const Neighbor stored{.id = id, .position_m = p_map_m};
+      EXPECT_LT((kept.MeanNear(stored) - searched.MeanNear(stored)).norm(), 1e-6);
+    });
+  }
+}
+
 TEST(SurfaceMap, TheSidesOfAThinWallAreTwoSurfaces) {
   SurfaceMap map;
   const Eigen::Vector2d left(0.0, 1.0);

@@ -200,6 +200,30 @@ TEST(CorrectedDrive, TurnsByAsMuchAsItsWheelsTellAfterALongStreet) {
   EXPECT_LT(ate_m, 2.0);
 }
 
+// What comes into view beside it is seen from one side: what is alike is compared, or every match
+// errs the same way.
+TEST(CorrectedDrive, IsGoodToADecimetreByALaserThatLooksBack) {
+  constexpr int kDrives = 3;
+  double ate_m = 0.0;
+  double nees = 0.0;
+  for (int seed = 1; seed <= kDrives; ++seed) {
+    SCOPED_TRACE(seed);
+    sim::ScenarioOptions office = sim::testing::Drive(sim::LayoutKind::kOffice, seed);
+    office.layout.office.rooms_per_side = 20;
+    office.layout.office.persons = 0;
+    sim::LaserOptions& laser = office.robots.front().laser;
+    laser.beams = 181;
+    laser.field_of_view_rad = std::numbers::pi;
+    laser.useful_range_m = 8.0;
+    laser.mount_heading_rad = std::numbers::pi;
+    const std::vector<FoundPose> poses = Corrected(office);
+    ate_m += AteRmse_m(poses) / kDrives;
+    nees += MeanNees(poses) / kDrives;
+  }
+  EXPECT_LT(ate_m, 0.1);
+  EXPECT_LT(nees, 70.0);
+}
+
 // In a corridor whoever walks there is all that tells of the way along it, if the laser sees no
 // farther.
 TEST(CorrectedDrive, IsTakenAlongByNobodyWhoWalksInACorridor) {

@@ -69,9 +69,11 @@ struct SolvedGraph {
 };
 
 // A submap is what a robot saw from one place and ends close by: a scan's points beyond its ends
-// would turn a match, and let it be more certain than it is.
-MapperOptions MatchingOneToOne(MapperOptions options) {
+// would turn a match, and let it be more certain than it is, and the mean of all that lies around
+// an end lies aside of it.
+MapperOptions MatchingSubmaps(MapperOptions options) {
   options.locator.matcher.selection = PairSelection::kOneToOne;
+  options.locator.matcher.comparison = PairComparison::kNear;
   return options;
 }
 
@@ -92,8 +94,7 @@ std::string_view Name(LoopVerdict verdict) {
 }
 
 struct MapCorrector::State {
-  explicit State(const MapperOptions& mapper)
-      : options(MatchingOneToOne(mapper)), chains(options) {}
+  explicit State(const MapperOptions& mapper) : options(MatchingSubmaps(mapper)), chains(options) {}
 
   void Look();
   std::optional<SolvedGraph> Solve(std::vector<FoundLoop>& found);

@@ -26,8 +26,9 @@ double RobustWeight(double mahalanobis2, double outlier_sigmas) {
   return w * w;
 }
 
-// Whether no other reading of the scan is of the same surface nearby.
+// Whether no other reading of the scan is of the same surface nearby, and whether one is near.
 bool IsAlone(const ScanPoint& point) { return point.to_mean_robot_m.isZero(); }
+bool HasNear(const ScanPoint& point) { return !point.to_mean_near_robot_m.isZero(); }
 
 // Whether both show a line, by several points within one reach, and these cross: the end face of a
 // wall beside one that is seen for the first time.
@@ -203,27 +204,34 @@ void Pairing::AddLine(const Eigen::Matrix2d& R_map_cur,
   const double error_m = normal.dot(surface.mean_m - pair.p_map);
   Weigh(error_m * error_m / variance_m2, pair, equations);
   equations.AddLine(
-      pair.weight / variance_m2, normal, ErrorOfLike(R_map_cur, point, pair), pair.arm);
+      pair.weight / variance_m2, normal, normal.dot(ErrorOfLike(R_map_cur, point, pair)), pair.arm);
 }
 
-// How far a point is from a line, by what is alike: where a surface curves, as a trunk does, the
-// mean of its points lies behind them. Means are compared with means. A reading that is alone has
-// none, and is compared with the mean of half the reach, which lies a quarter as deep, but where
-// the scan, too, shows that the surface is straight.
-double Pairing::ErrorOfLike(const Eigen::Matrix2d& R_map_cur,
-                            const ScanPoint& point,
-                            Pair& pair) const {
+// How far a point is from a surface, by what is alike: means are compared with means, as wide.
+Eigen::Vector2d Pairing::ErrorOfLike(const Eigen::Matrix2d& R_map_cur,
+                                     const ScanPoint& point,
+                                     Pair& pair) const {
   const Surface& surface = pair.surface;
-  const Eigen::Vector2d& normal = surface.normal;
-  if (surface.is_sample) return normal.dot(surface.mean_m - pair.p_map);
-  const auto is_straight = [&] {  // Of few readings it is asked.
-    return std::abs(normal.dot(R_map_cur * point.normal_robot)) > kCosOfStraight;
-  };
-  if (IsAlone(point) && !is_straight()) {
+  if (surface.is_sample) return surface.mean_m - pair.p_map;
+  if (ComparesNear(surface, point, R_map_cur * point.normal_robot)) {
     if (!pair.mean_near_m) pair.mean_near_m = map_.MeanNear(*pair.nearest);
-    return normal.dot(*pair.mean_near_m - pair.p_map);
+    return *pair.mean_near_m - (pair.p_map + R_map_cur * point.to_mean_near_robot_m);
   }
-  return normal.dot(surface.mean_m - (pair.p_map + R_map_cur * point.to_mean_robot_m));
+  if (!surface.is_line) return surface.mean_m - pair.p_map;
+  return surface.mean_m - (pair.p_map + R_map_cur * point.to_mean_robot_m);
+}
+
+// Where a surface curves, bends or ends, as a trunk, a corner and a door frame do, the mean of its
+// points lies aside of them, and further in the map than in what a scan sees of it: by means within
+// half the reach less so. A reading that is alone is its own mean; of readings of a line that are
+// further apart than half the reach only the mean of all is of several.
+bool Pairing::ComparesNear(const Surface& surface,
+                           const ScanPoint& point,
+                           const Eigen::Vector2d& normal_map) const {
+  const bool is_near = options_.comparison == PairComparison::kNear;
+  if (!surface.is_line) return is_near;
+  if (!IsAlone(point) && !(is_near && HasNear(point))) return false;
+  return std::abs(surface.normal.dot(normal_map)) <= kCosOfStraight;
 }
 
 void Pairing::AddObject(const Eigen::Matrix2d& R_map_cur,
@@ -233,7 +241,7 @@ void Pairing::AddObject(const Eigen::Matrix2d& R_map_cur,
   const Eigen::Matrix2d information = PositionInformation(
       pair.surface, NoiseInMap(R_map_cur, point), Extent_m2(point) + pair.inflation_m2);
   // Visser et al. (2009), Eq. (1): epsilon = m - (R u + t).
-  const Eigen::Vector2d error = pair.surface.mean_m - pair.p_map;
+  const Eigen::Vector2d error = ErrorOfLike(R_map_cur, point, pair);
   Weigh(error.dot(information * error), pair, equations);
   equations.AddPoint(pair.weight * information, error, pair.arm);
 }

@@ -92,10 +92,10 @@ class Pairing {
     double inflation_m2 = 0.0;  // Of the pair's error, while annealing.
     SearchCursor cursor;
     std::optional<Neighbor> nearest;
+    std::optional<Eigen::Vector2d> mean_near_m;  // There, once it was asked for.
     std::optional<PointId> id;                   // The stored point it is paired with.
     double share = 1.0;                          // Of its point: none where another was selected.
     Surface surface;                             // The surface at that point.
-    std::optional<Eigen::Vector2d> mean_near_m;  // There, once it was asked for.
     double weight = 1.0;                         // Of the robust estimate.
     double news = 1.0;                           // Of the scan's point beside the one before.
   };
@@ -110,7 +110,12 @@ class Pairing {
                const ScanPoint& point,
                Pair& pair,
                NormalEquations& equations) const;
-  double ErrorOfLike(const Eigen::Matrix2d& R_map_cur, const ScanPoint& point, Pair& pair) const;
+  Eigen::Vector2d ErrorOfLike(const Eigen::Matrix2d& R_map_cur,
+                              const ScanPoint& point,
+                              Pair& pair) const;
+  bool ComparesNear(const Surface& surface,
+                    const ScanPoint& point,
+                    const Eigen::Vector2d& normal_map) const;
   void AddObject(const Eigen::Matrix2d& R_map_cur,
                  const ScanPoint& point,
                  Pair& pair,

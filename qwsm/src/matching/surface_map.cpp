@@ -42,6 +42,7 @@ SurfaceMap::SurfaceMap(const SurfaceMapOptions& options)
 SurfaceMap SurfaceMap::ForMatching(const SurfaceMapOptions& options) {
   SurfaceMap surfaces(options);
   surfaces.likelihood_.reset();
+  surfaces.near_points_.emplace();
   return surfaces;
 }
 
@@ -80,6 +81,12 @@ bool SurfaceMap::Insert(const MapPoint& point, ScanId scan) {
       .own_normal_x = static_cast<std::int16_t>(std::lround(kNormalScale * point.normal_map.x())),
       .own_normal_y = static_cast<std::int16_t>(std::lround(kNormalScale * point.normal_map.y())),
       .drift_code = LikelihoodPyramid::DriftCode(point.drift_m2)};
+  if (near_points_) {
+    if (near_points_->end() < quadtree_.id_end()) near_points_->Add({});
+    (*near_points_)[insertion->id] = {};
+  }
+  const double near_m = 0.5 * options_.neighborhood_radius_m;
+  const auto near_m2 = static_cast<float>(near_m * near_m);
   Neighborhood own = neighborhoods_[insertion->id];
   ForEachNeighbor({.id = insertion->id, .position_m = insertion->position_m},
                   options_.neighborhood_radius_m,
@@ -89,6 +96,9 @@ bool SurfaceMap::Insert(const MapPoint& point, ScanId scan) {
                         (other_m - insertion->position_m).cast<float>();
                     own.Add(offset_m);
                     neighborhoods_[other].Add(-offset_m);
+                    if (!near_points_ || offset_m.squaredNorm() > near_m2) return;
+                    (*near_points_)[insertion->id].Add(offset_m);
+                    (*near_points_)[other].Add(-offset_m);
                   });
   neighborhoods_[insertion->id] = own;
   if (likelihood_) likelihood_->Insert(point.p_map_m, point.drift_m2);
@@ -105,7 +115,7 @@ LikelihoodPyramid SurfaceMap::MakeLikelihood() const {
 
 std::size_t SurfaceMap::bytes() const {
   return quadtree_.Statistics().bytes + (likelihood_ ? likelihood_->bytes() : 0) +
-         neighborhoods_.bytes();
+         neighborhoods_.bytes() + (near_points_ ? near_points_->bytes() : 0);
 }
 
 // A scan puts about so many points into a neighbourhood as its beams are spaced.
@@ -155,6 +165,10 @@ Surface SurfaceMap::SurfaceAt(const Neighbor& stored) const {
 }
 
 Eigen::Vector2d SurfaceMap::MeanNear(const Neighbor& stored) const {
+  if (near_points_) {
+    const NearPoints& near = (*near_points_)[stored.id];
+    return stored.position_m + (near.sum_m / near.count).cast<double>();
+  }
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   double count = 0.0;
   ForEachNeighbor(

@@ -39,20 +39,28 @@ struct SurfaceLimits {
 
 double Squared(double value) { return value * value; }
 
-// Where points of one surface lie about one of them.
-struct PointsAround {
+// The mean of points of one surface, as seen from one of them.
+struct MeanAround {
   int count = 1;  // The one itself.
   Eigen::Vector2d sum_m = Eigen::Vector2d::Zero();
-  Eigen::Vector2d squares_m2 = Eigen::Vector2d::Zero();  // xx, yy
-  double xy_m2 = 0.0;
 
   void Add(const Eigen::Vector2d& offset_m) {
     ++count;
     sum_m += offset_m;
+  }
+  Eigen::Vector2d mean_m() const { return sum_m / count; }
+};
+
+// Where they lie about it, too.
+struct PointsAround : MeanAround {
+  Eigen::Vector2d squares_m2 = Eigen::Vector2d::Zero();  // xx, yy
+  double xy_m2 = 0.0;
+
+  void Add(const Eigen::Vector2d& offset_m) {
+    MeanAround::Add(offset_m);
     squares_m2 += offset_m.cwiseProduct(offset_m);
     xy_m2 += offset_m.x() * offset_m.y();
   }
-  Eigen::Vector2d mean_m() const { return sum_m / count; }
   PrincipalAxes axes() const {
     const double scale = 1.0 / count;
     const Eigen::Vector2d mean = scale * sum_m;
@@ -76,7 +84,7 @@ struct PointRow {
 };
 
 // What lies about a point of a scan: its surface, of which the normal is wanted, and what of it
-// lies close together, of which the mean is. For a reading half on an edge and half on what is
+// lies close together, of which the means are. For a reading half on an edge and half on what is
 // behind it must not draw its neighbours' means along.
 class SurfaceAround {
  public:
@@ -89,6 +97,10 @@ class SurfaceAround {
     const SurfaceLimits close_limits{
         .reach_m2 = Squared(kSurfaceReach_m),
         .gap_m2 = Squared(std::max(kGapOfMean_m, kGapOfMeanSpacings * arc_m))};
+    const SurfaceLimits near_limits{.reach_m2 = Squared(0.5 * kSurfaceReach_m),
+                                    .gap_m2 = close_limits.gap_m2};
+    Follow<-1>(center_ - 1, near_limits, near_);
+    Follow<1>(center_ + 1, near_limits, near_);
     const std::ptrdiff_t close_below = Follow<-1>(center_ - 1, close_limits, surface_);
     close_ = surface_;
     const std::ptrdiff_t below = Follow<-1>(close_below, limits, surface_);
@@ -102,13 +114,14 @@ class SurfaceAround {
   }
 
   const PointsAround& surface() const { return surface_; }
-  const PointsAround& close() const { return close_; }
+  const MeanAround& close() const { return close_; }
+  const MeanAround& near() const { return near_; }
 
  private:
   // Adds points on the way outwards as long as the surface goes on. @return the one after the last
-  template <int kStep>
-  std::ptrdiff_t Follow(std::ptrdiff_t from, const SurfaceLimits& limits, PointsAround& to) const {
-    PointsAround around = to;  // In registers.
+  template <int kStep, class Around>
+  std::ptrdiff_t Follow(std::ptrdiff_t from, const SurfaceLimits& limits, Around& to) const {
+    Around around = to;  // In registers.
     std::ptrdiff_t i = from;
     for (; i >= 0 && i < std::ssize(row_.p_m); i += kStep) {
       const Eigen::Vector2d offset = OffsetOf(i);
@@ -127,7 +140,8 @@ class SurfaceAround {
   const PointRow& row_;
   const std::ptrdiff_t center_;
   PointsAround surface_;
-  PointsAround close_;
+  MeanAround close_;
+  MeanAround near_;  // Within half the reach.
 };
 
 Eigen::Vector2d NormalOf(const PointsAround& neighbors) {
@@ -203,6 +217,7 @@ std::vector<ScanPoint> HitsOf(const LaserScan& scan) {
                       .beam_robot = beam_robot,
                       .normal_robot = Eigen::Vector2d::Zero(),
                       .to_mean_robot_m = Eigen::Vector2d::Zero(),
+                      .to_mean_near_robot_m = Eigen::Vector2d::Zero(),
                       .range_m = range_m,
                       .arc_m = range_m * std::abs(step_rad),
                       .spacing_m = 0.0,
@@ -221,6 +236,7 @@ std::vector<ScanPoint> ToPoints(const LaserScan& scan) {
         around.surface().count >= 3 ? NormalOf(around.surface()) : NormalOfSparse(points, i),
         points[i].beam_robot);
     points[i].to_mean_robot_m = around.close().mean_m();
+    points[i].to_mean_near_robot_m = around.near().mean_m();
   }
   return points;
 }
@@ -231,6 +247,7 @@ ScanPoint operator*(const RigidTransform2& T_other_robot, const ScanPoint& point
   seen.beam_robot = T_other_robot.R_a_b * point.beam_robot;
   seen.normal_robot = T_other_robot.R_a_b * point.normal_robot;
   seen.to_mean_robot_m = T_other_robot.R_a_b * point.to_mean_robot_m;
+  seen.to_mean_near_robot_m = T_other_robot.R_a_b * point.to_mean_near_robot_m;
   return seen;
 }
 

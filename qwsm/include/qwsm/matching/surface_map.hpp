@@ -88,7 +88,7 @@ class SurfaceMap {
  public:
   explicit SurfaceMap(const SurfaceMapOptions& options = {});
   /// Surfaces that are matched with and hardly ever searched: they keep no likelihood, which takes
-  /// as long to insert into as all the rest.
+  /// as long to insert into as all the rest, but the means that MeanNear() tells.
   static SurfaceMap ForMatching(const SurfaceMapOptions& options);
 
   /// Stores a point. Complexity: logarithmic, plus linear in the points of the neighbourhood.
@@ -108,6 +108,7 @@ class SurfaceMap {
   Surface SurfaceAt(const Neighbor& stored) const;
   /// Returns the mean of the points of that surface within half the neighbourhood's radius, in the
   /// map frame: where the surface curves, it lies a quarter as far behind it as the mean of all.
+  /// Complexity: a search of the points, but of surfaces for matching.
   Eigen::Vector2d MeanNear(const Neighbor& stored) const;
   /// Has the memory fetched that SurfaceAt() and the calls below need.
   void Prefetch(PointId id) const { __builtin_prefetch(&neighborhoods_[id]); }
@@ -155,6 +156,16 @@ class SurfaceMap {
 
   static_assert(sizeof(Neighborhood) == 32);
 
+  // Where the points within half the radius lie, and the point itself.
+  struct NearPoints {
+    Eigen::Vector2f sum_m = Eigen::Vector2f::Zero();
+    float count = 1.0F;
+    void Add(const Eigen::Vector2f& offset_m) {
+      sum_m += offset_m;
+      count += 1.0F;
+    }
+  };
+
   // Calls visit(PointId, position_m) for the points of that surface within a radius, and itself.
   template <class Visit>
   void ForEachNeighbor(const Neighbor& stored, double radius_m, Visit visit) const;
@@ -163,7 +174,8 @@ class SurfaceMap {
   SurfaceMapOptions options_;
   PointQuadtree quadtree_;
   std::optional<LikelihoodPyramid> likelihood_;
-  PagedPool<Neighborhood, 8> neighborhoods_;  // By PointId.
+  PagedPool<Neighborhood, 8> neighborhoods_;             // By PointId.
+  std::optional<PagedPool<NearPoints, 8>> near_points_;  // By PointId, of surfaces for matching.
 };
 
 }  // namespace qwsm

@@ -28,10 +28,18 @@ enum class PairSelection {
   kOneToOne,
 };
 
+/// Says how wide what lies around both points of a pair is looked at, where it is no straight line.
+enum class PairComparison {
+  kWide,  ///< The mean of all that is stored around, with that of the scan where it is of a line.
+  /// Means within half the reach: where a surface curves, bends or ends they lie less far aside.
+  kNear,
+};
+
 struct WeightedScanMatcherOptions {
   RangeNoise noise;
   PairWeighting weighting = PairWeighting::kModelled;
   PairSelection selection = PairSelection::kEveryPoint;
+  PairComparison comparison = PairComparison::kWide;
   int max_iterations = 30;
   double translation_tolerance_m = 0.002;
   double rotation_tolerance_rad = 0.0007;

@@ -23,6 +23,8 @@ struct ScanPoint {
   Eigen::Vector2d normal_robot = Eigen::Vector2d::Zero();
   /// Vector from this point to the mean of the points of its surface within kSurfaceReach_m.
   Eigen::Vector2d to_mean_robot_m = Eigen::Vector2d::Zero();
+  /// The same within half of that reach.
+  Eigen::Vector2d to_mean_near_robot_m = Eigen::Vector2d::Zero();
   double range_m = 0.0;
   double arc_m = 0.0;  ///< Distance between this beam and the next one at this range.
   /// Distance to the next sample of the same surface; for a small object as `arc_m`.
