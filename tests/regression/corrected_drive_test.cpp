@@ -49,6 +49,11 @@ double LastError_m(std::span<const FoundPose> poses) {
   return (last.map_robot.T_a_b.translation_m() - last.T_map_true.translation_m()).norm();
 }
 
+void LookOneWay(sim::LaserOptions& laser) {
+  laser.beams = 181;
+  laser.field_of_view_rad = std::numbers::pi;
+}
+
 // A campus by a laser that sees hardly more than one side of a street.
 sim::ScenarioOptions CampusSeenTo(double range_m, int seed) {
   sim::ScenarioOptions campus = sim::testing::Drive(sim::LayoutKind::kCampus, seed);
@@ -158,9 +163,7 @@ TEST(CorrectedDrive, IsNotLostWhereItSeesNextToNothing) {
   for (const int seed : {3, 7}) {
     SCOPED_TRACE(seed);
     sim::ScenarioOptions campus = CampusSeenTo(12.0, seed);
-    sim::LaserOptions& laser = campus.robots.front().laser;
-    laser.beams = 181;
-    laser.field_of_view_rad = std::numbers::pi;
+    LookOneWay(campus.robots.front().laser);
     EXPECT_LT(AteRmse_m(Corrected(campus)), 0.3);
   }
 }
@@ -188,9 +191,7 @@ TEST(CorrectedDrive, TurnsByAsMuchAsItsWheelsTellAfterALongStreet) {
                             .block_length_m = 500.0,
                             .block_width_m = 200.0,
                             .street_width_m = 8.0};
-    sim::LaserOptions& laser = street.robots.front().laser;
-    laser.beams = 181;
-    laser.field_of_view_rad = std::numbers::pi;
+    LookOneWay(street.robots.front().laser);
     const std::vector<FoundPose> poses = Corrected(street);
     const double of_drive_m = AteRmse_m(poses);
     ate_m += of_drive_m / kDrives;
@@ -212,8 +213,7 @@ TEST(CorrectedDrive, IsGoodToADecimetreByALaserThatLooksBack) {
     office.layout.office.rooms_per_side = 20;
     office.layout.office.persons = 0;
     sim::LaserOptions& laser = office.robots.front().laser;
-    laser.beams = 181;
-    laser.field_of_view_rad = std::numbers::pi;
+    LookOneWay(laser);
     laser.useful_range_m = 8.0;
     laser.mount_heading_rad = std::numbers::pi;
     const std::vector<FoundPose> poses = Corrected(office);
