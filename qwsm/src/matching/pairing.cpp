@@ -213,7 +213,7 @@ Eigen::Vector2d Pairing::ErrorOfLike(const Eigen::Matrix2d& R_map_cur,
                                      Pair& pair) const {
   const Surface& surface = pair.surface;
   if (surface.is_sample) return surface.mean_m - pair.p_map;
-  if (ComparesNear(surface, point, R_map_cur * point.normal_robot)) {
+  if (ComparesNear(R_map_cur, point, surface)) {
     if (!pair.mean_near_m) pair.mean_near_m = map_.MeanNear(*pair.nearest);
     return *pair.mean_near_m - (pair.p_map + R_map_cur * point.to_mean_near_robot_m);
   }
@@ -225,13 +225,13 @@ Eigen::Vector2d Pairing::ErrorOfLike(const Eigen::Matrix2d& R_map_cur,
 // points lies aside of them, and further in the map than in what a scan sees of it: by means within
 // half the reach less so. A reading that is alone is its own mean; of readings of a line that are
 // further apart than half the reach only the mean of all is of several.
-bool Pairing::ComparesNear(const Surface& surface,
+bool Pairing::ComparesNear(const Eigen::Matrix2d& R_map_cur,
                            const ScanPoint& point,
-                           const Eigen::Vector2d& normal_map) const {
+                           const Surface& surface) const {
   const bool is_near = options_.comparison == PairComparison::kNear;
   if (!surface.is_line) return is_near;
   if (!IsAlone(point) && !(is_near && HasNear(point))) return false;
-  return std::abs(surface.normal.dot(normal_map)) <= kCosOfStraight;
+  return std::abs(surface.normal.dot(R_map_cur * point.normal_robot)) <= kCosOfStraight;
 }
 
 void Pairing::AddObject(const Eigen::Matrix2d& R_map_cur,

@@ -113,9 +113,9 @@ class Pairing {
   Eigen::Vector2d ErrorOfLike(const Eigen::Matrix2d& R_map_cur,
                               const ScanPoint& point,
                               Pair& pair) const;
-  bool ComparesNear(const Surface& surface,
+  bool ComparesNear(const Eigen::Matrix2d& R_map_cur,
                     const ScanPoint& point,
-                    const Eigen::Vector2d& normal_map) const;
+                    const Surface& surface) const;
   void AddObject(const Eigen::Matrix2d& R_map_cur,
                  const ScanPoint& point,
                  Pair& pair,

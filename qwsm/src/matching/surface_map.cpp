@@ -34,6 +34,16 @@ double SamplingOfArea(double minor_m2, double major_m2, double count) {
   return (minor_m2 + major_m2) * (1.0 / count);
 }
 
+// A new id is the next one, or that of a point that is gone.
+template <class T, class Pool>
+void Put(const T& element, PointId id, Pool& pool) {
+  if (pool.end() == id) {
+    pool.Add(element);
+  } else {
+    pool[id] = element;
+  }
+}
+
 }  // namespace
 
 SurfaceMap::SurfaceMap(const SurfaceMapOptions& options)
@@ -75,19 +85,15 @@ bool SurfaceMap::Insert(const MapPoint& point, ScanId scan) {
   const auto insertion = quadtree_.Insert(point.p_map_m, scan);
   if (!insertion) return false;
   if (insertion->merged) return true;
-  if (neighborhoods_.end() < quadtree_.id_end()) neighborhoods_.Add({});
-  neighborhoods_[insertion->id] = {
+  Neighborhood own{
       .spacing_m = static_cast<float>(point.spacing_m),
       .own_normal_x = static_cast<std::int16_t>(std::lround(kNormalScale * point.normal_map.x())),
       .own_normal_y = static_cast<std::int16_t>(std::lround(kNormalScale * point.normal_map.y())),
       .drift_code = LikelihoodPyramid::DriftCode(point.drift_m2)};
-  if (near_points_) {
-    if (near_points_->end() < quadtree_.id_end()) near_points_->Add({});
-    (*near_points_)[insertion->id] = {};
-  }
+  Put(own, insertion->id, neighborhoods_);
+  NearPoints own_near;
   const double near_m = 0.5 * options_.neighborhood_radius_m;
   const auto near_m2 = static_cast<float>(near_m * near_m);
-  Neighborhood own = neighborhoods_[insertion->id];
   ForEachNeighbor({.id = insertion->id, .position_m = insertion->position_m},
                   options_.neighborhood_radius_m,
                   [&](PointId other, const Eigen::Vector2d& other_m) {
@@ -97,10 +103,11 @@ bool SurfaceMap::Insert(const MapPoint& point, ScanId scan) {
                     own.Add(offset_m);
                     neighborhoods_[other].Add(-offset_m);
                     if (!near_points_ || offset_m.squaredNorm() > near_m2) return;
-                    (*near_points_)[insertion->id].Add(offset_m);
+                    own_near.Add(offset_m);
                     (*near_points_)[other].Add(-offset_m);
                   });
   neighborhoods_[insertion->id] = own;
+  if (near_points_) Put(own_near, insertion->id, *near_points_);
   if (likelihood_) likelihood_->Insert(point.p_map_m, point.drift_m2);
   return true;
 }

@@ -99,18 +99,20 @@ class SurfaceAround {
         .gap_m2 = Squared(std::max(kGapOfMean_m, kGapOfMeanSpacings * arc_m))};
     const SurfaceLimits near_limits{.reach_m2 = Squared(0.5 * kSurfaceReach_m),
                                     .gap_m2 = close_limits.gap_m2};
-    Follow<-1>(center_ - 1, near_limits, near_);
-    Follow<1>(center_ + 1, near_limits, near_);
-    const std::ptrdiff_t close_below = Follow<-1>(center_ - 1, close_limits, surface_);
+    const std::ptrdiff_t near_below = Follow<-1>(center_ - 1, near_limits);
+    near_ = surface_;
+    const std::ptrdiff_t close_below = Follow<-1>(near_below, close_limits);
     close_ = surface_;
-    const std::ptrdiff_t below = Follow<-1>(close_below, limits, surface_);
-    const std::ptrdiff_t close_above = Follow<1>(center_ + 1, close_limits, surface_);
+    const std::ptrdiff_t below = Follow<-1>(close_below, limits);
+    const std::ptrdiff_t near_above = Follow<1>(center_ + 1, near_limits);
+    AddAbove(near_above, near_);
+    const std::ptrdiff_t close_above = Follow<1>(near_above, close_limits);
     if (below == close_below) {
       close_ = surface_;
     } else {
-      for (std::ptrdiff_t i = center_ + 1; i < close_above; ++i) close_.Add(OffsetOf(i));
+      AddAbove(close_above, close_);
     }
-    Follow<1>(close_above, limits, surface_);
+    Follow<1>(close_above, limits);
   }
 
   const PointsAround& surface() const { return surface_; }
@@ -119,9 +121,9 @@ class SurfaceAround {
 
  private:
   // Adds points on the way outwards as long as the surface goes on. @return the one after the last
-  template <int kStep, class Around>
-  std::ptrdiff_t Follow(std::ptrdiff_t from, const SurfaceLimits& limits, Around& to) const {
-    Around around = to;  // In registers.
+  template <int kStep>
+  std::ptrdiff_t Follow(std::ptrdiff_t from, const SurfaceLimits& limits) {
+    PointsAround around = surface_;  // In registers.
     std::ptrdiff_t i = from;
     for (; i >= 0 && i < std::ssize(row_.p_m); i += kStep) {
       const Eigen::Vector2d offset = OffsetOf(i);
@@ -129,8 +131,12 @@ class SurfaceAround {
       if (!limits.Hold(offset.squaredNorm(), row_.gaps_m2[gap])) break;
       around.Add(offset);
     }
-    to = around;
+    surface_ = around;
     return i;
+  }
+
+  void AddAbove(std::ptrdiff_t end, MeanAround& to) const {
+    for (std::ptrdiff_t i = center_ + 1; i < end; ++i) to.Add(OffsetOf(i));
   }
 
   Eigen::Vector2d OffsetOf(std::ptrdiff_t i) const {
